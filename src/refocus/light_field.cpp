@@ -28,7 +28,7 @@ constexpr const char* pointNames[2] = {"defocus:lensU", "defocus:lensV"};
 constexpr const char* pixelNames[2] = {"defocus:sampleRight", "defocus:sampleUp"};
 constexpr const char* shiftNames[2] = {"defocus:pixelsRightPerDioptre", "defocus:pixelsUpPerDioptre"};
 
-// Lens fields with which refocusing changes more than b of C(w) = a + b·w, or the light that a lens point passes.
+// Lens fields for which refocusing would change more than b of C(w) = a + b·w, or the light that passes a lens point.
 constexpr std::array unsuited = {
     "focusBreathing",  "catEye",          "axialChromaticAberration", "astigmatism", "coma",       "foregroundLimit",
     "backgroundLimit", "focusRangeFront", "focusRangeBehind",         "focusTilt",   "focusSwing", "fieldCurvature",

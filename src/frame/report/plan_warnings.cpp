@@ -87,7 +87,8 @@ std::vector<std::string> immenseBlur(const FramePlan& plan) {
         roundNumber(plan.view.lens.blurScale * visibleShare * plan.view.width / largest))};
 }
 
-// Returns a warning if the blur bends so much that triangles are divided less than planned; otherwise empty.
+// Returns a warning if the circle of confusion is so curved that triangles are divided less than planned; otherwise
+// empty.
 std::vector<std::string> coarseDivisions(const FramePlan& plan) {
     const auto bounded = [](const ObjectPlan& object) {
         return object.refinement == Refinement::subdivide && object.maxParts < maxEdgeParts;
