@@ -129,7 +129,7 @@ ImagePartReader::ImagePartReader(const std::filesystem::path& path) : state_(std
     for (int part = 0; part == 0 || s.input->seek_subimage(part, 0); ++part) {
         const OIIO::ImageSpec& own = s.input->spec();
         if (own.channelnames != channelNames || own.deep || own.tile_width > 0)
-            fail("{}: image {} has not the channels R, G, B, A and Z; give a file from 'defocus render --lens-images'",
+            fail("{}: image {} lacks the channels R, G, B, A and Z; give a file from 'defocus render --lens-images'",
                  s.name, part);
         if (own.x != -s.size.margin || own.y != own.x || own.width != s.size.fullWidth() ||
             own.height != s.size.fullHeight())

@@ -68,8 +68,8 @@ std::optional<double> numberIn(const Metadata& metadata, const char* name) {
 double needed(const Metadata& metadata, const char* attribute, const std::string& name, double min, double max) {
     const std::optional<double> value = numberIn(metadata, attribute);
     if (!value)
-        fail("{}: no file of lens images, because '{}' is missing; give a file from 'defocus render --lens-images'",
-             name, attribute);
+        fail("{}: not a file of lens images: '{}' is missing; give a file from 'defocus render --lens-images'", name,
+             attribute);
     if (*value < min || *value > max)
         fail("{}: its value {} of '{}' is outside {} to {}; render the file again", name, *value, attribute, min, max);
     return *value;
