@@ -51,8 +51,8 @@ vec2 movement() {
 #endif
 
 #ifdef NUMBER_SLOT
-// Returns 1 in the lens samples that count the surface, and 0 in the others. The fraction of counting samples is alpha. Thresholds
-// are the van der Corput sequence, shifted for each object and pixel.
+// Returns 1 in the lens samples that count the surface, and 0 in the others. The fraction of counting samples is alpha.
+// Thresholds are the van der Corput sequence, shifted for each object and pixel.
 float counted(float alpha) {
     uint offset = pixelPattern(pixelOfImage(), uint(object.values.z) + 1u);
     return alpha > fractionOf(bitfieldReverse(uint(surface.sampleNumber)) + offset) ? 1.0 : 0.0;
@@ -63,7 +63,7 @@ void main() {
     readSurface();
     layerOut = surfaceLight();
 #ifdef TRANSMISSIVE
-    float alpha = 1.0;   // replaces what is behind, like its light
+    float alpha = 1.0;   // opaque: its data replace the data behind, as its light does
 #else
     float alpha = alphaBlended ? surfaceBase.a : 1.0;
 #endif

@@ -40,7 +40,8 @@ std::vector<float> blurred(const std::vector<float>& image, const PartSize& size
     const std::size_t rowFloats = width * depth;
     std::vector<float> result(image.size());
     parallelFor(static_cast<std::size_t>(size.height), [&](std::size_t row) {
-        std::vector<float> line(rowFloats + 2 * static_cast<std::size_t>(reach) * depth);  // with a margin on each side
+        // one row with a margin on each side
+        std::vector<float> line(rowFloats + 2 * static_cast<std::size_t>(reach) * depth);
         float* const inner = line.data() + static_cast<std::size_t>(reach) * depth;
         for (int i = -reach; i <= reach; ++i) {
             const int y = std::clamp(static_cast<int>(row) + i, 0, size.height - 1);

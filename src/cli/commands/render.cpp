@@ -210,8 +210,8 @@ std::string writePartial(const std::vector<std::filesystem::path>& outputs, cons
 }
 
 // Keeps a copy of the image of the samples so far, which is written if a signal arrives within a long draw. The copy is
-// renewed twice a second at most, because reading an image takes time; between short draws, the program stops by
-// itself.
+// renewed twice a second at most, because reading an image takes time; between short draws, the main thread handles the
+// signal itself.
 class PartialCopies {
 public:
     PartialCopies(FrameOutput& output, SceneDriver& driver, const std::vector<std::filesystem::path>& outputs)

@@ -65,7 +65,7 @@ private:
     std::map<std::string, Attachment> attachments_;  // key: name of the slot in shaders/accumulation/layers.frag
     std::map<Layer, Table> tables_;
     Target target_;
-    Target sums_;  // without a colour that is written
+    Target sums_;  // framebuffer for the sums; its colour is never written
     GlTexture unused_;
     std::map<std::string, Program> programs_;
     Fullscreen fullscreen_;

@@ -87,7 +87,8 @@ std::unique_ptr<SmallWorld> movingSpheres(bool doubleSided) {
     return small;
 }
 
-// The back-face test over lens and time removes the backs of moving triangles before the search, which loses nothing.
+// Back faces of moving triangles are culled before the search, by the test over lens and time. The image does not
+// change.
 TEST_F(LensSpaceAlone, movingBacksAreCulled) {
     RenderStats front, both;
     const Image culled = lensSpaceImage("stochastic", *movingSpheres(false), 16, &front);
