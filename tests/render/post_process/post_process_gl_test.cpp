@@ -132,10 +132,10 @@ TEST_P(PostProcesses, whatIsInFocusStaysWhenOnlyTheBackgroundBlurs) {
 }
 
 // A bright object in focus hardly leaks into the blurred background beside it. A gather with equal weights over a disk
-// of radius R brings the share of the disk that lies beyond the edge into a column. Over the columns within R of the
+// of radius R adds to a column the fraction of the disk that lies beyond the edge. Over the columns within R of the
 // edge, this averages 2/(3π) of the bright radiance. Here, at most a quarter of it arrives. Scheuermann's pre-blurred
-// copy mixes object and background before the weights count, so three quarters are tolerated; without the weights,
-// copy and taps together bring more than the gather.
+// copy mixes object and background before the weights count, so three quarters are tolerated. Without the weights, copy
+// and taps together would leak more than the gather.
 TEST_P(PostProcesses, aSharpObjectDoesNotLeakIntoTheBlurredBackground) {
     constexpr float bright = 4;
     const auto small = boards(
