@@ -172,11 +172,13 @@ def scheuermann():
          f"the diameter of a point's disk differs from the lens equation by up to {worst:.0f} px; within half a pixel in {right} of {cases} cases"],
         ["A small pre-blurred copy hides the gaps between the taps",
          "[preblur.frag](../shaders/scheuermann/preblur.frag). The printed code reads the tap of the copy from the full-size image, which we "
-         "take for a slip", "`PostProcesses.aPointOfLightBecomesADiskOfTheCircleOfConfusion` (with `coc=thin-lens`: widening by the copy, in closed form)",
-         "a quarter of the width and height", "the same"],
+         "take for a slip", "`ScheuermannImage.asPublishedReadsTheSmallImageAtItsOwnRadius` (in closed form)",
+         "a quarter of the width and height; radius 0.4 of the sharp image's", "the same"],
         ["Sharp foreground doesn't leak into the blurred background", "[gather.frag](../shaders/scheuermann/gather.frag)", LEAK, "–", "–"],
         ["Blended surfaces write their depth in a second pass", "[pinhole_pass.h](../src/render/post_process/pinhole_pass.h)",
          "`PostProcesses.whatLiesBehindABlendedSurfaceIsBlurredAsThatSurface`", "–", "–"],
+        ["A multisampled back buffer smooths edges", "`multisampling=4`: colour and blurriness are the means of four samples; the number is ours",
+         "`ScheuermannImage.multisamplingSmoothsEdgesBeforeTheBlur`", "–", "–"],
         ["Bytes hold colour and blurriness", "`bits=8`", "`ScheuermannImage.inBytesRoundsEncodedColours`", "8 bits",
          "8 bits as published, half floats by default"],
     ]
@@ -201,6 +203,8 @@ def garcia():
     kernels = kernel_errors()
     (ours1, theirs1), (ours2, theirs2) = kernels[1], kernels[2]
     ten_bits = lines_with("llvmpipe-post-process", "circular:near-components=1,storage=r10g10b10a2")[0][0]
+    full_gather = lines_with("llvmpipe-post-process", "circular:near-components=1,kernel=published,convolution=direct")[0][-1]
+    slide = [numbers(line)[-1] for line in lines_of("llvmpipe-post-process") if "max-coc=published" in line]
     one_pass = {(size, radius): share for size, _, radius, _, _, share in
                 (numbers(line) for line in lines_of("llvmpipe-post-process") if line.endswith(" %"))}
     fish, chess = (flips(scene, "circular (published)", "circular, standard", "circular (best)") for scene in ("fish school", "chess.glb"))
@@ -224,10 +228,15 @@ def garcia():
         ["Time grows with the radius, not with its square", "[complex_blur.h](../src/render/circular/complex_blur.h)",
          "`defocus_post_process_bench`", "–",
          f"exponent {separable:.2f}, and {direct:.2f} for the gather over the square; {times[64][1] / times[64][0]:.0f} times as fast at 64 px"],
+        ["Performance: half size with one component, quarter size with two, and a brute-force baseline",
+         "the two forms, and a gather over the square at the same sizes and at full size",
+         "`defocus_post_process_bench` ([the run](../bench/results/llvmpipe-post-process.txt))", "times of game consoles",
+         f"half {slide[0]:.0f} ms, quarter {slide[1]:.0f} ms; gathers {slide[2]:.0f} and {slide[3]:.0f} ms, at full size {full_gather:.0f} ms"],
         ["Sums of weights G are stored as (G − O) / S, with S = Σ(G − O), which lie in [0, 1]", "`bracketOf` in [complex_blur.h](../src/render/circular/complex_blur.h)",
          "`Brackets.ofEightTapsAreGarcias`, `Brackets.ofEightTapsStoreAWhiteFieldAsOne`, `ComplexBlurs.publishedBracketsLoseLessThanRanges`",
          "offset −0.0387, scale 0.943 (real part, first of two components)",
-         f"−0.0387 and 0.943; with ten bits, a picture is {ten_bits:.1f} dB from one with 32-bit floats"],
+         f"−0.0387 and 0.943; with ten bits from the sharp image to the result (`PostProcessesAlone.tenBitsHoldTheWholeImage`), a "
+         f"picture is {ten_bits:.1f} dB from one with 32-bit floats"],
         ["Eight taps on each side, quarter size, one near and two far components", "preset", "`bench convergence`", "–",
          f"FLIP {fish[0]} as published, {fish[1]} by default, {fish[2]} at its best ([fish](../bench/results/llvmpipe-circular.txt)); "
          f"{chess[0]}, {chess[1]}, {chess[2]} (chess)"],

@@ -110,6 +110,7 @@ class Keywords(TypedDict, total=False):
     taps: Optional[int]
     max_coc: Optional[Literal["published", "unlimited"]]
     bits: Optional[Literal["16", "8"]]
+    multisampling: Optional[Literal["1", "4"]]
     near_blur_depth: Optional[float]
     focal_plane_depth: Optional[float]
     far_blur_depth: Optional[float]
