@@ -117,6 +117,9 @@ def munkberg():
         ["C is given at both ends of the shutter time, and linear between them: C(t) = (1 − t)·c₀ + t·c₁",
          "glTF attributes `_COC`, `_COC_OFFSET`, `_COC_0` and `_COC_1`, `_COC_SCALE`, `--node-blur` ([lens](lens.md#controls-of-the-blur))",
          "`VertexBlurs.*`, `CocControls.scaleOfAnObjectIsItsOwn`", "pictures", "pictures"],
+        ["Example of a radial blur: C = (a + b·w)·(1 + x² + y²) in clip space", "`_COC_SCALE` as printed; `--radial-blur-gain` is our form, "
+         "which depends on the position in the image only", "`VertexBlurs.drawTheRadialExampleAsPrinted`", "–",
+         "[pictures](../bench/results/lens/README.md#the-radial-example-of-the-text)"],
         ["A limited foreground saves work (Figures 4 and 7)", "`defocus_foreground_bench --stochastic`",
          "[the run](../bench/results/lens/figure-7.md)", "4 to 9 times; 3 times with motion",
          f"thicket: {thicket[2]} times as fast, {thicket[3]} times fewer tests; chess board with motion: {chess[2]} times as fast, {chess[3]} "
