@@ -1,4 +1,4 @@
-// Rounds the image of a lens sample to half floats; larger radiance is clamped.
+// Rounds an image to half floats; larger radiance is clamped.
 
 layout(binding = 0) uniform sampler2D image;
 

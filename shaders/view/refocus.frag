@@ -1,8 +1,8 @@
-// Mean of lens images that are moved by whole pixels (src/refocus/refocus.h).
+// Mean of images that are moved by whole pixels (src/refocus/refocus.h).
 
 layout(binding = 0) uniform sampler2DArray images;
 layout(location = 0) uniform int imageCount;
-// xy: texel of the image at pixel (0, 0) of the picture; z: layer.
+// xy: texel of the image at pixel (0, 0) of the mean; z: layer.
 layout(location = 1) uniform ivec3 moves[blockSamples];
 
 layout(location = 0) out vec4 mean;

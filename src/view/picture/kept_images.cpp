@@ -1,16 +1,14 @@
 #include "view/picture/kept_images.h"
 
-#include <epoxy/gl.h>
-
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <glm/gtc/type_ptr.hpp>
+#include <span>
 
 #include "core/error.h"
 #include "core/memory_limits.h"
 #include "core/stopwatch.h"
 #include "gl/device_memory.h"
+#include "gl/timer.h"
 #include "plan/sample_range.h"
 #include "refocus/kept_lens_images.h"
 
@@ -50,13 +48,9 @@ FocusRange keptRange(const View& view, const FramePlan& plan) {
     return range;
 }
 
-KeptImages::KeptImages(const World& world, RendererOptions options) : world_(&world), options_(std::move(options)) {
+KeptImages::KeptImages(const World& world, RendererOptions options)
+    : world_(&world), options_(std::move(options)), stack_(options_.shaderFolder) {
     options_.wave = 1;
-    const auto pass = [&](const char* fragment) {
-        return Program({{fullscreenShader, fragment}, {}, options_.shaderFolder});
-    };
-    keep_ = pass("view/kept_image.frag");
-    sum_ = pass("view/refocus.frag");
 }
 
 void KeptImages::begin(const View& view, const RenderSettings& settings, const FramePlan& plan, std::uint64_t bytes) {
@@ -79,7 +73,7 @@ void KeptImages::discard() {
     info_ = {};
     drawn_ = 0;
     obstacle_.clear();
-    images_ = {};
+    stack_.free();
     renderer_.reset();
 }
 
@@ -101,22 +95,13 @@ bool KeptImages::grow(double milliseconds) {
 }
 
 void KeptImages::drawImage() {
-    const PartSize& size = info_.size;
-    if (!images_)
-        images_ = GlTexture({.format = TextureFormat::rgba16f,
-                             .width = size.fullWidth(),
-                             .height = size.fullHeight(),
-                             .layers = static_cast<int>(planned())});
+    if (!stack_.allocated()) stack_.allocate(info_.size.fullWidth(), info_.size.fullHeight(), planned());
     if (!renderer_) renderer_ = methodNamed("accumulation").make(*world_, options_);
     renderer_->start(samplesOf(plan_, drawn_, 1));
     while (renderer_->advance()) {
     }
-    const GlTexture& image = *renderer_->imageTexture();
-    const Target layer = Target::ofLayer({&images_}, drawn_);
-    layer.bind();
-    image.attach(0);
-    fullscreen_.draw(keep_);
-    glFinish();
+    stack_.store(drawn_, *renderer_->imageTexture());
+    waitForGpu();
     ++drawn_;
 }
 
@@ -134,20 +119,10 @@ std::vector<ShiftedImage> KeptImages::imagesFor(const Lens& lens) const {
 void KeptImages::refocus(const Lens& lens, std::uint32_t count) {
     const std::vector<ShiftedImage> images = imagesFor(lens);
     assert(complete() && count > 0 && count <= images.size());
-    std::array<glm::ivec3, maxImages> moves;
-    for (std::size_t i = 0; i < count; ++i)
-        moves[i] = glm::ivec3(info_.size.margin - images[i].move, static_cast<int>(images[i].image));
-    if (!picture_ || picture_.info().width != info_.size.width || picture_.info().height != info_.size.height) {
-        picture_ =
-            GlTexture({.format = TextureFormat::rgba32f, .width = info_.size.width, .height = info_.size.height});
-        picture_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
-        pictureTarget_ = Target({&picture_});
-    }
-    pictureTarget_.bind();
-    images_.attach(0);
-    glProgramUniform1i(sum_.name(), 0, static_cast<GLint>(count));
-    glProgramUniform3iv(sum_.name(), 1, static_cast<GLsizei>(count), glm::value_ptr(moves.front()));
-    fullscreen_.draw(sum_);
+    std::vector<ImageStack::Part> parts;
+    for (const ShiftedImage& image : std::span(images).first(count))
+        parts.push_back({static_cast<std::uint32_t>(image.image), info_.size.margin - image.move});
+    stack_.drawMean(parts, info_.size.width, info_.size.height);
 }
 
 }  // namespace defocus::engine

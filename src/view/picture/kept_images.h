@@ -9,9 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "gl/fullscreen.h"
-#include "gl/target.h"
 #include "refocus/refocus.h"
+#include "render/lens_images/image_stack.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
@@ -23,7 +22,7 @@ FocusRange keptRange(const View& view, const FramePlan& plan);
 
 class KeptImages {
 public:
-    static constexpr std::uint32_t maxImages = 64;
+    static constexpr std::uint32_t maxImages = ImageStack::maxImages;
     static constexpr std::uint32_t minImages = 16;  // fewer images show separate copies of blurred surfaces
 
     // `world` must outlive this object. Needs a current GL context.
@@ -54,11 +53,10 @@ public:
     // serving the lens. Needs complete images. The lens may differ from that of begin() in these two values only.
     void refocus(const Lens& lens, std::uint32_t count);
     // Returns the latest picture of refocus(): linear, premultiplied RGBA, row 0 at the bottom.
-    [[nodiscard]] const GlTexture& picture() const { return picture_; }
+    [[nodiscard]] const GlTexture& picture() const { return stack_.mean(); }
 
     [[nodiscard]] const LightFieldInfo& info() const { return info_; }
-    [[nodiscard]] const GlTexture& images() const { return images_; }  // a layer for each image, with its margin
-    [[nodiscard]] std::size_t bytes() const { return images_.bytes(); }
+    [[nodiscard]] std::size_t bytes() const { return stack_.bytes(); }
 
 private:
     [[nodiscard]] std::vector<ShiftedImage> imagesFor(const Lens& lens) const;
@@ -71,10 +69,7 @@ private:
     FramePlan plan_;
     std::uint32_t drawn_ = 0;
     std::string obstacle_;
-    GlTexture images_, picture_;
-    Target pictureTarget_;
-    Program keep_, sum_;
-    Fullscreen fullscreen_;
+    ImageStack stack_;
 };
 
 }  // namespace defocus::engine

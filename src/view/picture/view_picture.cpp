@@ -220,7 +220,7 @@ bool ViewPicture::drawRefocused(const PictureRequest& request, double millisecon
     const std::uint32_t images = std::min(
         serving, static_cast<std::uint32_t>(std::clamp<double>(fitting, KeptImages::minImages, KeptImages::maxImages)));
     images_->refocus(lens, images);
-    glFinish();
+    waitForGpu();
     const double time = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     imageMilliseconds_ = time / images;
     RenderSettings settings = settingsOf(request.settings, request.sides[0]);
