@@ -73,7 +73,7 @@ TEST(OptionsOfAllCommands, haveACase) {
     for (const std::string& option : triedAlone) EXPECT_TRUE(own.contains(option)) << option;
 }
 
-// ---- options with a case: a line with the option and one without it -------------------------------------------------
+// ---- options with a case: a command line with the option, and one without it ----------------------------------------
 
 class OwnOption : public OptionTest {
 protected:
