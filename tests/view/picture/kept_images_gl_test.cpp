@@ -85,8 +85,8 @@ TEST_F(KeptImagesOfAView, givePicturesOfTheLibrary) {
         EXPECT_EQ(images.drawn(), 64u);
         if (!library) library.emplace(driver, view_, settings, images.info().range, [](double) {});
         for (const auto& [focus, fStop] : {std::pair(2.0, 0.95), std::pair(1.2, 0.95), std::pair(2.5, 1.4)}) {
-            const double difference = largestDifference(sharpSum(*library, {focus, fStop}),
-                                                        refocused(images, focus, fStop));
+            const double difference =
+                largestDifference(sharpSum(*library, {focus, fStop}), refocused(images, focus, fStop));
             EXPECT_LE(difference, std::ldexp(1, -10)) << focus << " m, f/" << fStop;  // a step of half floats near 1
         }
     }
