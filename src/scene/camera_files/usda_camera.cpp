@@ -45,7 +45,7 @@ bool hasArcs(const UsdPrim& prim) {
     return !prim.arcs.empty() || std::ranges::any_of(prim.children, hasArcs);
 }
 
-// Returns the advice for a layer whose content comes from other files; empty for other layers.
+// Returns advice for the error message of a layer whose content comes from other files; empty for other layers.
 std::string arcsAdvice(const UsdLayer& layer) {
     if (!layer.metadata.contains("subLayers") && std::ranges::none_of(layer.prims, hasArcs)) return "";
     return "; content of other layers, references and variants is not read, so write it to one file with: usdcat "
