@@ -69,7 +69,7 @@ private:
     RowRange wanted_;       // rows to draw: all rows of the frame, or the rows of the share
     int rowsKept_ = 0;
     int rowsDone_ = 0;                      // rows that this run has written to files
-    std::optional<ImageRowWriter> writer_;  // writer of the file of the share
+    std::optional<ImageRowWriter> writer_;  // writes the file of FrameFiles::share
 };
 
 }  // namespace defocus::engine
