@@ -31,7 +31,7 @@ public:
 
     [[nodiscard]] const std::optional<FramePop>& largest() const { return largest_; }
     [[nodiscard]] int compared() const { return compared_; }  // number of pairs of frames
-    // Number of the pairs that can't be compared, because their numbers of lens samples differ.
+    // Returns the number of pairs that can't be compared, because their numbers of lens samples differ.
     [[nodiscard]] int incomparable() const { return incomparable_; }
 
 private:
