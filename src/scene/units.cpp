@@ -20,7 +20,7 @@ namespace {
 struct Unit {
     std::string_view name;
     double metres;
-    double millimetres;  // an integer, so that most conversions between units are exact
+    double millimetres;  // length of the unit in mm; an integer, so that most conversions are exact
 };
 constexpr std::array<Unit, 3> units = {{{"m", 1, 1000}, {"cm", 1e-2, 10}, {"mm", 1e-3, 1}}};
 

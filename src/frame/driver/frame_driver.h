@@ -68,7 +68,7 @@ public:
     // options. Throws Error if the frame fits into memory neither untiled nor in tiles, if the method cannot draw the
     // requested part alone, and for settings that the method doesn't support.
     void start(FrameOrder order);
-    // Draws one wave of samples. Returns false once the frame is complete.
+    // Draws one wave, a batch of lens samples. Returns false once the frame is complete.
     bool advance();
 
     // Returns whether a frame was started. All members below require a started frame.
