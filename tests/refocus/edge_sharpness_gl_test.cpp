@@ -14,7 +14,7 @@ namespace {
 
 constexpr double slant = 7 * std::numbers::pi / 180;  // angle between the edge and the vertical
 constexpr int imageSide = 96;
-constexpr double away = 3;  // m
+constexpr double away = 3;  // distance from the camera to the square, m
 
 // Returns a white, unlit square whose left edge passes through the image's centre.
 defocus::Scene slantedEdge() {
