@@ -28,8 +28,8 @@ struct LensSettings {
     std::optional<double> sphericalAberration;       // [−1, 1]; > 0: bokeh has a brighter rim; < 0: brighter centre
     std::optional<double> catEye;                    // [0, 1]; fraction of the aperture radius hidden in the corners
     std::optional<double> axialChromaticAberration;  // dioptres; > 0: red focuses farther away than blue
-    std::optional<double> astigmatism;               // mm on the sensor; a focused point's image length at the edges
-    std::optional<double> coma;                      // mm on the sensor; comet tail at the side edges; > 0: outwards
+    std::optional<double> astigmatism;               // mm on the sensor; length of a focused point's image at the edges
+    std::optional<double> coma;                      // mm on the sensor; comet tail length at the edges; > 0: outwards
     std::filesystem::path apertureImage;             // replaces blades, obstruction, spherical aberration; empty: none
 
     // Artistic blur controls (Munkberg, Toth and Akenine-Möller 2012).

@@ -52,7 +52,7 @@ struct PlannedShadowMap {
 };
 
 struct LeftOutPart {
-    std::string what;  // e.g. "object Fish 3" or "texture path"
+    std::string what;  // name of the omitted part, e.g. "object Fish 3" or "texture path"
     std::string reason;
 };
 
@@ -82,7 +82,7 @@ struct Plan {
     LodMetric lodMetric = LodMetric::automatic;
     LodCoc lodCoc = LodCoc::smallest;
     LevelVertices levelVertices = LevelVertices::fitted;
-    double blurThreshold = 0;   // edge length relative to the blur diameter
+    double blurThreshold = 0;   // target edge length relative to the blur diameter
     double sizeThreshold = 0;   // px
     double lightThreshold = 0;  // px
     // Shadows.
@@ -93,7 +93,7 @@ struct Plan {
     // of confusion. 0 if the images cannot be blurred; lensCellReason then says why.
     double lensCellBlur = 0;
     std::string lensCellReason;
-    std::string accumulationReason;  // why method "auto" is accumulation; empty: it is multirate
+    std::string accumulationReason;  // why method "auto" uses accumulation; empty: it uses multirate
     std::vector<PlannedObject> objects;  // sorted from front to back
     std::vector<LeftOutPart> leftOut;
     // Numbers of triangles, summed over all samples. Triangles that face away or are outside the image are culled.

@@ -58,7 +58,7 @@ struct Request {
     ShutterPosition shutterPosition = ShutterPosition::centre;
     MotionSegments motionSegments = 1u;
     std::filesystem::path environment;  // "studio", "overcast", "sunset", or an equirectangular .hdr or .exr file
-    double environmentRotation = 0;     // counter-clockwise as seen from above
+    double environmentRotation = 0;     // about the vertical axis, counter-clockwise as seen from above
     Background background;
     bool ground = false;            // adds a neutral ground plane that receives shadows
     std::vector<std::string> hide;  // names or indices of nodes to hide, with their descendants
@@ -108,7 +108,8 @@ struct Request {
     std::map<std::string, std::string> methodSettings;  // name → value; missing: default
     LayerFormat layerFormat = LayerFormat::automatic;
 
-    // Data layers to add to EXR files. They need a method that sums lens samples; method "auto" then accumulates.
+    // Data layers to add to EXR files. They need a method that sums lens samples; with layers, method "auto" uses
+    // accumulation.
     std::vector<Layer> layers;
     ExrNames exrNames = ExrNames::nuke;
 
