@@ -2,8 +2,9 @@
 // The benchmark of Jeong, Kim and Lee 2011 (their Figure 2). Measures how much faster a frame is with levels of detail
 // than at full detail, for a fixed camera. Varies the number of lens samples, the f-number and the focus distance.
 //
-// Equal for the three modes: scene, camera, lens, lens samples, image size, layers per draw, process, renderer. Runs
-// alternate between all compared modes and methods, so a slowdown of the machine affects all of them.
+// Equal for full detail, nearest level and fractional level: scene, camera, lens, lens samples, image size, layers per
+// draw, process, renderer. Runs alternate between all compared modes and methods, so a slowdown of the machine affects
+// all of them.
 
 #include <functional>
 #include <optional>
