@@ -260,7 +260,7 @@ void leaveOutLens(FramePlan& plan, const World& world) {
     plan.largestBlur = largestBlur(plan, world);
     plan.usesLens = plan.settings.keepAll || plan.settings.refocus || plan.largestBlur >= minBlur;
     if (plan.usesLens) return;
-    const double aspect = plan.coc.aspect;  // a pinhole needs the aspect ratio, too
+    const double aspect = plan.coc.aspect;  // a pinhole also needs the aspect ratio
     plan.coc = {};
     plan.coc.aspect = aspect;
     plan.apertureDiameter = 0;

@@ -16,7 +16,7 @@ constexpr std::size_t channels = 5;  // RGBA and weight
 constexpr double cellBlur = 0.5;
 constexpr double minVariance = 0.01;  // px², subtracted from every variance; invisible within a pixel
 
-// Variance in px² of class k.
+// Returns the blur variance in px² of class k, a group of pixels with similar blur.
 double classVariance(std::size_t k) {
     return 0.5 * std::ldexp(1.0, 2 * static_cast<int>(k));
 }

@@ -16,7 +16,7 @@ namespace {
 constexpr int imagesPerBlock = 64;
 constexpr int stripRows = 4;  // rows that one thread sums at a time, so that the sums stay in its cache
 
-// Adds a value to a compensated sum, with the bits of shaders/include/compensated.glsl.
+// Adds a value to a compensated sum. The result is bit-identical to shaders/include/compensated.glsl.
 void addCompensated(float& sum, float& compensation, float value) {
     const float total = sum + value;
     const float taken = total - sum;

@@ -2,7 +2,7 @@
 // Weighted mean of images that are moved by whole pixels.
 //
 // Images are summed in blocks of 64 with Neumaier's compensation, as in render/accumulation/layer_sum.h. Images that
-// are not moved, with weight 1, thus give the bits of method accumulation.
+// are not moved, with weight 1, thus give a result that is bit-identical to method accumulation.
 
 #include <glm/vec2.hpp>
 #include <span>
