@@ -238,9 +238,6 @@ TEST_P(CircularNearField, lightsThatAreHardlyBlurredKeepOutOfWideBlurs) {
 INSTANTIATE_TEST_SUITE_P(Forms, CircularNearField, testing::Values("circular:near-field=coverage", "circular"),
                          [](const auto& instance) { return instance.index == 0 ? "coverage" : "premultiplied"; });
 
-// A bias by luminance does not brighten edges as much as a constant bias does. A bright, blurred board over black shows
-// its coverage. A constant bias doubles the coverage; a bias by luminance increases it in proportion to the board's
-// share of the disk.
 // With ten bits per channel, an image without blur is the pinhole image, clipped at 1 and rounded to 1023 steps.
 TEST_F(PostProcessesAlone, tenBitsHoldTheWholeImage) {
     const auto small = fiveSpheres();
@@ -256,6 +253,9 @@ TEST_F(PostProcessesAlone, tenBitsHoldTheWholeImage) {
     EXPECT_LT(error, 1.3 / std::sqrt(12.0));
 }
 
+// A bias by luminance does not brighten edges as much as a constant bias does. A bright, blurred board over black shows
+// its coverage. A constant bias doubles the coverage; a bias by luminance increases it in proportion to the board's
+// share of the disk.
 TEST_F(PostProcessesAlone, biasByLuminanceLeavesEdges) {
     const auto small = boards({{1, {-0.3, 0}, {0.3, 0.5}, {4, 4, 4, 1}}}, glm::vec3(0));
     small->view.lens.blurScale = 24 / (0.05 * (1.0 / 1 - 1.0 / 2) * 96 / 0.72);
