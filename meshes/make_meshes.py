@@ -136,7 +136,7 @@ def leaf(length, width):
 
 
 def thicket():
-    """Returns thicket.gltf: a checkered court behind leaves that nearly touch the lens, most of them beside the image."""
+    """Returns thicket.gltf: a checkered court behind leaves near the lens, most of them beside the image."""
     document = Document()
     stone = document.material("Stone", pbrMetallicRoughness={"metallicFactor": 0, "roughnessFactor": 0.7})
     pale, red, blue = linear(222, 214, 200), linear(176, 68, 44), linear(44, 92, 132)
@@ -304,7 +304,7 @@ def add_fin(surface, outline, thickness, color):
 
 
 def fish():
-    """Returns fish.glb: a fish of about 800 triangles, 0.3 m long: body, fins and eyes in one mesh with vertex colours."""
+    """Returns fish.glb: a fish of about 800 triangles, 0.3 m long, as one mesh with vertex colours."""
     document = Document()
     material = document.material("Fish", pbrMetallicRoughness={"metallicFactor": 0, "roughnessFactor": 0.4})
     surface = Surface()

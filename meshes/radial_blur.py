@@ -18,7 +18,7 @@ TANGENT = (0.36, 0.27)  # tangents of half the field of view, horizontally and v
 
 
 def radial_scale(x, y, w=DISTANCE):
-    """Returns 1 + x² + y² for the clip position (x / tan(θx/2), y / tan(θy/2), w) of the view-space point (x, y, -w)."""
+    """Returns 1 + x² + y² for the clip position (x / tan(θx/2), y / tan(θy/2), w) of the point (x, y, -w)."""
     return 1 + (x / TANGENT[0]) ** 2 + (y / TANGENT[1]) ** 2
 
 

@@ -47,7 +47,7 @@ def flank(a, turn):
 
 
 def add_sheet(surface, root, tip, rays, steps, color, thickness=0.0012, lift=None):
-    """Adds a fin with two sides, closed at its edges. root, tip: its border curves, as functions from [0, 1] to points."""
+    """Adds a fin with two sides, closed at its edges. root, tip: border curves, functions from [0, 1] to points."""
     first = len(surface.positions)
     places = {}
     for side in (1, -1):
@@ -100,7 +100,7 @@ def add_eye(surface, side):
 
 
 def fish(skin, fin):
-    """Returns a fish. skin(a, height): colour of the body, height −1 … 1. fin(v): colour of fins, 0 at the root, 1 at the edge."""
+    """Returns a fish. skin(a, height): colour of the body, height −1 … 1. fin(v): colour of fins, root 0, edge 1."""
     surface = Surface()
     around, along = 40, 84
     rings = [[flank(0, 0)]]
