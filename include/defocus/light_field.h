@@ -36,7 +36,7 @@ struct RefocusSettings {
 struct LightFieldInfo {
     int width = 0;                  // px
     int height = 0;                 // px
-    double focusDistance = 1;       // m, of the rendered images
+    double focusDistance = 1;       // m, focus distance of the rendered images
     double fStop = 1;               // f-number of the rendered aperture; the widest one that can be chosen
     double focalLength = 0;         // mm; 0: unknown
     double horizontalAperture = 0;  // mm, sensor width; 0: unknown

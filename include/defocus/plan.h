@@ -26,7 +26,7 @@ struct PlannedDraw {
 struct PlannedObject {
     std::string name;
     double nearestDepth = 0;   // m, min depth of the bounding box
-    double farthestDepth = 0;  // m
+    double farthestDepth = 0;  // m, max depth of the bounding box
     // Diameters of the circle of confusion in px: signed (> 0 behind the focus plane) at the nearest and farthest
     // depth, then min and max of the unsigned diameter over the bounding box. Infinite for a box that extends to the
     // camera.
@@ -74,7 +74,7 @@ struct Plan {
     std::uint32_t samples = 0;
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;
-    double cocTolerance = 0;          // px
+    double cocTolerance = 0;          // px; see Request::cocTolerance
     std::uint64_t moments = 0;        // number of instants at which the scene is posed; 0: nothing moves
     std::uint64_t movingObjects = 0;  // objects that move during the exposure
     // Settings for the levels of detail; thresholds that the Request leaves unset have their defaults.
@@ -83,8 +83,8 @@ struct Plan {
     LodCoc lodCoc = LodCoc::smallest;
     LevelVertices levelVertices = LevelVertices::fitted;
     double blurThreshold = 0;   // target edge length relative to the blur diameter
-    double sizeThreshold = 0;   // px
-    double lightThreshold = 0;  // px
+    double sizeThreshold = 0;   // px, min target edge length
+    double lightThreshold = 0;  // px; see LodMetric::measured
     // Shadows.
     std::vector<PlannedShadowMap> shadowMaps;  // empty: no shadows
     int shadowMapSize = 0;                     // px per side

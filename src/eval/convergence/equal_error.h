@@ -21,7 +21,7 @@ struct Competitor {
     struct Time {
         double rmse = 0;
         std::optional<double> milliseconds;  // time of a frame; none if no row reaches the error
-        bool atMost = false;                 // upper bound, because the fastest row already has a smaller error
+        bool atMost = false;                 // true: upper bound, because the fastest row already has a smaller error
     };
     std::vector<Time> times;  // in the order of the requested errors
 };

@@ -51,7 +51,7 @@ struct PoppingOptions {
     std::vector<std::uint32_t> sampleCounts = {8, 16, 32};
     int clip = 0;          // index of the scene's clip, for Movement::clip
     int pathFrames = 240;  // frames of a complete movement; determines its speed
-    int frames = 48;       // measured frames of each movement: those with the most level changes
+    int frames = 48;       // measured frames of each movement: the consecutive frames with most level changes
     RenderSettings plan;   // settings that the bench doesn't vary: seed, metric, keepAll …
     RendererOptions renderer;
 };

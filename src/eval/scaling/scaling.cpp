@@ -149,7 +149,7 @@ std::string measuredOrWhyNot(Subject& subject, const ScalingPoint& point, const 
             subject.point = point;
         }
         measurePoint(*subject.world, point, options, visitor);
-    } catch (const Error& error) {  // such as out of graphics memory
+    } catch (const Error& error) {  // for example, graphics memory is full
         reason = error.what();
     } catch (const std::bad_alloc&) {
         reason = "main memory is exhausted";

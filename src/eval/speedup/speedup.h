@@ -31,8 +31,8 @@ struct SpeedupForm {
 
 struct SpeedupOptions {
     std::vector<std::uint32_t> sampleCounts = {16, 32, 64, 128, 256, 512};  // measured with the view's own lens
-    std::vector<double> fStops;                                             // further f-numbers, at `sweepSamples`
-    std::vector<double> focusDistances;  // further focus distances, m, at `sweepSamples`
+    std::vector<double> fStops;                                             // f-numbers to measure with `sweepSamples`
+    std::vector<double> focusDistances;  // focus distances (m) to measure with `sweepSamples`
     std::uint32_t sweepSamples = 64;
     std::vector<MethodUse> methods;  // measured after accumulation, with the first form's settings
     int runs = 5;                    // runs of each frame, ≥ 1
