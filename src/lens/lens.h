@@ -22,7 +22,7 @@ struct Lens {
     double focusDistance = 2.5;      // m from the camera along the view axis, > 0 (infinity is allowed)
     double horizontalAperture = 36;  // mm, width of the sensor
     bool dofEnabled = true;          // false: a pinhole camera for any f-number
-    double blurScale = 1;            // factor on the blur, ≥ 0; 1 is physical
+    double blurScale = 1;            // factor on the blur, ≥ 0; 1 is physically correct
     bool focusBreathing = false;     // true: thin lens whose field of view narrows as the focus comes nearer
     double exposureTime = 0;         // s, see photographic_exposure.h; 0: the lens doesn't affect the exposure
     double iso = 100;                // sensitivity, > 0

@@ -181,7 +181,8 @@ double smallTriangles(const ObjectPlan& object, const World& world, const FrameP
     return count;
 }
 
-// Bounds the divisions of objects with a curved C, so that a lens sample has at most maxSmallTriangles small triangles.
+// Bounds the divisions of objects whose circle of confusion C is curved, so that a lens sample has at most
+// maxSmallTriangles small triangles.
 void boundDivisions(FramePlan& plan, const World& world) {
     const auto fits = [&](std::uint32_t parts) {
         double count = 0;

@@ -69,7 +69,7 @@ struct ObjectPlan {
     bool deformed = false;      // the skin or morph targets deform the mesh
     Bounds viewBox;             // bounding box in view space over the entire exposure
     double nearestDepth = 0;    // nearest depth of the bounding box in m; may be less than View::nearPlane
-    double farthestDepth = 0;   // m
+    double farthestDepth = 0;   // m, farthest depth of the bounding box
     CocRange coc;               // px, range over the bounding box; `smallest` covers all of RenderSettings::refocus
     CocDeviation cocDeviation;  // px, error bounds over the drawn levels
     double projectedEdge = 0;   // px, mean edge length of level 0 at the nearest depth
@@ -128,7 +128,7 @@ struct ShadowPlan {
 };
 
 struct LeftOut {
-    std::string what;  // "object Fish 3", "lens samples", "texture path", …
+    std::string what;  // name of the omitted part: "object Fish 3", "lens samples", "texture path", …
     std::string reason;
 };
 

@@ -94,7 +94,7 @@ void GapFilling::add(std::span<const DeepMovedImage> images) {
         const int y = static_cast<int>(row);
         for (const DeepMovedImage& moved : images) {
             const int column = size_.margin - moved.move.x;
-            const int line = y + size_.margin + moved.move.y;  // rows run downwards
+            const int line = y + size_.margin + moved.move.y;  // rows run downwards, moves upwards
             const std::uint16_t* const colours = moved.colour->at(column, line);
             const float* const depths = moved.depth->at(column, line);
             const std::size_t first = row * static_cast<std::size_t>(size_.width);

@@ -22,7 +22,7 @@ namespace defocus::engine {
 struct DeepMovedImage {
     const HalfImage* colour = nullptr;  // image with its margin
     const Image* depth = nullptr;       // depths with the same margin
-    glm::ivec2 move{0};                 // px, right and up
+    glm::ivec2 move{0};                 // px, to the right and up
     float weight = 1;                   // > 0
 };
 

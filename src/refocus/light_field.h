@@ -24,9 +24,9 @@ namespace defocus::engine {
 
 struct LightFieldInfo {
     PartSize size;                   // px; the margin has the pixels that enter the image when images move
-    double focusDistance = 1;        // m, s
+    double focusDistance = 1;        // m, s in the equation above
     double fStop = 1;                // f-number of the rendered aperture
-    double pixelsPerDioptre = 0;     // P
+    double pixelsPerDioptre = 0;     // P in the equation above
     FocusRange range;                // focus distances for which margin and levels of detail are sufficient
     bool disk = true;                // the rendered aperture is a uniform disk
     std::vector<glm::dvec2> points;  // lens point (u, v) of each image
@@ -58,7 +58,7 @@ class LensImages {
 public:
     virtual ~LensImages() = default;
     [[nodiscard]] virtual const LightFieldInfo& info() const = 0;
-    [[nodiscard]] virtual const std::string& name() const = 0;  // for messages
+    [[nodiscard]] virtual const std::string& name() const = 0;  // name of the images in messages
     // Returns the image of lens point i, with its margin: linear, premultiplied RGBA.
     [[nodiscard]] virtual std::shared_ptr<const HalfImage> colour(std::size_t i) = 0;
 };
@@ -85,7 +85,7 @@ private:
     std::string name_;
     ImagePartReader parts_;
     LightFieldInfo info_;
-    std::vector<std::shared_ptr<const HalfImage>> kept_;  // by image; empty: images are not kept
+    std::vector<std::shared_ptr<const HalfImage>> kept_;  // colours of each image; empty: images are not kept
 };
 
 }  // namespace defocus::engine

@@ -32,7 +32,7 @@ Refocusing asRendered(const LightFieldInfo& info);
 // Contribution of a lens image to a refocused picture.
 struct ShiftedImage {
     std::size_t image = 0;  // index of the lens image
-    glm::ivec2 move{0};     // px, right and up
+    glm::ivec2 move{0};     // px, to the right and up
     double weight = 1;      // > 0
 };
 

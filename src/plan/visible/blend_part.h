@@ -13,7 +13,7 @@ namespace defocus::engine {
 // Plane n·x = d.
 struct Plane {
     glm::dvec3 normal{0};  // unit vector n
-    double distance = 0;   // d
+    double distance = 0;   // distance d from the origin
 };
 
 // A convex piece of a surface at one of the object's poses, in view space: a triangle, or the surface of a convex body
