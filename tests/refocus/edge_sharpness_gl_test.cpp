@@ -86,7 +86,7 @@ TEST_F(LightFieldTest, edgesInFocusAreAsSharpAsRenderedOnes) {
     const double refocused = mtf50(field.refocus({FocusDistance{away}, {}}));
     EXPECT_GT(direct, 0.3);
     EXPECT_GE(refocused, 0.9 * direct);
-    EXPECT_LT(mtf50(field.refocus()), 0.5 * direct);  // out of focus
+    EXPECT_LT(mtf50(field.refocus()), 0.5 * direct);  // the edge is out of focus
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ public:
 
     UsdLayer layer() {
         UsdLayer result;
-        at_ = std::min(text_.find('\n'), text_.size());  // "#usda 1.0"
+        at_ = std::min(text_.find('\n'), text_.size());  // skips the first line, "#usda 1.0"
         if (next() == '(') metadata(result);
         while (next() != '\0') result.prims.push_back(prim(0));
         return result;
@@ -210,7 +210,7 @@ private:
     void entries(const Found& found) {
         expect('(');
         while (!accept(')')) {
-            if (next() == '"' || next() == '\'') {  // documentation
+            if (next() == '"' || next() == '\'') {  // documentation, which has no key
                 quoted();
                 continue;
             }

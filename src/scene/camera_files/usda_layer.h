@@ -27,8 +27,8 @@ struct UsdPrim {
     std::string specifier;  // "def", "over" or "class"
     std::string type;       // "Camera", "Xform", …; empty: the prim has no type
     std::string name;
-    std::map<std::string, UsdAttribute, std::less<>> attributes;  // composition arcs: "references", "payload", …
-    std::vector<std::string> arcs;                                // "references", "payload", "variantSets", …
+    std::map<std::string, UsdAttribute, std::less<>> attributes;  // attributes of transforms and of cameras only
+    std::vector<std::string> arcs;                                // composition arcs: "references", "payload", …
     std::vector<UsdPrim> children;
 };
 

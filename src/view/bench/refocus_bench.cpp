@@ -20,8 +20,8 @@ constexpr int dragFrames = 20;
 // A drag of the focus distance or the f-number.
 struct Drag {
     std::string name;
-    double focusDistance = 1;  // m, at the end
-    double fStop = 1;          // at the end
+    double focusDistance = 1;  // m, at the end of the drag
+    double fStop = 1;          // f-number at the end of the drag
 };
 
 std::vector<Drag> dragsOf(const Document& document, const ViewState& state) {

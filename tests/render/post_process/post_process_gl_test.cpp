@@ -244,7 +244,7 @@ TEST_F(PostProcessesAlone, tenBitsHoldTheWholeImage) {
     small->view.lens.blurScale = 0;
     const Image floats = postProcessed(*small, "circular:pinholes=1,storage=float");
     const Image tenBits = postProcessed(*small, "circular:pinholes=1,storage=r10g10b10a2");
-    double squared = 0;  // error in steps
+    double squared = 0;  // sum of squared errors; unit: steps of 1/1023
     for (std::size_t i = 0; i < floats.pixels.size(); ++i)
         squared += std::pow(1023 * (double(tenBits.pixels[i]) - std::min(double(floats.pixels[i]), 1.0)), 2);
     // the RMS error of rounding is 1/√12 step; alpha has none, and half floats add a little

@@ -27,7 +27,7 @@ constexpr std::uint64_t muchMemory = 1ull << 30;
 
 Request smallSchool() {
     Request request;
-    request.fishCount = 9;  // at 1 to 2.6 m
+    request.fishCount = 9;  // fish at depths of 1 to 2.6 m
     request.trianglesPerFish = 2'000;
     request.noCache = true;
     request.size = {160, 120};
