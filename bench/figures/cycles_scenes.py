@@ -84,7 +84,7 @@ def wire(surface, radius, place, length, turned):
 
 
 def sun(strength, azimuth, elevation, colour=(1, 1, 1)):
-    """Adds a sun. strength: irradiance in W/m². azimuth: degrees to the right of the direction from the scene to the camera."""
+    """Adds a sun. strength: irradiance in W/m². azimuth: degrees from the direction to the camera, to the right."""
     bpy.ops.object.light_add(type="SUN", rotation=(math.radians(90 - elevation), 0, math.radians(azimuth)))
     light = bpy.context.object.data
     light.energy, light.color, light.angle = strength, colour, 0
@@ -162,7 +162,7 @@ def leather():
 
 
 def boxes():
-    """160 small boxes at many depths. Every third is of metal with a normal map, the others are textured dielectrics."""
+    """160 small boxes at many depths: every third of metal with a normal map, the others textured dielectrics."""
     camera(0, 1.1, 0.95, 0)
     surfaces = [material("metal box", blotches(COPPER, STEEL, 7), normal=normals(4, 0.15, 8), metallic=1, roughness=0.5),
                 material("checkered box", checker(WHITE, BLUE, 24), roughness=0.6),

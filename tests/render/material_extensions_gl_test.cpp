@@ -244,7 +244,7 @@ TEST_F(MaterialExtensions, aWhiteSheetPassesOnAllLight) {
     for (const float share : {0.25f, 1.0f}) EXPECT_NEAR(middleOf(furnaceImage(sheet(share), 0.8)).x, 1, 1e-5) << share;
 }
 
-// A sheet with the diffuse transmission t, which neither reflects specularly nor absorbs, divides the irradiance E·cos θ
+// A sheet with the diffuse transmission t that neither reflects specularly nor absorbs divides the irradiance E·cos θ
 // between its sides. The lit side has the radiance (1 − t)·E·cos θ/π, the other side t·E·cos θ/π.
 TEST_F(MaterialExtensions, aSheetDividesTheLightOfASunBetweenItsSides) {
     for (const float side : {-1.0f, 1.0f})
