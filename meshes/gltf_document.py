@@ -1,5 +1,4 @@
-"""A glTF document under construction and the surfaces that go into it: what the scripts of this folder write scenes with.
-Python's standard library only."""
+"""Builds glTF documents and their surfaces for the scripts of this folder. Needs only Python's standard library."""
 
 import base64
 import json
@@ -24,7 +23,7 @@ class Document:
         values = [value for row in rows for value in row]
         data = struct.pack(f"<{len(values)}{code}", *values)
         view = {"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data)}
-        if target:  # of vertices and indices
+        if target:  # set for vertices and indices
             view["target"] = target
         self.json["bufferViews"].append(view)
         self.binary += data + b"\0" * (-len(data) % 4)
@@ -71,7 +70,7 @@ class Document:
         return len(self.json["meshes"]) - 1
 
     def checks(self, light, dark):
-        """A texture of 2 x 2 checks (sRGB bytes) that repeats without smoothing."""
+        """Adds a repeating texture of 2 x 2 checks, which stay sharp if magnified. light, dark: sRGB bytes."""
         rows = b"".join(b"\0" + bytes(first) + bytes(second) for first, second in ((light, dark), (dark, light)))
         self.json["samplers"].append({"magFilter": 9728, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497})
         return self.texture(png(2, 2, rows), sampler=0)
@@ -85,7 +84,7 @@ class Document:
         return len(self.json["textures"]) - 1
 
     def slide(self, name, moves):
-        """A clip of one second in which each node of `moves` goes by so much, evenly."""
+        """Adds a clip of one second that moves nodes at constant speed. moves: {node: (x, y, z)}, distances in m."""
         times = self.accessor([(0.0,), (1.0,)], FLOAT, "SCALAR", bounds=True)
         samplers, channels = [], []
         for node, move in moves.items():
@@ -104,7 +103,7 @@ class Document:
         return number
 
     def camera(self, yfov, aspect, lens, **placement):
-        """`lens`: fStop, focusDistance (m) and horizontalAperture (mm) as the camera's extras."""
+        """Adds a camera. lens: its extras, which are fStop, focusDistance (m) and horizontalAperture (mm)."""
         self.json["cameras"].append({"name": "Camera", "type": "perspective", "extras": lens,
                                      "perspective": {"yfov": round(yfov, 7), "aspectRatio": aspect, "znear": 0.01}})
         self.node("Camera", camera=len(self.json["cameras"]) - 1, **placement)
@@ -137,8 +136,11 @@ class Document:
 
 
 def png(width, height, rows, palette=b""):
-    """A PNG of 8-bit RGB, or of indices of a palette of RGB bytes; `rows` begin with a filter byte each. Not compressed:
-    the same bytes from every zlib."""
+    """Returns a PNG with 8 bits per channel: RGB, or indices of a palette. rows: bytes of all rows, each after its filter
+    byte. palette: RGB bytes of the colours.
+
+    The PNG is not compressed, so that its bytes don't depend on the version of zlib.
+    """
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     blocks = [rows[i:i + 0xffff] for i in range(0, len(rows), 0xffff)]
@@ -155,7 +157,7 @@ class Surface:
         self.positions, self.normals, self.colors, self.coordinates, self.indices = [], [], [], [], []
 
     def quad(self, corners, normal=None, color=None):
-        """Four corners, counter-clockwise seen from the front."""
+        """Adds a quad. corners: four positions, counter-clockwise seen from the front."""
         first = len(self.positions)
         self.positions += corners
         self.normals += [normal] * 4 if normal else []
@@ -168,7 +170,7 @@ def as_float32(value):
 
 
 def linear(red, green, blue):
-    """sRGB bytes to linear RGBA bytes, as COLOR_0 holds them."""
+    """Converts sRGB bytes to linear RGBA bytes, the encoding of COLOR_0."""
     def decoded(byte):
         value = byte / 255
         return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
@@ -202,7 +204,10 @@ def smooth_normals(surface):
 
 
 def add_tube(surface, rings, color):
-    """A closed surface of rings (lists of points, head to tail, from the back over the left flank) and two end points."""
+    """Adds a closed tube. rings: lists of points from head to tail; the first and the last ring are a single point.
+
+    The points of a ring run from the back over the left flank.
+    """
     first = len(surface.positions)
     around = len(rings[1])
     surface.positions.append(rings[0][0])

@@ -13,7 +13,7 @@ import sys
 sys.dont_write_bytecode = True
 from gltf_document import Document, Surface, linear, quaternion
 
-STRANDS_A_MESH = 9000  # of 7 vertices each: indices of 16 bits
+STRANDS_A_MESH = 9000  # 7 vertices each, so that indices have 16 bits
 PARTS = 3
 
 
@@ -27,7 +27,7 @@ def unit(a):
 
 
 def add_strand(surface, source):
-    """From inside the ball outwards, curling about its own direction, and tapered to a point."""
+    """Adds a strand that leads outwards from inside the ball, curls about its direction and tapers to a point."""
     z = source.uniform(-1, 1)
     around = source.uniform(0, 2 * math.pi)
     radius = math.sqrt(1 - z * z)

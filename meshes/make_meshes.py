@@ -26,7 +26,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 
 def bokeh():
-    """Small bright squares at seven depths in a dark room, focus on the third row."""
+    """Returns bokeh.gltf: small bright squares at seven depths in a dark room, with the focus on the third row."""
     document = Document()
     dark = document.material("Room", extensions={"KHR_materials_unlit": {}},
                              pbrMetallicRoughness={"baseColorFactor": [0.004, 0.005, 0.008, 1]})
@@ -69,7 +69,7 @@ def bokeh():
 
 
 def checkered(surface, origin, right, up, cells_right, cells_up, light, dark):
-    """A rectangle of checks, each with vertices of its own: `right` and `up` are whole sides."""
+    """Adds a rectangle of checks, each with its own vertices. right, up: vectors along the complete sides."""
     normal = (right[1] * up[2] - right[2] * up[1], right[2] * up[0] - right[0] * up[2],
               right[0] * up[1] - right[1] * up[0])
 
@@ -83,7 +83,7 @@ def checkered(surface, origin, right, up, cells_right, cells_up, light, dark):
 
 
 def staircase():
-    """Twelve steps that lead away and upwards from 1 m to 7 m, each with a pillar at either side."""
+    """Returns staircase.gltf: twelve steps that lead upwards from 1 m to 7 m, each with a pillar on both sides."""
     document = Document()
     material = document.material("Stone", pbrMetallicRoughness={"metallicFactor": 0, "roughnessFactor": 0.7})
     palette = [(226, 92, 46), (240, 164, 40), (216, 206, 70), (92, 190, 98), (40, 168, 176), (66, 106, 214)]
@@ -116,7 +116,7 @@ def staircase():
 
 
 def leaf(length, width):
-    """A pointed leaf that bends downwards, from its stalk at the origin along +y; 24 x 8 quads, both sides to be drawn."""
+    """Returns a pointed leaf of 24 x 8 quads along +y that bends downwards. Its stalk is at the origin."""
     surface = Surface()
     along, across = 24, 8
     for j in range(along + 1):
@@ -137,7 +137,7 @@ def leaf(length, width):
 
 
 def thicket():
-    """A checkered court seen through leaves that nearly touch the lens, most of them beside the image."""
+    """Returns thicket.gltf: a checkered court behind leaves near the lens, most of them beside the image."""
     document = Document()
     stone = document.material("Stone", pbrMetallicRoughness={"metallicFactor": 0, "roughnessFactor": 0.7})
     pale, red, blue = linear(222, 214, 200), linear(176, 68, 44), linear(44, 92, 132)
@@ -153,7 +153,7 @@ def thicket():
         checkered(pillar, (-a, 1.1, a), (2 * a, 0, 0), (0, 0, -2 * a), 2, 2, pale, pale)
         document.node(f"Pillar {k + 1}", mesh=document.mesh(f"Pillar {k + 1}", pillar, stone), translation=[x, -0.7, z])
 
-    # Leaves about the axis by golden angles, with a clearing in the middle, each pointing inwards.
+    # Leaves around the axis at multiples of the golden angle, with a gap in the middle. Each points inwards.
     green = document.material("Leaf", doubleSided=True,
                               pbrMetallicRoughness={"metallicFactor": 0, "roughnessFactor": 0.5})
     mesh = document.mesh("Leaf", leaf(0.022, 0.008), green)
@@ -161,7 +161,7 @@ def thicket():
     for k in range(count):
         turn = 137.507764 * k
         depth = 0.08 + 0.07 * ((k * 0.754877666) % 1)
-        reach = math.sqrt(1.3 + 4.2 * (k + 0.5) / count)  # 1: the image's left and right edge
+        reach = math.sqrt(1.3 + 4.2 * (k + 0.5) / count)  # distance from the axis; 1 is the image's left or right edge
         x, y = (0.36 * depth * reach * f(math.radians(turn)) for f in (math.cos, math.sin))
         document.node(f"Leaf {k + 1}", mesh=mesh, translation=[round(x, 5), round(y, 5), round(-depth, 5)],
                       rotation=quaternion((0, 0, 1), turn + 90 + 40 * math.sin(5.0 * k)))
@@ -172,8 +172,8 @@ def thicket():
 
 # ---- artefacts ------------------------------------------------------------------------------------------------------
 
-# What image-space methods get wrong, a scene each: unlit, so that nothing but the blur shows. 50 mm on 36 mm at 3:2, so
-# a plane at depth d is 0.72 d wide and 0.48 d high.
+# One scene for each artefact of image-space methods. The scenes are unlit, so that only the blur matters. The lens has
+# 50 mm on a 36 mm sensor at 3:2, so the image of a plane at depth d is 0.72 d wide and 0.48 d high.
 
 
 def unlit(document, name, color, strength=None):
@@ -185,7 +185,10 @@ def unlit(document, name, color, strength=None):
 
 
 def add_board(document, name, material, depth, left, right, bottom, top, columns=1, rows=1, colors=None):
-    """An upright board at `depth`; sides in parts of the image's width and height, from its middle; checks if asked."""
+    """Adds an upright board at `depth`. left, right, bottom, top: from the middle, as fractions of the image size.
+
+    colors: two colours of columns x rows checks; default: white.
+    """
     surface = Surface()
     wide, high = 0.72 * depth, 0.48 * depth
     origin = (left * wide, bottom * high, -depth)
@@ -199,7 +202,7 @@ def artefact_camera(document, f_stop, focus):
 
 
 def leaking():
-    """A bright sharp post in front of a dark, strongly blurred wall, beside a less blurred one."""
+    """Returns a scene of a bright, sharp post in front of a dark, strongly blurred wall, and a less blurred panel."""
     document = Document()
     white = unlit(document, "Paper", [1.0, 1.0, 1.0])
     add_board(document, "Wall", white, 12.0, -0.7, 0.7, -0.7, 0.7, 14, 12, (linear(30, 40, 62), linear(40, 56, 84)))
@@ -210,7 +213,10 @@ def leaking():
 
 
 def lost_background():
-    """Thin bars close to the lens in front of a sharp chart: through their blurred edges one sees what no pinhole saw."""
+    """Returns a scene of thin bars close to the lens in front of a sharp chart.
+
+    Their blurred edges show parts of the chart that a pinhole image lacks.
+    """
     document = Document()
     white = unlit(document, "Paper", [1.0, 1.0, 1.0])
     add_board(document, "Chart", white, 3.0, -0.7, 0.7, -0.7, 0.7, 30, 30, (linear(244, 240, 228), linear(36, 60, 120)))
@@ -222,7 +228,7 @@ def lost_background():
 
 
 def half_discs():
-    """Lights far behind a sharp edge, some of them just hidden: their disks reach past it."""
+    """Returns a scene of lights far behind a sharp edge, which hides some lights, but not all of their blur disks."""
     document = Document()
     dark = unlit(document, "Night", [0.006, 0.008, 0.014])
     grey = unlit(document, "Sill", [0.12, 0.11, 0.1])
@@ -240,7 +246,10 @@ def half_discs():
 
 
 def ghosting():
-    """A patterned board close to the lens, in front of a sharp plain one: under its blurred edge its sharp self shows."""
+    """Returns a scene of a patterned board close to the lens, in front of a plain board in focus.
+
+    In image-space methods, the sharp pattern shows through the blurred edge.
+    """
     document = Document()
     white = unlit(document, "Paper", [1.0, 1.0, 1.0])
     add_board(document, "Back", white, 3.0, -0.7, 0.7, -0.7, 0.7, 8, 6, (linear(206, 214, 220), linear(182, 194, 204)))
@@ -250,7 +259,7 @@ def ghosting():
 
 
 def panes():
-    """Panes of coloured glass, alpha-blended: a sharp one before blurred ones and a wall, a near one before a sharp chart."""
+    """Returns a scene of alpha-blended panes: one in focus, a blurred one behind, and one close to the lens."""
     document = Document()
     white = unlit(document, "Paper", [1.0, 1.0, 1.0])
     glass = {"alphaMode": "BLEND", "doubleSided": True, "extensions": {"KHR_materials_unlit": {}},
@@ -266,7 +275,10 @@ def panes():
 
 
 def resolution_loss():
-    """A fine chart that slants away from the focus: blurs of a few pixels, where small images show their pixels."""
+    """Returns a scene of a fine chart that slants out of focus.
+
+    Its blur is a few pixels wide, so that images of reduced resolution show their pixels.
+    """
     document = Document()
     white = unlit(document, "Paper", [1.0, 1.0, 1.0])
     surface = Surface()
@@ -280,7 +292,7 @@ def resolution_loss():
 
 
 def add_fin(surface, outline, thickness, color):
-    """A flat fin in the plane z = 0 (outline counter-clockwise seen from +z), swollen in the middle, closed."""
+    """Adds a closed fin in the plane z = 0 that is thicker in the middle. outline: counter-clockwise seen from +z."""
     first = len(surface.positions)
     middle = [sum(p[axis] for p in outline) / len(outline) for axis in range(2)]
     surface.positions += [(x, y, 0.0) for x, y in outline]
@@ -293,7 +305,7 @@ def add_fin(surface, outline, thickness, color):
 
 
 def fish():
-    """A fish of about 800 triangles, 0.3 m long: body, fins and eyes in one mesh with vertex colours."""
+    """Returns fish.glb: a fish of about 800 triangles, 0.3 m long, as one mesh with vertex colours."""
     document = Document()
     material = document.material("Fish", pbrMetallicRoughness={"metallicFactor": 0, "roughnessFactor": 0.4})
     surface = Surface()
@@ -327,7 +339,7 @@ def fish():
         first = len(surface.positions)
         add_fin(surface, [(0.03, -0.006), (-0.005, 0.012), (-0.028, 0.002), (-0.034, -0.014), (-0.02, -0.03), (0.028, -0.02)],
                 0.003, orange)
-        for k in range(first, len(surface.positions)):  # spread from the flank
+        for k in range(first, len(surface.positions)):  # moves the fin away from the flank
             x, y, z = surface.positions[k]
             surface.positions[k] = (x, y, z + side * (0.022 + 0.5 * (0.03 - x)))
         center, radius = (0.075, 0.014, side * 0.0185), 0.0085
@@ -360,7 +372,7 @@ QUEEN = FOOT + [(0.9, 3.6), (0.78, 5.8), (1.0, 6.0), (1.45, 6.12), (1.47, 6.32),
 
 
 def turned(profile, size, around=40):
-    """A lathe's surface of revolution about the vertical: the profile as a smooth curve (Catmull and Rom 1974)."""
+    """Returns a surface of revolution about the y axis. Its profile is a smooth curve (Catmull and Rom 1974)."""
     curve = []
     for i in range(len(profile) - 1):
         p = [profile[max(0, min(len(profile) - 1, i + k))] for k in (-1, 0, 1, 2)]
@@ -382,9 +394,11 @@ def turned(profile, size, around=40):
 
 
 def chess(cells=1):
-    """A game by evening light: pieces on a board of two triangles from 0.2 m to 1.4 m, small lamps far behind; a
-    queen close to the camera, which moves while the clip plays, as does the bishop behind it. `cells` along each side of
-    the board have two triangles each."""
+    """Returns chess.glb: pieces on a board from 0.2 m to 1.4 m in evening light, with small lamps far behind.
+
+    The clip moves a queen close to the camera, and the bishop behind it. cells: number of cells along each side of the
+    board; each cell has two triangles.
+    """
     document = Document()
     cm = 0.01
     ivory = document.material("Ivory", pbrMetallicRoughness={"baseColorFactor": [0.78, 0.66, 0.47, 1], "metallicFactor": 0,

@@ -1,4 +1,4 @@
-"""painted-blur.glb: blur that vertices have themselves, in millimetres on the sensor. Python's standard library only."""
+"""Makes painted-blur.glb, whose vertices have a blur in mm on the sensor. Needs only Python's standard library."""
 
 import math
 
@@ -6,7 +6,7 @@ from gltf_document import FLOAT, Document, Surface, as_float32, linear, quaterni
 
 
 def painted(document, surface, blurs):
-    """The attributes of a surface with `blurs`: by attribute name, a function of the place of a vertex."""
+    """Returns the attributes of a surface. blurs: {attribute name: function of a vertex's position that returns mm}."""
     attributes = document.attributes(surface)
     for name, blur in blurs.items():
         attributes[name] = document.accessor([(as_float32(round(blur(p), 5)),) for p in surface.positions], FLOAT, "SCALAR",
@@ -15,7 +15,7 @@ def painted(document, surface, blurs):
 
 
 def globe(radius, stacks, slices):
-    """A ball of checks, its colours from dusk to dawn."""
+    """Returns a checkered ball whose colours change from blue at the top to orange at the bottom."""
     surface = Surface()
     dusk, dawn = (38, 70, 110), (236, 148, 92)
     for row in range(stacks + 1):
@@ -38,8 +38,11 @@ def globe(radius, stacks, slices):
 
 
 def painted_blur():
-    """A ball in focus that dissolves towards its top (_COC_OFFSET), and lamps at one depth around it: each with a blur of
-    its own (_COC), those on the right with one that closes while the shutter is open (_COC_0, _COC_1)."""
+    """Returns painted-blur.glb: a ball in focus whose blur grows towards its top (_COC_OFFSET), and lamps around it.
+
+    All lamps are at the same depth, and each has its own blur: on the left _COC, on the right a blur that shrinks to 0
+    while the shutter is open (_COC_0, _COC_1).
+    """
     document = Document()
     matt = document.material("Matt", pbrMetallicRoughness={"metallicFactor": 0, "roughnessFactor": 0.55})
     ball = globe(0.38, 64, 96)
@@ -57,7 +60,7 @@ def painted_blur():
         angle = 2 * math.pi * (k + 0.5) / count
         lamp = Surface()
         lamp.quad([(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, 0.5, 0)], normal=(0, 0, 1))
-        share = 0.5 - 0.5 * math.cos(angle)   # 0 at the top, 1 at the foot
+        share = 0.5 - 0.5 * math.cos(angle)   # 0 at the top, 1 at the bottom
         size = 0.15 + 1.65 * share
         left = math.sin(angle) < 0
         blurs = ({"_COC": lambda _, size=size: size} if left else

@@ -13,13 +13,12 @@ import sys
 from gltf_document import Document, Surface
 from painted_blur import painted
 
-DISTANCE = 2.0  # of the lamps from the camera, m
-TANGENT = (0.36, 0.27)  # of half the field of view, horizontally and vertically
+DISTANCE = 2.0  # from the camera to the lamps, m
+TANGENT = (0.36, 0.27)  # tangents of half the field of view, horizontally and vertically
 
 
 def radial_scale(x, y, w=DISTANCE):
-    """1 + x² + y² for the clip position of a point at (x, y, -w) in front of the camera: the clip position is (x / tan(θx/2),
-    y / tan(θy/2), w)."""
+    """Returns 1 + x² + y² for the clip position (x / tan(θx/2), y / tan(θy/2), w) of the point (x, y, -w)."""
     return 1 + (x / TANGENT[0]) ** 2 + (y / TANGENT[1]) ** 2
 
 

@@ -1,5 +1,7 @@
-"""reed.glb: a reed of 1,200 triangles that bends and swells: a skin of four joints, a morph target, and both in one clip of
-a second, "Bend"."""
+"""Makes reed.glb: a reed of 1,200 triangles with a skin of four joints and a morph target.
+
+The clip "Bend" of one second animates both: the reed bends and swells.
+"""
 
 import math
 
@@ -7,13 +9,13 @@ from gltf_document import FLOAT, UBYTE, Document, Surface, add_tube, as_float32,
 
 HEIGHT = 1.2  # m
 JOINTS = 4
-JOINT_LENGTH = 0.3  # m, from joint to joint; the first at the root
+JOINT_LENGTH = 0.3  # distance between joints in m; the first joint is at the root
 AROUND, RINGS = 20, 30
-KEYS = 8  # of the clip's second
+KEYS = 8  # number of key frames of the clip
 
 
 def outline(share):
-    """The radius (m) at a share of the height: a thin stalk and a thick ear, closed at both ends."""
+    """Returns the radius (m) at a fraction of the height: a thin stalk and a thick ear, closed at both ends."""
     ear = math.exp(-((share - 0.78) / 0.09) ** 2)
     return (0.018 + 0.05 * ear) * min(1.0, 12 * (1 - share), 40 * share + 0.2)
 
@@ -33,7 +35,7 @@ def shape():
 
 
 def joint_weights(position):
-    """The two joints around a vertex, each with a byte's share of it."""
+    """Returns the joints and weights of a vertex: the two nearest joints, with weights that add up to 255."""
     place = min(position[1] / JOINT_LENGTH, JOINTS - 1.0)
     joint = min(int(place), JOINTS - 2)
     second = round(255 * (place - joint))

@@ -1,5 +1,7 @@
-"""swimmers.glb: six fish of two kinds that swim for five seconds among swaying kelp, over sand, under water. Each fish is a
-skin of ten joints, each plant a mesh with a morph target; all of it moves in one clip, "Swim"."""
+"""Makes swimmers.glb: six fish of two kinds that swim for five seconds under water, among swaying kelp.
+
+Each fish has a skin of ten joints, and each plant a morph target. The clip "Swim" moves all of them.
+"""
 
 import bisect
 import math
@@ -7,17 +9,17 @@ import math
 from gltf_document import FLOAT, UBYTE, Document, Surface, add_tube, linear, quaternion, smooth_normals
 
 SECONDS = 5.0
-KEYS = 16  # a second, of what is interpolated linearly
+KEYS = 16  # key frames per second of channels with linear interpolation
 JOINTS = 10
-JOINT_LENGTH = 0.024  # m, from joint to joint
-FIRST_JOINT = 0.045  # x of the joint at the gills; the snout lies at x = 0.11, the tail's root at −0.11
+JOINT_LENGTH = 0.024  # distance between joints, m
+FIRST_JOINT = 0.045  # x of the joint at the gills, m; the snout is at x = 0.11, the tail's root at x = −0.11
 
 
 # ---- shapes ---------------------------------------------------------------------------------------------------------
 
 
 def curve(knots, at):
-    """A smooth curve through (place, value) knots: cubic Hermite with the neighbours' slopes (Catmull and Rom 1974)."""
+    """Interpolates (position, value) knots: cubic Hermite with slopes from neighbours (Catmull and Rom 1974)."""
     i = min(max(bisect.bisect_right([k[0] for k in knots], at) - 1, 0), len(knots) - 2)
 
     def slope(k):
@@ -39,13 +41,13 @@ WIDTH = [(0, 0), (0.04, 0.013), (0.12, 0.021), (0.25, 0.027), (0.4, 0.028), (0.5
 
 
 def flank(a, turn):
-    """A point of the skin: `a` from 0 at the snout to 1 at the tail's root, `turn` from the back over the left flank."""
+    """Returns a point of the skin. a: 0 at the snout, 1 at the tail's root. turn: radians from the back to the left."""
     up = math.cos(turn)
     return 0.11 - 0.22 * a, (curve(BACK, a) if up > 0 else curve(BELLY, a)) * up, curve(WIDTH, a) * math.sin(turn)
 
 
 def add_sheet(surface, root, tip, rays, steps, color, thickness=0.0012, lift=None):
-    """A fin between two curves (functions of 0 … 1 to points), with two sides that meet at its edges."""
+    """Adds a fin with two sides, closed at its edges. root, tip: border curves, functions from [0, 1] to points."""
     first = len(surface.positions)
     places = {}
     for side in (1, -1):
@@ -98,12 +100,12 @@ def add_eye(surface, side):
 
 
 def fish(skin, fin):
-    """`skin`: a colour for (a, height from −1 to 1); `fin`: one for a place of a fin from root (0) to edge (1)."""
+    """Returns a fish. skin(a, height): colour of the body, height −1 … 1. fin(v): colour of fins, root 0, edge 1."""
     surface = Surface()
     around, along = 40, 84
     rings = [[flank(0, 0)]]
     for i in range(1, along):
-        a = 0.5 - 0.5 * math.cos(math.pi * i / along)  # closer together at the snout
+        a = 0.5 - 0.5 * math.cos(math.pi * i / along)  # rings are denser at both ends
         rings.append([flank(a, 2 * math.pi * k / around) for k in range(around)])
     rings.append([(-0.111, 0, 0)])
 
@@ -137,7 +139,7 @@ def fish(skin, fin):
 
 
 def coral(a, height):
-    """Orange with three pale bands that have dark edges."""
+    """Returns the colour of a fish that is orange with three pale bands with dark edges; parameters as in fish()."""
     orange, pale, dark = (238, 92, 16), (246, 240, 228), (30, 20, 18)
     near = min(abs(a - place - 0.02 * height * height) / half for place, half in ((0.27, 0.05), (0.6, 0.055), (0.93, 0.05)))
     if near < 0.8:
@@ -146,7 +148,7 @@ def coral(a, height):
 
 
 def azure(a, height):
-    """Deep blue with a dark stripe and a yellow tail."""
+    """Returns the colour of a fish that is deep blue with a dark stripe and a yellow tail; parameters as in fish()."""
     blue, deep, yellow = (24, 92, 214), (10, 18, 60), (250, 206, 40)
     stripe = 1 - abs(height - 0.45 + 0.9 * abs(a - 0.42)) / 0.22
     return mixed(blue, yellow, (a - 0.84) / 0.06) if a > 0.84 else mixed(blue, deep, stripe)
@@ -156,7 +158,7 @@ def azure(a, height):
 
 
 def joint_weights(position):
-    """The two joints around a vertex, each with a byte's share of it."""
+    """Returns the joints and weights of a vertex: the two nearest joints, with weights that add up to 255."""
     place = min(max((FIRST_JOINT - position[0]) / JOINT_LENGTH, 0.0), JOINTS - 1.0)
     joint = min(int(place), JOINTS - 2)
     second = round(255 * (place - joint))
@@ -164,7 +166,7 @@ def joint_weights(position):
 
 
 def heading(velocity):
-    """The rotation (x, y, z, w) that turns +x into the velocity's direction, upright: about y, then about its own z."""
+    """Returns the rotation (x, y, z, w) from +x to the velocity's direction, without roll: about y, then z."""
     yaw = math.atan2(-velocity[2], velocity[0])
     pitch = math.atan2(velocity[1], math.hypot(velocity[0], velocity[2]))
     (cy, sy), (cp, sp) = ((math.cos(0.5 * angle), math.sin(0.5 * angle)) for angle in (yaw, pitch))
@@ -180,7 +182,7 @@ def rounded(values):
 
 
 class Clip:
-    """An animation whose channels share their times."""
+    """An animation. Channels with the same number of keys per second share their key times."""
 
     def __init__(self, document, name):
         self.document, self.samplers, self.channels, self.inputs = document, [], [], {}
@@ -194,7 +196,7 @@ class Clip:
         rows = []
         for time in times:
             value = [rounded(function(time))]
-            if cubic:  # tangent in, value, tangent out
+            if cubic:  # in-tangent, value, out-tangent
                 tangent = rounded(derivative(function, time))
                 value = [tangent] + value + [tangent]
             rows += value
@@ -204,7 +206,10 @@ class Clip:
 
 
 def swim(clip, path, joints, beat, phase, start, velocity, sway):
-    """Along a wavy line from `start` (m) at `velocity` (m/s); the body's wave runs from head to tail, `beat` a second."""
+    """Adds the channels of a fish that swims along a wavy line from `start` (m) with `velocity` (m/s).
+
+    A wave runs along the body from head to tail, `beat` times a second. sway: amplitude of the line, m.
+    """
     def place(time):
         turn = 2 * math.pi * (0.22 * time + phase)
         return (start[0] + velocity[0] * time, start[1] + velocity[1] * time + 0.5 * sway * math.sin(turn),
@@ -224,7 +229,7 @@ def add_school(document, clip):
     kinds = [("Coral", fish(coral, lambda v: mixed((240, 104, 22), (40, 24, 20), (v - 0.8) / 0.2))),
              ("Azure", fish(azure, lambda v: mixed((250, 206, 40), (22, 60, 170), (v - 0.55) / 0.45)))]
 
-    # Both kinds share their shape.
+    # Both kinds have the same shape and different colours.
     surface = kinds[0][1]
     shape = document.attributes(surface)
     weights = [joint_weights(p) for p in surface.positions]
@@ -239,7 +244,7 @@ def add_school(document, clip):
     unbind = document.accessor([(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, round(JOINT_LENGTH * i - FIRST_JOINT, 6), 0, 0, 1)
                                 for i in range(JOINTS)], FLOAT, "MAT4")
 
-    # kind, size, beats a second, phase, start, velocity, sway
+    # kind, size, beats per second, phase, start (m), velocity (m/s), sway (m)
     school = [(0, 1.0, 1.5, 0.1, (-0.31, -0.03, -0.95), (0.115, 0.008, -0.02), 0.02),
               (1, 1.15, 1.3, 0.45, (0.62, 0.13, -1.75), (-0.16, 0.004, 0.05), 0.03),
               (0, 0.85, 1.9, 0.7, (-0.95, 0.24, -2.4), (0.2, -0.012, 0.02), 0.03),
@@ -263,7 +268,7 @@ def add_school(document, clip):
 
 
 def kelp(number):
-    """Blades that grow from one place, and how far the current carries each of their vertices."""
+    """Returns blades that grow from one place, and the largest displacement of each vertex by the current (m)."""
     surface, sway = Surface(), []
     for blade in range(6):
         chance = math.sin(12.9898 * (blade + 7 * number)) * 43758.5453 % 1
@@ -303,7 +308,7 @@ def add_kelp(document, clip):
 
 
 def add_water(document):
-    """Sand, a bright backdrop that darkens downwards, and specks of plankton that glow."""
+    """Adds sand, a bright backdrop that darkens downwards, and specks of glowing plankton."""
     sand = Surface()
     columns, rows = 40, 36
     for j in range(rows + 1):

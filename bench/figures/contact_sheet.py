@@ -9,7 +9,7 @@ PAPER = (250, 250, 250)
 
 
 def contact_sheet(titles, names, pictures_of):
-    """Returns the sheet. titles: of the pictures of each scene; pictures_of(index): pictures of the scene names[index]."""
+    """Returns the sheet. titles: one per picture of a scene; pictures_of(index): pictures of the scene names[index]."""
     rows = -(-len(names) // COLUMNS)
     block = (WIDTH + GAP) * len(titles) + 3 * GAP
     image = Image.new("RGB", (COLUMNS * block - 2 * GAP, rows * (HEIGHT + LINE + GAP) + LINE), PAPER)

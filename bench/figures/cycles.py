@@ -22,7 +22,7 @@ COUNTS = (16, 64, 256)
 
 
 def blender():
-    """Returns (program, version); exits if it is missing or another version."""
+    """Returns the path and the version of Blender 3.4; exits if Blender is missing or has another version."""
     program = shutil.which("blender")
     if not program:
         sys.exit("Blender is missing; install version 3.4 (Debian: apt-get install blender)")

@@ -2,7 +2,7 @@
 
 The exporter reads the Principled BSDF. Its equations differ from glTF's, so Cycles renders a graph of a Diffuse and a
 Glossy BSDF (GGX). Math nodes give them Schlick's Fresnel and the ratio of height-correlated to separable Smith masking.
-On normal maps, math nodes evaluate GGX too. These factors depend on the direction to the light, so Cycles renders the
+On normal maps, math nodes also evaluate GGX. These factors depend on the direction to the light, so Cycles renders the
 lights one by one.
 """
 

@@ -19,7 +19,7 @@ from figures.cycles_scenes import SCENES  # noqa: E402
 
 
 def prepared_scene(width, height, samples):
-    """Returns an empty scene for direct light in Cycles, with a black world and a box of one pixel as the filter."""
+    """Returns an empty scene for direct light in Cycles, with a black world and a box filter of one pixel."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     MADE.clear()
     scene = bpy.context.scene

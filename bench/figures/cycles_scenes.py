@@ -62,7 +62,7 @@ def finished(surface, repeat=1.0, smooth=False):
 
 
 def plane(surface, size, place, turned=(0, 0, 0), repeat=1.0):
-    """turned: Euler angles in degrees."""
+    """Adds a plane. turned: Euler angles in degrees."""
     bpy.ops.mesh.primitive_plane_add(size=size, location=place, rotation=[math.radians(angle) for angle in turned])
     return finished(surface, repeat)
 
@@ -84,21 +84,21 @@ def wire(surface, radius, place, length, turned):
 
 
 def sun(strength, azimuth, elevation, colour=(1, 1, 1)):
-    """strength: irradiance in W/m². azimuth: degrees to the right of the direction from the scene to the camera."""
+    """Adds a sun. strength: irradiance in W/m². azimuth: degrees from the direction to the camera, to the right."""
     bpy.ops.object.light_add(type="SUN", rotation=(math.radians(90 - elevation), 0, math.radians(azimuth)))
     light = bpy.context.object.data
     light.energy, light.color, light.angle = strength, colour, 0
 
 
 def point(power, place, colour=(1, 1, 1)):
-    """power: radiant flux in W."""
+    """Adds a point light. power: radiant flux in W."""
     bpy.ops.object.light_add(type="POINT", location=place)
     light = bpy.context.object.data
     light.energy, light.color, light.shadow_soft_size = power, colour, 0
 
 
 def camera(height, focus, fstop, pitch):
-    """Camera above the origin that looks along +y and `pitch` degrees down: 50 mm on a sensor of 36 mm."""
+    """Adds a camera above the origin that looks along +y and `pitch` degrees down: 50 mm on a sensor of 36 mm."""
     bpy.ops.object.camera_add(location=(0, 0, height), rotation=(math.radians(90 - pitch), 0, 0))
     bpy.context.scene.camera = bpy.context.object
     lens = bpy.context.object.data
@@ -162,7 +162,7 @@ def leather():
 
 
 def boxes():
-    """160 small boxes in depth; every third is of metal with a normal map, the others are textured dielectrics."""
+    """160 small boxes at many depths: every third of metal with a normal map, the others textured dielectrics."""
     camera(0, 1.1, 0.95, 0)
     surfaces = [material("metal box", blotches(COPPER, STEEL, 7), normal=normals(4, 0.15, 8), metallic=1, roughness=0.5),
                 material("checkered box", checker(WHITE, BLUE, 24), roughness=0.6),
@@ -177,7 +177,7 @@ def boxes():
 
 
 def wires():
-    """Metal wires, 0.3 to 2 px thick, before a textured wall."""
+    """Metal wires, 0.3 to 2 px thick, in front of a textured wall."""
     camera(0, 1.0, 1.0, 0)
     plane(material("wall", checker(SAND, DARK, 8), roughness=1), 3, (0, 1.9, 0), (90, 0, 15), repeat=2)
     metals = [material(f"wire {i}", colour, metallic=1, roughness=0.5) for i, colour in enumerate((GOLD, STEEL, COPPER))]

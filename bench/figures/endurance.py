@@ -46,7 +46,7 @@ def place(number, count):
 
 
 def many(kind, count):
-    """Returns the document and the data of a glTF file with `count` triangles, each a part of the kind."""
+    """Returns the document and the data of a glTF file with `count` parts of this kind, each with one triangle."""
     data = TRIANGLE
     accessor = {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}
     document = {"asset": {"version": "2.0"}, "scene": 0, "accessors": [accessor]}

@@ -63,7 +63,7 @@ struct BlurredLight {
 struct LightPlace {
     double depth = 6;      // m
     double pixels = 3;     // width of the light, px
-    glm::dvec2 offset{0};  // from the image's centre, px (right, up)
+    glm::dvec2 offset{0};  // offset from the image's centre, px (right, up)
     int channel = 0;
 };
 BlurredLight blurredLight(const Image& image, const View& view, const LightPlace& light);

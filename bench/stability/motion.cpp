@@ -40,7 +40,7 @@ Image movedSquare(const Path& path, int segments) {  // segments = 0: one pose p
     return rendered(square);
 }
 
-// Returns a path along which the square moves back and forth `turns` times at constant speed.
+// Returns a path on which the square moves back and forth `turns` times at constant speed.
 Path toAndFro(int turns) {
     return [turns](const glm::dmat4& middle, double time) {
         const double phase = time * turns - std::floor(time * turns);

@@ -25,8 +25,8 @@ struct TracedCase {
     double fromOrigin = 0;     // distance of scene and camera from the origin, m
 };
 
-// Returns the RMSE between rasteriser and ray tracer for three boards that partly hide each other: one in front of, one
-// in and one behind the focus plane.
+// Returns the RMSE between rasteriser and ray tracer for three boards that partly hide each other. They lie in front
+// of, in and behind the focus plane.
 double tracedError(const TracedCase& subject) {
     View view = boardView();
     view.lens.focalLength = view.lens.horizontalAperture / (2 * std::tan(glm::radians(0.5 * subject.fieldOfView)));

@@ -1,6 +1,7 @@
 #pragma once
-// Layers: data images beside the colours of a picture. Each layer is the mean over the picture's lens samples, with the
-// same pixel filter, premultiplied by the coverage of the surfaces.
+// Layers: images of data, such as depth or normals, that are rendered together with the colours of a picture. Each
+// layer is the mean over the picture's lens samples, with the picture's pixel filter, premultiplied by the coverage of
+// the surfaces.
 
 #include <cstdint>
 #include <string>

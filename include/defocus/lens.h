@@ -14,7 +14,7 @@ struct LensSettings {
     std::optional<double> fStop;               // f-number N, > 0: aperture diameter = focalLength / N. Default: 2.8
     std::optional<double> horizontalAperture;  // mm, sensor width. Default: 36
     std::optional<bool> dofEnabled;            // false: pinhole camera, for any f-number
-    std::optional<double> blurScale;           // factor on the blur diameter, ≥ 0. Default: 1, physical
+    std::optional<double> blurScale;           // factor on the blur diameter, ≥ 0. Default: 1 (physically correct)
     std::optional<bool> focusBreathing;        // true: the field of view narrows for near focus, as for a thin lens
     std::optional<double> exposureTime;        // s; with f-number and ISO, sets the exposure of 8-bit images; 0: unused
     std::optional<double> iso;                 // sensitivity, 1 … 1e7. Default: 100
@@ -28,15 +28,15 @@ struct LensSettings {
     std::optional<double> sphericalAberration;       // [−1, 1]; > 0: bokeh has a brighter rim; < 0: brighter centre
     std::optional<double> catEye;                    // [0, 1]; fraction of the aperture radius hidden in the corners
     std::optional<double> axialChromaticAberration;  // dioptres; > 0: red focuses farther away than blue
-    std::optional<double> astigmatism;               // mm on the sensor; a focused point's image length at the edges
-    std::optional<double> coma;                      // mm on the sensor; comet tail at the side edges; > 0: outwards
+    std::optional<double> astigmatism;               // mm on the sensor; length of a focused point's image at the edges
+    std::optional<double> coma;                      // mm on the sensor; comet tail length at the edges; > 0: outwards
     std::filesystem::path apertureImage;             // replaces blades, obstruction, spherical aberration; empty: none
 
     // Artistic blur controls (Munkberg, Toth and Akenine-Möller 2012).
     std::optional<double> foregroundLimit;    // px, max blur diameter in front of the focus plane
     std::optional<double> backgroundLimit;    // px, max blur diameter behind the focus plane
-    std::optional<double> focusRangeFront;    // m; sharp range in front of the focus distance
-    std::optional<double> focusRangeBehind;   // m; sharp range behind the focus distance
+    std::optional<double> focusRangeFront;    // m; depth of the sharp range in front of the focus distance
+    std::optional<double> focusRangeBehind;   // m; depth of the sharp range behind the focus distance
     std::optional<bool> focusRangeRefocuses;  // true: blur behind the range as if the lens were focused at its far end
     std::optional<double> focusTilt;          // degrees about the horizontal axis; > 0: focus plane's top is nearer
     std::optional<double> focusSwing;         // degrees about the vertical axis; > 0: focus plane's right is nearer

@@ -28,7 +28,7 @@ namespace defocus {
 // Settings that can be chosen after rendering. refocusSettings() lists them; any other setting throws UsageError.
 struct RefocusSettings {
     Focus focus = {};        // FocusDistance or FocusPixel; CameraFocus: as rendered
-    LensSettings lens = {};  // f-number and shape of the aperture; values without a setting: as rendered
+    LensSettings lens = {};  // f-number and shape of the aperture; unset values: as rendered
     bool fillGaps = true;    // true: fills gaps between the lens images by blurring each over its part of the lens
 };
 
@@ -36,7 +36,7 @@ struct RefocusSettings {
 struct LightFieldInfo {
     int width = 0;                  // px
     int height = 0;                 // px
-    double focusDistance = 1;       // m, of the rendered images
+    double focusDistance = 1;       // m, focus distance of the rendered images
     double fStop = 1;               // f-number of the rendered aperture; the widest one that can be chosen
     double focalLength = 0;         // mm; 0: unknown
     double horizontalAperture = 0;  // mm, sensor width; 0: unknown
@@ -48,7 +48,8 @@ struct LightFieldInfo {
     std::vector<std::array<double, 2>> lensPoints;
 };
 
-// Pictures with focus distances over the rendered range, evenly in 1/distance, from the nearest to the farthest.
+// Pictures that are focused at different distances. The distances divide the rendered range evenly in 1/distance, from
+// the nearest to the farthest.
 struct FocalStack {
     std::vector<double> focusDistances;  // m
     std::vector<Image> pictures;         // linear, premultiplied RGBA
@@ -56,13 +57,14 @@ struct FocalStack {
 
 class DEFOCUS_API LightField {
 public:
-    // Opens a file of lens images. Throws Error if the file cannot be read, contains no lens images, or lacks an image.
+    // Opens a file of lens images. Throws Error if the file cannot be read, contains no lens images, or lacks one of
+    // its images.
     explicit LightField(const std::filesystem::path& path);
-    // Render the lens images of a request to a file with the extension .exr, and open it. `range`: focus distances to
-    // choose from later, in addition to the request's own; none: from the nearest to the farthest visible surface.
-    // Throw UsageError if the request's method, samples or target error don't suit lens images. Throw Error if
-    // refocusing would not just shift the images of this lens, and under the conditions of SceneRenderer. A failure
-    // leaves no file.
+    // Render the lens images of a request to a file with the extension .exr, and open it. `range`: focus distances that
+    // can be chosen later, in addition to the request's own distance; none: from the nearest to the farthest visible
+    // surface. Throw UsageError if the request's method, samples or target error don't suit lens images. Throw Error if
+    // a change of focus would do more to the images of this lens than shift them, and under the conditions of
+    // SceneRenderer. A failure leaves no file.
     static LightField render(const Request& request, const std::filesystem::path& path,
                              std::optional<FocusRange> range = {}, const Progress& progress = {});
     static LightField render(const Scene& scene, const Request& request, const std::filesystem::path& path,
@@ -85,7 +87,8 @@ public:
     // Returns the depths in m along the view axis of the surfaces that the lens's centre sees; +∞ for pixels without a
     // surface.
     [[nodiscard]] Image depth();
-    // Returns the signed diameters in px of the circles of confusion of these surfaces, > 0 behind the focus plane.
+    // Returns the signed diameters in px of the circles of confusion of the surfaces that the lens's centre sees, > 0
+    // behind the focus plane.
     [[nodiscard]] Image coc(const RefocusSettings& settings = {});
 
 private:

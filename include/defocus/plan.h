@@ -26,7 +26,7 @@ struct PlannedDraw {
 struct PlannedObject {
     std::string name;
     double nearestDepth = 0;   // m, min depth of the bounding box
-    double farthestDepth = 0;  // m
+    double farthestDepth = 0;  // m, max depth of the bounding box
     // Diameters of the circle of confusion in px: signed (> 0 behind the focus plane) at the nearest and farthest
     // depth, then min and max of the unsigned diameter over the bounding box. Infinite for a box that extends to the
     // camera.
@@ -52,7 +52,7 @@ struct PlannedShadowMap {
 };
 
 struct LeftOutPart {
-    std::string what;  // e.g. "object Fish 3" or "texture path"
+    std::string what;  // name of the omitted part, e.g. "object Fish 3" or "texture path"
     std::string reason;
 };
 
@@ -74,7 +74,7 @@ struct Plan {
     std::uint32_t samples = 0;
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;
-    double cocTolerance = 0;          // px
+    double cocTolerance = 0;          // px; see Request::cocTolerance
     std::uint64_t moments = 0;        // number of instants at which the scene is posed; 0: nothing moves
     std::uint64_t movingObjects = 0;  // objects that move during the exposure
     // Settings for the levels of detail; thresholds that the Request leaves unset have their defaults.
@@ -82,9 +82,9 @@ struct Plan {
     LodMetric lodMetric = LodMetric::automatic;
     LodCoc lodCoc = LodCoc::smallest;
     LevelVertices levelVertices = LevelVertices::fitted;
-    double blurThreshold = 0;   // edge length relative to the blur diameter
-    double sizeThreshold = 0;   // px
-    double lightThreshold = 0;  // px
+    double blurThreshold = 0;   // target edge length relative to the blur diameter
+    double sizeThreshold = 0;   // px, min target edge length
+    double lightThreshold = 0;  // px; see LodMetric::measured
     // Shadows.
     std::vector<PlannedShadowMap> shadowMaps;  // empty: no shadows
     int shadowMapSize = 0;                     // px per side
@@ -93,7 +93,7 @@ struct Plan {
     // of confusion. 0 if the images cannot be blurred; lensCellReason then says why.
     double lensCellBlur = 0;
     std::string lensCellReason;
-    std::string accumulationReason;  // why method "auto" is accumulation; empty: it is multirate
+    std::string accumulationReason;  // why method "auto" uses accumulation; empty: it uses multirate
     std::vector<PlannedObject> objects;  // sorted from front to back
     std::vector<LeftOutPart> leftOut;
     // Numbers of triangles, summed over all samples. Triangles that face away or are outside the image are culled.

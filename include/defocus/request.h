@@ -48,7 +48,7 @@ struct Request {
     bool strict = false;            // true: missing or damaged parts of the file, such as textures, throw Error
     std::string variant;            // name of a variant of the file's materials; empty: the default materials
     int fishCount = 20;             // number of fish in the school, 1 … 10,000
-    int trianglesPerFish = 90'000;  // approximate
+    int trianglesPerFish = 90'000;  // approximate number of triangles of each fish
     std::optional<double> units;    // metres per scene unit. Default: from the file, or guessed by scene size
     double time = 0;                // time of the animation in s
     std::string clip;               // name or index of the animation; empty: the first animation
@@ -58,7 +58,7 @@ struct Request {
     ShutterPosition shutterPosition = ShutterPosition::centre;
     MotionSegments motionSegments = 1u;
     std::filesystem::path environment;  // "studio", "overcast", "sunset", or an equirectangular .hdr or .exr file
-    double environmentRotation = 0;     // counter-clockwise as seen from above
+    double environmentRotation = 0;     // about the vertical axis, counter-clockwise as seen from above
     Background background;
     bool ground = false;            // adds a neutral ground plane that receives shadows
     std::vector<std::string> hide;  // names or indices of nodes to hide, with their descendants
@@ -71,7 +71,7 @@ struct Request {
 
     // Camera and image.
     CameraChoice camera;
-    // Camera in a file of its own, such as "shot.usda:/World/cam"; replaces the scene's camera. Empty: none.
+    // Camera in a separate file, such as "shot.usda:/World/cam"; replaces the scene's camera. Empty: none.
     std::string cameraFrom;
     std::optional<Vector3> cameraPosition;  // replaces the camera's position
     std::optional<Vector3> cameraTarget;    // point to look at; replaces the camera's direction
@@ -105,10 +105,11 @@ struct Request {
 
     // Method.
     std::string method = "auto";
-    std::map<std::string, std::string> methodSettings;  // name → value; missing: default
+    std::map<std::string, std::string> methodSettings;  // name → value; missing settings have their defaults
     LayerFormat layerFormat = LayerFormat::automatic;
 
-    // Data layers to add to EXR files. They need a method that sums lens samples; method "auto" then accumulates.
+    // Data layers to add to EXR files. They need a method that sums lens samples; with layers, method "auto" uses
+    // accumulation.
     std::vector<Layer> layers;
     ExrNames exrNames = ExrNames::nuke;
 
@@ -122,7 +123,7 @@ struct Request {
     LodCoc lodCoc = LodCoc::smallest;
     // Max error in px, > 0, of linear interpolation of the circle of confusion within a triangle.
     double cocTolerance = 0.5;
-    bool keepAll = false;                 // true: no culling of invisible parts; the image must not change
+    bool keepAll = false;                 // true: disables culling of invisible parts; the image stays the same
     std::optional<std::uint64_t> memory;  // memory limit in bytes. Default: 3/4 of the free memory
     // Number of lens samples drawn at once, 1 … 64; does not change the image. Default: as many as fit into memory.
     std::optional<std::uint32_t> wave;

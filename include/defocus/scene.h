@@ -21,7 +21,7 @@ struct Scene;
 // Contents of a scene, with the names that a Request accepts.
 struct SceneInfo {
     std::string name;
-    std::vector<std::string> cameras;  // empty string for an unnamed camera
+    std::vector<std::string> cameras;  // names of cameras; an empty string for an unnamed camera
     std::vector<std::string> nodes;
     std::vector<std::string> clips;     // names of animations
     std::vector<std::string> variants;  // names of the variants of materials

@@ -128,7 +128,7 @@ enum class LightType { directional, point, spot };
 struct LightData {
     std::string name = {};
     LightType type = LightType::directional;
-    Matrix4 transform = identityMatrix;      // scale has no effect
+    Matrix4 transform = identityMatrix;      // placement of the light; its scale has no effect
     std::array<float, 3> color = {1, 1, 1};  // ≥ 0
     float intensity = 1;                     // lux (directional) or candela (point, spot), ≥ 0
     float range = 0;                         // maximum distance of lit surfaces (point, spot); 0: unlimited

@@ -43,8 +43,8 @@ enum class LodMetric {
     // Level proportional to the blur at the bounding box's centre, and to the reciprocal of the box's projected size
     // (Jeong, Kim and Lee 2011).
     proportional,
-    // Like `size`, but with a target edge length from the blur only, compared with the edge length projected at the
-    // object's centre (Tzeng et al. 2012).
+    // Like `size`, but the target edge length depends on the blur only, and it is compared with the edge length
+    // projected at the object's centre (Tzeng et al. 2012).
     score,
 };
 

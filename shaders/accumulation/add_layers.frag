@@ -19,7 +19,7 @@ void main() {
         seen += 1.0;
         addLayer(sum, compensation, layerLight(ivec3(pixel + firstPixel, layer), imagePlane), layer);
     }
-    // alpha counts samples; integers need no compensation
+    // Alpha counts samples. Sums of integers are exact, so they need no compensation.
     if (backgroundType != 0) sum.a += catEye > 0.0 ? seen : float(layerCount);
     sumOut = sum;
     compensationOut = compensation;

@@ -1,5 +1,5 @@
-// Adds the layers of a wave to the block's sum like add_layers.frag, and also to the sums of the lens cells' blur
-// classes (include/cells.glsl).
+// Adds the layers of a wave to the block's sum like add_layers.frag, and also to the sums of the blur classes of lens
+// cells (include/cells.glsl).
 #include "accumulation/layer_light.glsl"
 #include "include/cells.glsl"
 
@@ -16,8 +16,8 @@ layout(location = 3) uniform float cellBlur;
 layout(location = 0) out vec4 sumOut;
 layout(location = 1) out vec4 cellsOut[drawnClasses];
 
-// Threshold of alpha: pixels with a larger alpha contain alpha-blended surfaces, whose alpha is added to the 1 of
-// opaque surfaces and sky.
+// Pixels with an alpha above this threshold contain alpha-blended surfaces. Opaque surfaces and the sky give alpha 1,
+// to which blended surfaces add their alpha.
 const float blendedAlpha = 1.001;
 
 // Adds a layer's pixel to the sums of the blur classes, according to the pixel's blur.
@@ -59,7 +59,7 @@ void main() {
         addLayer(sum, compensation, value, layer);
         addToCells(cells, value, texel, ndc);
     }
-    // alpha counts samples; integers need no compensation
+    // Alpha counts samples. Sums of integers are exact, so they need no compensation.
     if (backgroundType != 0) sum.a += catEye > 0.0 ? seen : float(layerCount);
     for (int k = 0; k < drawnClasses; ++k) cellsOut[k] = cells[k];
     for (int k = drawnClasses; k < cellClasses; ++k) imageStore(cellSums, ivec3(pixel, k), cells[k]);

@@ -1,7 +1,7 @@
-// Computes the block's sum with blurred lens cells. The blur classes (include/cells.glsl) are composited from farthest
-// to nearest, each blurred by linear interpolation of its means. Unblurred samples are composited between the classes
-// behind the focus plane and the classes in front of the focus plane. Where only foreground samples exist, they also
-// replace the unknown background.
+// Computes the block's sum, in which the image of each sample is blurred by its lens cell (include/cells.glsl). The
+// blur classes are composited from farthest to nearest, each blurred by linear interpolation of its means. Unblurred
+// samples are composited between the classes behind the focus plane and the classes in front of the focus plane. In
+// pixels where all samples show the blurred foreground, the foreground also replaces the unknown background.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;
@@ -12,7 +12,7 @@ layout(binding = 2) uniform usampler2D spreadClasses;
 // hide.
 layout(binding = 3) uniform sampler2DArray shownMeans;
 layout(binding = 4) uniform sampler2DArray openMeans;
-// Columns and rows of the grid of squares of blur class 0.
+// Columns and rows of the grid of squares over which the means of blur class 0 are computed.
 layout(location = 0) uniform ivec2 firstSquares;
 // > 0: number of samples in the block, by which the sum is divided. 0: the sum is divided by the pixel's own number of
 // samples. −1: the output is the sum.
@@ -21,8 +21,8 @@ layout(location = 1) uniform float samples;
 layout(location = 0) out vec4 sumOut;
 layout(location = 1) out vec4 compensationOut;
 
-// Composites blur class k in front of (`side` 0) or behind (1) the focus over `image`. The coverage of a class is the
-// ratio of its own samples to all samples not hidden by nearer classes.
+// Composites blur class k over `image`. `side`: 0 for classes in front of the focus plane, 1 for classes behind it. The
+// coverage of a class is the ratio of its own samples to all samples not hidden by nearer classes.
 void layOver(inout vec3 image, int k, float side) {
     // The squares of blur class 0 have the size of a pixel and are centred at pixel corners.
     vec2 square = clamp((gl_FragCoord.xy + (k == 0 ? 0.5 : 0.0)) / float(1 << k), vec2(0.5), vec2(firstSquares >> k) - 0.5);

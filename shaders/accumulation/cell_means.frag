@@ -1,7 +1,8 @@
 // Computes tent-weighted means for one blur class of lens cells. Each mean is centred on a square of pixels, and its
 // tent extends to the centres of the neighbouring squares. Squares of one pixel are centred at pixel corners. One
 // output is the mean of the class's own samples; the other is the mean number of samples not hidden by nearer classes.
-// With both, neither blurred surfaces nor the edges of their occluders spread beneath the occluders.
+// The ratio of the outputs covers only samples in which no nearer class hides the class. A blurred surface therefore
+// keeps its colour and coverage up to the edges of its occluders.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;

@@ -1,5 +1,6 @@
-// Interpolates a vertex of the tessellated triangle and applies the lens shear (include/lens.glsl). For triangles
-// beyond the near plane in which the slope of the circle of confusion C never jumps; refined.geom cuts all others.
+// Interpolates a vertex of the tessellated triangle and applies the lens shear (include/lens.glsl). Used for triangles
+// that lie beyond the near plane and in which the slope of the circle of confusion C never jumps; refined.geom cuts all
+// other triangles.
 
 layout(triangles, equal_spacing, ccw) in;
 

@@ -51,8 +51,9 @@ vec2 movement() {
 #endif
 
 #ifdef NUMBER_SLOT
-// Returns 1 in the lens samples that count the surface, and 0 in the others. The fraction of counting samples is alpha.
-// Thresholds are the van der Corput sequence, shifted for each object and pixel.
+// Returns 1 if the lens sample counts the surface, else 0. A sample counts the surface if alpha exceeds the sample's
+// threshold. The thresholds are the van der Corput sequence, shifted for each object and pixel, so the fraction of
+// samples that count the surface is alpha.
 float counted(float alpha) {
     uint offset = pixelPattern(pixelOfImage(), uint(object.values.z) + 1u);
     return alpha > fractionOf(bitfieldReverse(uint(surface.sampleNumber)) + offset) ? 1.0 : 0.0;
@@ -63,7 +64,7 @@ void main() {
     readSurface();
     layerOut = surfaceLight();
 #ifdef TRANSMISSIVE
-    float alpha = 1.0;   // opaque: its data replace the data behind, as its light does
+    float alpha = 1.0;   // the surface's data replace the data behind the surface, as its light does
 #else
     float alpha = alphaBlended ? surfaceBase.a : 1.0;
 #endif

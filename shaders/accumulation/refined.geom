@@ -81,8 +81,8 @@ void emit(Piece piece) {
 
 void main() {
     if (chromatic) bandShift = unsheared[0].bandShift;
-    // Values at the corners of the functions whose zeros are the kinks of the circle of confusion (from front to back)
-    // and the near plane.
+    // Values of five linear functions at the triangle's corners. The zeros of the first four are the kinks of the
+    // circle of confusion, from front to back. The zeros of the last lie on the near plane.
     vec3 atLimitInFront, front, behind, atLimitBehind, beyondNear;
     for (int i = 0; i < 3; ++i) {
         vec3 pinhole = unsheared[i].pinhole;

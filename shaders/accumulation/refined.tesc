@@ -23,13 +23,14 @@ out Unsheared {
 #define SURFACE_OUT passedOn[gl_InvocationID]
 #include "include/surface_write.glsl"
 
-// Returns the two smooth pieces of the circle of confusion C, in front of and behind the focus.
+// Returns the two smooth pieces of the circle of confusion C, in front of and behind the focus plane.
 vec2 smoothPieces(vec3 pinhole, vec2 own) {
     CocPieces pieces = cocPieces(pinhole, own);
     return pieces.factor * vec2(pieces.front, pieces.behind) + pieces.added;
 }
 
-// Returns the image offsets by aberrations of two rays through the lens rim, times w, in halves of the image's width.
+// Returns the image offsets by aberrations of two rays through the lens rim, times w, in units of half the image's
+// width. xy: ray through lens point (u, v) = (1, 0); zw: ray through (0, 1).
 vec4 aberrationPieces(vec3 pinhole) {
     float w = max(pinhole.z, frame.projection.z);
     vec2 perAspect = vec2(1.0, sqrt(frame.cocLimits.z));

@@ -8,7 +8,7 @@ layout(binding = 0) uniform usampler2D heldClasses;
 
 layout(location = 0) out uint spreadOut;
 
-// Returns the bit mask of the blur classes in front of and behind the focus plane, for a bit mask `classes` of one
+// Returns the bit mask of the given blur classes on both sides of the focus plane. `classes` is their bit mask for one
 // side.
 uint ofBothSides(uint classes) {
     return (classes & ((1u << cellsInFront) - 1u)) | (classes & ((1u << cellsBehind) - 1u)) << cellsInFront;

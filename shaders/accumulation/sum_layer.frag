@@ -23,7 +23,8 @@ void main() {
     }
     addCompensated(sum.rgb, compensation.rgb, added.rgb);
     addCompensated(sum.a, compensation.a, added.a);
-    // The third component of the depth is the nearest depth, and its compensation counts the samples.
+    // In the depth layer, the third component of the sum is the nearest depth, and the third component of the
+    // compensation is the number of samples.
     if (keepsNearest) {
         sum.b = nearest;
         compensation.b = seen;

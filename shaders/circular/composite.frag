@@ -1,5 +1,5 @@
 // Composites the blurred far field over the sharp image, and the blurred near field over both. The far field covers
-// only pixels behind the focus plane.
+// only pixels behind the focus plane. A field px is a pixel of the near or far field, often coarser than an image px.
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"
@@ -51,7 +51,7 @@ void main() {
     vec2 place = gl_FragCoord.xy / (float(reduction) * vec2(textureSize(farBlurred, 0)));
     vec4 behind = textureLod(farBlurred, place, 0.0);
     float own = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
-    float farShare = clamp(diameter / float(reduction) - 1.0, 0.0, 1.0);  // fades in for diameters from 1 to 2 field px
+    float farShare = clamp(diameter / float(reduction) - 1.0, 0.0, 1.0);  // fades in at diameters of 1 to 2 field px
     vec3 color;
     if (combinedFields) {
         own += clamp(-diameter, 0.0, 1.0);

@@ -5,13 +5,13 @@
 layout(binding = 0) uniform sampler2D field;
 layout(binding = 1) uniform sampler2D radii;
 layout(binding = 2) uniform sampler2D brightest;       // only if bracketed: the field's max radiance, max weight
-// offset and scale of the real part, then of the imaginary part
+// per component: offset and scale (Bracket) of the real part, then of the imaginary part
 layout(location = 16) uniform vec4 brackets[components];
 layout(location = 15) uniform int firstComponent;
 
-// Per component, the real part and the imaginary part of the sum. If bracketed (sums mapped to [0, 1]; Bracket in
-// src/render/circular/complex_blur.h), per component the real rgb, the imaginary rgb, and the weight's (real part,
-// imaginary part, mean); the last output is then the mean rgb.
+// Two outputs per component: the real part and the imaginary part of the sum. If bracketed (sums mapped to [0, 1];
+// Bracket in src/render/circular/complex_blur.h), three outputs per component: the real part of rgb, the imaginary part
+// of rgb, and the weight's real part, imaginary part and mean. The last output is then the mean rgb.
 layout(location = 0) out vec4 sums[bracketed ? 3 * components + 1 : 2 * components];
 
 vec4 pairAt(ivec2 pixel, int i, Taps taps) {

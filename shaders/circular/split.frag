@@ -1,6 +1,6 @@
 // Splits the pinhole image into a far field (behind the focus plane) and a near field (in front of the focus plane).
-// Each field holds weighted radiance and the weight; another output is the field's blur radius in field px. A field
-// pixel averages reduction × reduction image pixels.
+// Each field holds weighted radiance and the weight. A pixel of a field (field pixel) averages reduction × reduction
+// image pixels. A further output per field is the blur radius in field pixels.
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"

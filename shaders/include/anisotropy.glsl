@@ -18,12 +18,12 @@ float anisotropicReflection(SurfacePoint point, float nl, float nv, float spread
     return nl * 0.5 / (max(masking, 1e-4) * sqrt(wide2.x * wide2.y) * slope * slope);
 }
 
-// Returns the perceptual roughness of isotropic GGX with nearly the same directional albedo. Where n·v ≥ 0.5, the albedo
-// differs by at most 0.075.
+// Returns the perceptual roughness of isotropic GGX with nearly the same directional albedo. Where n·v ≥ 0.5, the
+// albedo differs by at most 0.075.
 float isotropicRoughness(SurfacePoint point) { return sqrt(sqrt(0.5 * dot(point.widths, point.widths))); }
 
-// Returns the normal at which the environment is mirrored: bent along the stretch, as in Khronos's glTF Sample Viewer
-// (McAuley 2015, Rendering the World of Far Cry 4).
+// Returns the normal at which the environment is mirrored. It is bent along the direction in which highlights are
+// stretched, as in Khronos's glTF Sample Viewer (McAuley 2015, Rendering the World of Far Cry 4).
 vec3 stretchedNormal(SurfacePoint point, float strength) {
     vec3 inPlane = cross(cross(point.across, point.toEye), point.across);
     float kept = 1.0 - strength * (1.0 - point.roughness);

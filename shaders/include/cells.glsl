@@ -1,6 +1,7 @@
-// Lens cells (src/plan/lens_cells/lens_cells.h): a pixel's samples are sorted by the blur of their images into classes
-// of increasing blur, separately in front of and behind the focus plane. The array texture of sums has one layer per
-// class.
+// Lens cells (src/plan/lens_cells/lens_cells.h): each lens sample represents a part of the lens, its cell. The
+// sample's image is blurred as this part of the lens would blur it. A pixel's samples are sorted by this blur into
+// classes of increasing blur, separately in front of and behind the focus plane. The array texture of sums has one
+// layer per class.
 //
 // Layer k < cellsInFront sums all samples except the samples in front of the focus plane whose class is k or more
 // blurred. Layer cellsInFront + k sums the samples behind the focus plane whose class is k or more blurred. A class is
@@ -25,8 +26,8 @@ float reachOfClass(float variance, int k) {
 }
 
 // Returns the lower left texel of class k in the texture with the means of all blur classes. Class 0 is on the left;
-// the other classes are stacked to its right. `firstSquares`: columns and rows of class 0. Separate textures or mip
-// levels are slower, because software drivers query their size for each pixel.
+// the other classes are stacked to its right. `firstSquares`: columns and rows of the means of class 0. Separate
+// textures or mip levels are slower, because software drivers query their size for each pixel.
 ivec2 meansOrigin(ivec2 firstSquares, int k) {
     return k == 0 ? ivec2(0) : ivec2(firstSquares.x, firstSquares.y - (firstSquares.y >> (k - 1)));
 }

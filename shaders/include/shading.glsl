@@ -123,8 +123,8 @@ struct Spread {
 // bound is from Tokuyoshi and Kaplanyan 2019 (Improved Geometric Specular Antialiasing). Sample n represents 1/(n + 1)
 // of the pixel's area, as a normal distribution whose σ is half the width of that area. The same variance in all
 // directions leaves the fewest white pixels on rippled surfaces. On a wire, however, normals vary by half a turn across
-// the wire and hardly along it, and a highlight that is widened along the wire would light parts that face away from the
-// light. The variance along the wire is therefore at most 2σ² = 0.03, unless normals vary more in this direction.
+// the wire and hardly along it, and a highlight that is widened along the wire would light parts that face away from
+// the light. The variance along the wire is therefore at most 2σ² = 0.03, unless normals vary more in this direction.
 //
 // With few samples, a lobe narrower than the pixel's variation of normals would give isolated white pixels. The first
 // block of samples therefore widens such a lobe to that variation, and later blocks to a fraction of it. Both widths
@@ -142,7 +142,7 @@ Spread slopeSpread(SurfacePoint point) {
                                   : product * point.normalRight + (deviation - difference) * point.normalUp;
     axis -= point.normal * dot(point.normal, axis);
     float axis2 = dot(axis, axis);
-    float ofEqual = 0.5 * mean;   // if both variances were equal
+    float ofEqual = 0.5 * mean;   // 2σ² over the pixel, with the same variance in all directions
     vec2 ofPixel = vec2(ofEqual, min(ofEqual, max(0.5 * (mean - deviation), 0.03)));
     vec2 ofBlock = min(ofPixel / (wave.firstOfBlock / float(blockSamples) + 1.0), 0.18);
     float width = point.roughness * point.roughness;
@@ -242,8 +242,9 @@ void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec
         sums.behind += illuminance * (coarseLevel ? meanCosine(-dot(point.seen, toLight), cosine, point.spread) : max(-cosine, 0.0));
 }
 
-// Returns the illuminance over π of a point or spot light at `position` (KHR_lights_punctual), and sets the unit vector
-// `toLight`. `positionRange`: position and range of the light; range 0 is unlimited.
+// Returns the illuminance over π that the surface position `position` receives from a point or spot light
+// (KHR_lights_punctual), and sets the unit vector `toLight`. `positionRange`: position and range of the light; range 0
+// is unlimited.
 vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toLight) {
     vec3 offset = positionRange.xyz - position;
     float distance2 = max(dot(offset, offset), 1e-8);
@@ -263,7 +264,7 @@ vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toL
 // Returns the normal for diffuse lighting by the environment.
 vec3 mattNormal(SurfacePoint point) { return coarseLevel ? point.seen : point.normal; }
 
-// Returns the fraction of a white environment that the specular part reflects, as factors of F0 and F90.
+// Returns (x, y) for which the specular part reflects the fraction x·F0 + y·F90 of a white environment.
 vec2 specularAlbedos2(SurfacePoint point, float nv) {
     float roughness = anisotropic && point.widths.x > 0.0 ? isotropicRoughness(point) : point.roughness;
     vec2 size = vec2(textureSize(specularAlbedos, 0));
@@ -271,7 +272,7 @@ vec2 specularAlbedos2(SurfacePoint point, float nv) {
     return textureLod(specularAlbedos, place, 0.0).xy;
 }
 
-// Returns F0, with the film of an iridescent surface.
+// Returns F0, including the effect of an iridescent surface's film.
 vec3 reflectanceOf(SurfacePoint point) {
     return iridescent ? mix(point.specular, point.filmBase, point.iridescence) : point.specular;
 }

@@ -7,10 +7,10 @@
 // is exact for planes. For concave surfaces, the receiver is offset along the facet's normal n by a quarter of a texel
 // plus the deviation of the level of detail from the surface.
 //
-// Where the facet descends towards the texel centre, its plane may reach below a neighbouring facet: a wall's plane goes
-// on below the floor at its foot, and the floor would shadow the wall. There, the comparison uses the depth at which a
-// facet would rise from the receiver as steeply as the receiver's own facet descends, and by at most 45°. This never
-// darkens the receiver, and it leaves facets that face the light unchanged.
+// Where the facet descends towards the texel centre, its plane may reach below a neighbouring facet: a wall's plane
+// goes on below the floor at its foot, and the floor would shadow the wall. There, the comparison uses the depth at
+// which a facet would rise from the receiver as steeply as the receiver's own facet descends, and by at most 45°. This
+// never darkens the receiver, and it leaves facets that face the light unchanged.
 //
 // At grazing light the facet is steep in the map. Let θ be the angle between n and the light, and r half a texel's
 // diagonal. At distance r from the texel centre, the plane is r·tan θ nearer to the light. An offset d along n moves
@@ -43,8 +43,8 @@ float depthAlongFacet(int texel, vec4 clip, vec3 normal, float width, vec2 toMid
     return dot(vec2(a.z, b.z), steps) * (way > farthest ? farthest / way : 1.0);
 }
 
-// Returns 1 for each colour channel in which the facet is lit according to shadow map `slot` of this layer's sample, else
-// 0. `toLight` is a unit vector.
+// Returns for each colour channel 1 if the facet is lit according to shadow map `slot` of this layer's sample, else 0.
+// `toLight` is a unit vector.
 vec3 litAt(int slot, Facet facet, vec3 toLight) {
     int texel = shadowTexel(gl_Layer, slot);
     float cosine = dot(facet.normal, toLight);
@@ -73,7 +73,8 @@ int cubeFace(vec3 direction) {
     return direction.z > 0.0 ? 4 : 5;
 }
 
-// Returns the fraction of the light of `i` that reaches the facet, per colour channel; `toLight` is the unit vector to the light.
+// Returns the fraction of light number i that reaches the facet, per colour channel. `toLight`: unit vector to the
+// light.
 vec3 lightShare(int i, Facet facet, vec3 toLight) {
     if (shadowFirst[i] < 0) return vec3(1.0);
     int map = shadowFirst[i] + (shadowFaces[i] > 1 ? cubeFace(-toLight) : 0);

@@ -82,7 +82,8 @@ void addFilm(inout SurfacePoint point) {
     point.filmBase = schlickBase(filmReflectance(cosine, point.specular, material.film.y, point.film), cosine);
 }
 
-// Moves a part of the diffuse light to light from behind (KHR_materials_diffuse_transmission).
+// Replaces a part of the diffuse reflection by diffuse transmission of light from behind the surface
+// (KHR_materials_diffuse_transmission).
 void addDiffuseTransmission(inout SurfacePoint point, float metallic) {
     float share = material.through.w * materialTexel(diffuseTransmissionTexture).a;
     point.through = (1.0 - metallic) * share * material.through.rgb * materialTexel(diffuseTransmissionColorTexture).rgb;
@@ -125,7 +126,7 @@ vec3 shaded(vec3 baseColor) {
     if (emissive) point.emission = material.emissiveCutoff.rgb * materialTexel(emissiveTexture).rgb;
     if (emissive) shownEmission = point.emission;
     if (coarseLevel) {
-        point.agreement = clamp(surface.agreement, 0.05, 1.0);   // narrow triangles extrapolate beyond their corners
+        point.agreement = clamp(surface.agreement, 0.05, 1.0);   // narrow triangles extrapolate beyond corner values
         point.spread = normalSpread(point.agreement);
         point.seen = seenNormal(point.normal, point.toEye, point.agreement, point.spread);
     }

@@ -11,5 +11,5 @@ float transmittedShare(float metallic) {
     return (1.0 - metallic) * material.transmission.x * materialTexel(transmissionTexture).r;
 }
 
-// Returns the colour of transmitted light after `way` m in the volume, by Beer–Lambert absorption.
+// Returns the colour of transmitted light after a path of `way` m through the volume, by Beer–Lambert absorption.
 vec3 transmittedTint(vec3 baseColor, float way) { return baseColor * exp(-material.absorption.rgb * way); }

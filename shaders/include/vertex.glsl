@@ -6,7 +6,8 @@ layout(location = 2) in vec4 colorIn;
 layout(location = 3) in vec2 uv0In;
 layout(location = 4) in vec2 uv1In;
 layout(location = 5) in vec4 tangentIn;
-layout(location = 8) in vec3 blurIn;           // factor; added blur in mm on the sensor at shutter opening and closing
+// x: blur factor; y, z: added blur in mm on the sensor, at shutter opening and at shutter closing
+layout(location = 8) in vec3 blurIn;
 
 struct Posed {
     vec3 position;
@@ -30,8 +31,8 @@ Vertex vertexAt(vec2 moment, Posed rest, vec3 eye) {
 }
 #endif
 
-// Returns the vertex at `moment`: index of a shutter time, fraction of the way to the next shutter time, time in [0,
-// 1]. `eye` is the lens point (m) in view space.
+// Returns the vertex at `moment`: (index of a shutter time, fraction of the way to the next shutter time, time within
+// the exposure from 0 to 1). `eye` is the lens point (m) in view space.
 Vertex vertexAt(vec3 moment, vec3 eye) { return vertexAt(moment.xy, Posed(positionIn, normalIn, tangentIn.xyz), eye); }
 
 // Returns the blur modifiers of the vertex, (factor, added fraction of the image's width), at a time in [0, 1].

@@ -60,7 +60,7 @@ void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
     ivec2 texel = clamp(ivec2(floor(placeAt(ray, reach.x))), ivec2(0), size - 1);
     float begin = reach.x;
     bool connected = false;   // true if the previous pixel has a surface
-    float before = 0.0;       // px of blur by which the ray was behind the plane at its exit
+    float before = 0.0;       // px of blur by which the ray left the previous pixel behind that pixel's plane
     while (true) {
         vec2 ends = (vec2(texel + max(forward, 0)) - ray.start) * ray.perSlope;
         float end = min(min(ends.x, ends.y), reach.y);
@@ -92,7 +92,7 @@ void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
 void main() {
     vec2 lens = vec2(sky.lensAndJitter.x, sky.lensAndJitter.y * frame.window.w / frame.window.z);
     vec2 inPixel = -0.5 * sky.lensAndJitter.zw * frame.window.zw - pinhole;
-    // Despite rounding, the clamp keeps rays to surfaces in focus inside their pixel.
+    // The clamp leaves a margin for rounding errors, so that rays to surfaces in focus stay inside their pixel.
     vec2 start = gl_FragCoord.xy + vec2(border) + clamp(inPixel, -0.47, 0.47);
     vec2 slope = -0.5 * lens;
     vec2 perSlope = vec2(abs(slope.x) > 1e-9 ? 1.0 / slope.x : 1e9, abs(slope.y) > 1e-9 ? 1.0 / slope.y : 1e9);

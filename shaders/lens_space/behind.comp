@@ -16,14 +16,14 @@ layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };
 layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
 
 layout(location = 2) uniform uint recordCount;
-layout(location = 3) uniform uvec2 tiles;   // first and end of the tiles whose lists are in `entries`
+layout(location = 3) uniform uvec2 tiles;   // the lists of tiles [x, y) are in `entries`
 
 // The ray. Initialised because drivers warn about uninitialised values.
 vec2 lens = vec2(0.0);
 vec2 place = vec2(0.0);
 float time = 0.0;
 uint number = 0u;
-float behindDepth = 0.0;   // depth of the hit through which the ray goes on
+float behindDepth = 0.0;   // depth w of the ray's latest hit; the next hit is behind it
 uint behindTriangle = noTriangle;
 float nearest = 3e38;
 uint triangle = noTriangle;

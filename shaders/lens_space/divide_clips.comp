@@ -10,12 +10,12 @@ layout(local_size_x = 256) in;
 
 layout(std430, binding = 0) buffer ClipBlock { vec4 clips[]; };
 layout(std430, binding = 1) readonly buffer BaseBlock { uvec4 bases[]; };
-layout(std430, binding = 2) readonly buffer OwnBlock { vec2 ownBlurs[]; };   // per undivided vertex (include/lens.glsl)
+layout(std430, binding = 2) readonly buffer OwnBlock { vec2 ownBlurs[]; };   // per vertex: blur modifiers (lens.glsl)
 
 layout(location = 0) uniform uint firstBase;     // undivided triangles [firstBase, firstBase + baseCount)
 layout(location = 1) uniform uint baseCount;
 layout(location = 2) uniform uint parts;
-layout(location = 3) uniform uint firstVertex;   // index in the frame of the division's first vertex
+layout(location = 3) uniform uint firstVertex;   // index of the first new vertex among the frame's vertices
 
 void main() {
     uint i = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;

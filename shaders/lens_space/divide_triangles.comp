@@ -8,14 +8,15 @@ layout(local_size_x = 256) in;
 layout(std430, binding = 1) readonly buffer BaseBlock { uvec4 bases[]; };
 layout(std430, binding = 2) writeonly buffer TriangleBlock { uvec4 triangles[]; };
 #ifdef LIGHTS_VERTICES
-layout(std430, binding = 3) buffer FirstBlock { uint firstTriangles[]; };   // per vertex
+// per vertex: the frame's first triangle with this vertex
+layout(std430, binding = 3) buffer FirstBlock { uint firstTriangles[]; };
 #endif
 
 layout(location = 0) uniform uint firstBase;       // undivided triangles [firstBase, firstBase + baseCount)
 layout(location = 1) uniform uint baseCount;
 layout(location = 2) uniform uint parts;
-layout(location = 3) uniform uint firstVertex;     // index in the frame of the division's first vertex
-layout(location = 4) uniform uint firstTriangle;   // index in the frame of the division's first triangle
+layout(location = 3) uniform uint firstVertex;     // index of the first new vertex among the frame's vertices
+layout(location = 4) uniform uint firstTriangle;   // index of the first small triangle among the frame's triangles
 
 void main() {
     uint i = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;

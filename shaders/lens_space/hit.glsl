@@ -1,10 +1,10 @@
-// The surface that a ray hits, with the attributes of the hit triangle interpolated, in the global variable `surface`
-// (surface.glsl).
+// Attributes of the surface that a ray hits, interpolated between the triangle's corners and stored in the global
+// variable `surface` (surface.glsl).
 
 vec3 hitWeights(vec3 edges) { return edges / (edges.x + edges.y + edges.z); }
 
-// Reads the surface of triangle `triangle` where the ray through lens point `lens` to image position `place` hits it at
-// `time` in the part of the exposure.
+// Reads the surface of triangle `triangle` where the ray through lens point `lens` to image position `place` hits it.
+// `time`: fraction of the current part of the exposure, [0, 1].
 void readHit(uint triangle, float time, vec2 lens, vec2 place) {
     uvec3 vertices = triangles[triangle].xyz;
     vec4 a = clipAt(vertices.x, time);

@@ -1,5 +1,5 @@
-// Decides for the records (ray hits) of one cut-out or blended material whether the ray stops at the surface. A ray that
-// goes on gets a negative weight, and behind.comp finds its next hit.
+// Decides for the records (ray hits) of one cut-out or blended material whether the ray stops at the surface. A ray
+// that goes on gets a negative weight, and behind.comp finds its next hit.
 //
 // A cut-out stops a ray where alpha reaches the cutoff; see alpha_mask.glsl for minified cut-outs. A blended surface of
 // opacity α stops the fraction α of all rays, so that the mean over the rays is the blended colour (Enderton, Sintorn,
@@ -22,7 +22,7 @@ layout(std430, binding = 5) buffer CountBlock { uint goOn; };   // number of ray
 
 layout(location = 2) uniform uint group;
 layout(location = 3) uniform uint recordCount;
-layout(location = 4) uniform bool first;   // true: the first hit of each ray; else only records with negative weight
+layout(location = 4) uniform bool first;   // true: first hit of each ray; false: only records with negative weight
 
 // Laine and Karras 2011, Stratified Sampling for Stochastic Transparency, with the constants of Burley 2020, Practical
 // Hash-based Owen Scrambling.
@@ -67,7 +67,7 @@ bool stops(float threshold) {
     Alpha texel = textureAlpha(baseColorTexture);
     float alpha = surface.color.a * texel.value;
     if (!alphaTested) return alpha > threshold;
-    // Texels of mip levels ≥ 1 hold the coverage, of level 0 alpha.
+    // Texels of mip level 0 hold alpha; texels of the other mip levels hold the coverage.
     return alpha >= mix(material.emissiveCutoff.w, max(surface.color.a, 1e-3) * threshold, min(texel.level, 1.0));
 }
 
@@ -81,7 +81,7 @@ void main() {
     Ray ray = rayOf(numberOf(record), pixel);
     readHit(record.triangle, ray.values.x, lensPointOf(record, ray), placeOf(ray, pixel));
     float threshold = thresholdOf(firstRay + numberOf(record), pixel, record.triangle);
-    // The points on a line have the same number. Their thresholds are spread by their position.
+    // All points on a line sample have the same ray number. Their positions along the line spread their thresholds.
     if (lineSamples) threshold = fract(threshold + 7.236 * record.place);
     bool stopped = stops(threshold);
     records[index].weight = stopped ? abs(record.weight) : -abs(record.weight);

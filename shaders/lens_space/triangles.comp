@@ -6,7 +6,8 @@ layout(local_size_x = 256) in;
 layout(std430, binding = 0) readonly buffer IndexBlock { uint indices[]; };
 layout(std430, binding = 2) writeonly buffer TriangleBlock { uvec4 triangles[]; };
 #ifdef LIGHTS_VERTICES
-layout(std430, binding = 3) buffer FirstBlock { uint firstTriangles[]; };   // per vertex
+// per vertex: the frame's first triangle with this vertex
+layout(std430, binding = 3) buffer FirstBlock { uint firstTriangles[]; };
 #endif
 
 layout(location = 0) uniform uint firstIndex;

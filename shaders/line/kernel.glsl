@@ -36,16 +36,17 @@ layout(std140, binding = 7) uniform BoundBlock { Bounds lensBounds[maxRays]; };
 
 layout(location = 2) uniform uint firstTile;       // first tile whose list is in `entries`
 layout(location = 3) uniform uint recordCapacity;
-// Max motion of a surface in the image (px), along a segment, for one shading point; 0: one point per segment.
+// Distance in px that a surface may move in the image, along a segment, per shading point; 0: one shading point per
+// segment.
 layout(location = 5) uniform float shadingStep;
-// A job is the work of a workgroup: one tile, and one line sample of each of its pixels. Mesa's software driver ends the
-// loops of a thread after a total of 65,535 iterations (rounds). Jobs that need more continue in later dispatches.
+// A job is the work of a workgroup: one tile, and one line sample of each of its pixels. Mesa's software driver ends
+// the loops of a thread after a total of 65,535 iterations (rounds). Jobs that need more continue in later dispatches.
 layout(location = 6) uniform uint maxRounds;      // approximate max loop iterations per dispatch; 0: unlimited
 // x: 1 runs deferred jobs, 0 all tiles and lines. Indices into `ranges`: y: first deferred job to run; z: start of the
 // saved states; w: position for storing deferred jobs.
 layout(location = 7) uniform uvec4 jobs;
 
-layout(location = 8) uniform uint binSize;         // max triangles of a tile, the nearest ones; 0: unlimited
+layout(location = 8) uniform uint binSize;         // max triangles per tile; only the nearest are kept; 0: unlimited
 
 const uint threads = uint(tileSize * tileSize);
 const uint maxKept = 64u;

@@ -5,7 +5,7 @@
 // w, C) lies at q(p) = α + p·β relative to an image position s, with α = (x, y) − w·s and β = C·d. All β are parallel,
 // so the edge functions are linear in p:
 //   e_ij(p) = α_i × α_j + p·(α_i × β_j + β_i × α_j).
-// The line sees the triangle's front where all e_ij ≥ 0, the paper's C + u·A(y) − v·B(x) ≥ 0. The depth w there follows
+// The line sees the triangle's front where all e_ij ≥ 0; the paper writes C + u·A(y) − v·B(x) ≥ 0. There, w follows
 // from 1/w = E/D, with E = Σ e and the triangle's determinant D = Σ e·w. Both are linear in p. So is D − near·E, which
 // is ≥ 0 for the part of the triangle beyond the near plane.
 

@@ -8,8 +8,8 @@
 // The paper gives no thresholds; the constants below are ours. A final sweep along the line finds the nearest segments.
 // Where segments intersect, the sweep switches between them only at an end of a segment.
 //
-// shortIntervals: 16 bits hold the interval of a segment, 8 for each end. Colour (16 bits) and depth stand beside it.
-// The paper stores a segment in 16 bits; this division of the data is ours.
+// shortIntervals: 16 bits hold the interval of a segment, 8 for each end. Colour (16 bits) and depth are stored in
+// addition. The paper stores a segment in 16 bits; this division of the data is ours.
 
 struct Piece {
     float first;
@@ -23,8 +23,8 @@ struct Segment {
     vec2 ends;        // positions p
     vec2 depths;      // 1/w at both ends
     uint triangle;
-    bool front;       // orientation: shows the triangle's front
-    vec3 color;       // light in the middle of the segment, each in [0, 1]; only with light of vertices
+    bool front;       // true: the triangle's front is visible
+    vec3 color;       // light in the middle of the segment, channels in [0, 1]; only if vertices are lit
 };
 
 const float minLength = 1.0 / 512.0;         // fraction of the line's length
@@ -72,7 +72,7 @@ float lineLength() { return 1.0 + lineSides.x; }
 uint shortEnd(float p) { return uint(clamp(round((p + lineSides.x) / lineLength() * 255.0), 0.0, 255.0)); }
 float fromShortEnd(uint end) { return end == 255u ? 1.0 : float(end) / 255.0 * lineLength() - lineSides.x; }
 
-// Returns the ends with the precision of the buffer.
+// Returns the ends of a segment, rounded to the precision of the buffer.
 vec2 storedEnds(vec2 ends) {
     return shortIntervals ? vec2(fromShortEnd(shortEnd(ends.x)), fromShortEnd(shortEnd(ends.y))) : ends;
 }
@@ -116,8 +116,8 @@ void drop(Segment segment) {
 
 float slopeOf(Segment segment) { return (segment.depths.y - segment.depths.x) / max(segment.ends.y - segment.ends.x, 1e-6); }
 
-// Returns true if the colours of two segments agree. Without light of vertices, segments have no colour, and their
-// object and material must be the same.
+// Returns true if the colours of two segments agree. If vertices are not lit, segments have no colour, and their object
+// and material must be the same.
 bool sameColors(Segment a, Segment b) {
     if (!lightsVertices) return triangles[a.triangle].w == triangles[b.triangle].w;
     return all(lessThanEqual(abs(a.color - b.color), vec3(sameColor)));
@@ -134,7 +134,7 @@ bool mergedInto(uint i, Segment segment) {
     if (segment.front != other.front) return false;
     float both = segment.ends.y - segment.ends.x + other.ends.y - other.ends.x;
     if (abs(slopeOf(segment) - slopeOf(other)) * both > sameSlope * max(other.depths.x, other.depths.y)) return false;
-    // The longer segment provides triangle and colour for both.
+    // The joined segment gets the triangle and the colour of the longer segment.
     Segment result = lengthOf(segment) > lengthOf(other) ? segment : other;
     result.ends = after ? vec2(other.ends.x, segment.ends.y) : vec2(segment.ends.x, other.ends.y);
     result.depths = after ? vec2(other.depths.x, segment.depths.y) : vec2(segment.depths.x, other.depths.y);

@@ -1,7 +1,7 @@
 // Stores the signed blurriness of the pinhole image, which also orders surfaces by depth, in alpha. Blurriness is −1 at
 // max blur in front of the focus plane, 0 in focus and 1 at max blur behind the focus plane; [−1, 1] is stored as [0,
-// 1]. With several samples per pixel, writes their mean, as a multisampled back buffer with blurriness in its alpha is
-// resolved.
+// 1]. With several samples per pixel, writes their mean, like the resolve of a multisampled back buffer that has
+// blurriness in alpha.
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"

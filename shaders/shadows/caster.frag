@@ -1,7 +1,8 @@
-// Draws a shadow caster. A caster that transmits a part of the light covers the corresponding fraction of the texels,
-// different texels in each lens sample and each map (include/alpha_choice.glsl). With tintedShadows, each colour channel
-// has its own fraction, and the depth of the surface that hides the channel is a colour (McGuire and Enderton 2011,
-// Colored Stochastic Shadow Maps). Otherwise only depth is written, and colours count by their luminance.
+// Draws a shadow caster. A caster that transmits a part of the light covers a fraction of the texels that equals the
+// blocked fraction of the light. The choice of texels differs between lens samples and between maps
+// (include/alpha_choice.glsl). With tintedShadows, each colour channel has its own fraction, and each channel of the
+// output is the depth of the surface that hides the channel (McGuire and Enderton 2011, Colored Stochastic Shadow
+// Maps). Otherwise only depth is written, and the luminance of the transmitted colour determines the fraction.
 
 #include "include/frame.glsl"
 #include "include/surface_fragment.glsl"
@@ -26,7 +27,7 @@ void main() {
     vec3 hidden = vec3(1.0);
     if (letsLightPass) {
         float metallic = material.surface.x * materialTexel(metallicRoughnessTexture).b;
-        // The thickness reaches from the front to the back of a volume, so that only the front absorbs.
+        // The thickness of a volume is measured from its front to its back, so only the front absorbs light.
         vec3 tint = transmittedTint(color.rgb, gl_FrontFacing ? volumeThickness() : 0.0);
         if (!tintedShadows) tint = vec3(dot(tint, vec3(0.2126, 0.7152, 0.0722)));
         hidden -= transmittedShare(metallic) * tint;

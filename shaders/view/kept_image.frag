@@ -1,4 +1,4 @@
-// Rounds an image to half floats; larger radiance is clamped.
+// Rounds an image to half floats; radiance above their range is clamped.
 
 layout(binding = 0) uniform sampler2D image;
 

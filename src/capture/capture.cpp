@@ -100,7 +100,7 @@ StopSettings stopOf(const FilmOptions& options) {
     return stop;
 }
 
-// Returns a frame's metadata with the settings hash of its file number `file`.
+// Returns the metadata for the file with index `file` of a frame: `ofFrame` with that file's settings hash.
 Metadata fileMetadata(const FilmFrame& film, std::size_t file, const Metadata& ofFrame) {
     Metadata metadata = ofFrame;
     metadata[settingsAttribute] = film.settings[file];

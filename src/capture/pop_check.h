@@ -30,8 +30,8 @@ public:
     void note(int frame, const FramePlan& plan);
 
     [[nodiscard]] const std::optional<FramePop>& largest() const { return largest_; }
-    [[nodiscard]] int compared() const { return compared_; }  // number of pairs of frames
-    // Number of the pairs that can't be compared, because their numbers of lens samples differ.
+    [[nodiscard]] int compared() const { return compared_; }  // number of compared pairs of frames
+    // Returns the number of pairs that can't be compared, because their numbers of lens samples differ.
     [[nodiscard]] int incomparable() const { return incomparable_; }
 
 private:

@@ -22,7 +22,7 @@ bool isShapeField(const LensField& field) {
     return field.feature == LensFeature::shape || field.name == std::string_view("anamorphicRatio");
 }
 
-// Returns the lens with the aperture shape of a disk; an aperture image stays.
+// Returns the lens with the default aperture shape, a disk. An aperture image is kept.
 Lens withDisk(Lens lens) {
     const Lens standard;
     for (const LensField& field : lensFields())

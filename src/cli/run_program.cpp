@@ -177,7 +177,7 @@ std::string outputFault() {
     std::cout.flush();  // the text of --help or --version
     errno = 0;
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout) return {};
-    if (errno == 0) {  // an earlier write failed; one more tells the reason
+    if (errno == 0) {  // an earlier write failed; another write sets errno
         std::clearerr(stdout);
         std::fputc('\n', stdout);
         std::fflush(stdout);

@@ -179,7 +179,7 @@ void createOwnFolder(const fs::path& folder) {
     std::error_code status;
     if (fs::is_directory(folder, status)) return;
     fs::path full = fs::absolute(folder).lexically_normal();
-    if (!full.has_filename()) full = full.parent_path();  // of "folder/"
+    if (!full.has_filename()) full = full.parent_path();  // "folder/" has an empty file name
     fs::create_directories(full.parent_path(), status);
     if (status) fail("cannot create {}: {}", folder.string(), status.message());
     if (::mkdir(full.c_str(), 0700) != 0 && !fs::is_directory(full, status))

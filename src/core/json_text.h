@@ -9,7 +9,7 @@ namespace defocus::engine {
 // ten levels.
 inline constexpr int deepestJson = 64;
 
-// Returns the maximum nesting depth of arrays and objects; works on invalid JSON too.
+// Returns the maximum nesting depth of arrays and objects; also works on invalid JSON.
 int jsonNesting(std::string_view text);
 
 }  // namespace defocus::engine

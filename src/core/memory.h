@@ -16,7 +16,8 @@ void giveBackFreedMemory();
 // rasterizers free vertex memory after each draw; getting the pages back from the system can take longer than the draw.
 void keepFreedMemory();
 
-inline constexpr std::size_t hugePage = std::size_t{2} << 20;  // bytes; only a hint where huge pages have another size
+// Size of a huge page in bytes. On a system with huge pages of another size, blocks may get small pages instead.
+inline constexpr std::size_t hugePage = std::size_t{2} << 20;
 
 // Allocates zeroed pages for at least `bytes` bytes. Throws std::bad_alloc on failure.
 void* allocatePages(std::size_t bytes);

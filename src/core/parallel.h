@@ -22,7 +22,7 @@ public:
     Tasks& operator=(const Tasks&) = delete;
 
     void add(std::function<void()> task);
-    // Blocks until all tasks are done; the calling thread runs tasks too. Rethrows the first exception of a task.
+    // Blocks until all tasks are done; the calling thread also runs tasks. Rethrows the first exception of a task.
     void wait();
 
 private:

@@ -18,8 +18,8 @@ struct BenchSubject {
     Machine machine;
     std::string device;
     std::string driver;
-    bool software = false;  // software driver, whose timer queries miss the vertex work
-    std::string scene;      // empty if the bench builds its own scenes
+    bool software = false;  // true for a software driver, whose timer queries miss the vertex work
+    std::string scene;      // scene file; empty if the bench builds its own scenes
     std::string camera;
     std::optional<Lens> lens;  // none if the bench varies the lens
     int width = 0;             // px; 0 if the bench uses several sizes

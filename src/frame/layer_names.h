@@ -1,5 +1,5 @@
 #pragma once
-// Names of data layers (defocus/layers.h): in --exr-layers, and in EXR files.
+// Names of data layers (defocus/layers.h) in the option --exr-layers and in EXR files.
 
 #include <array>
 #include <span>
@@ -10,9 +10,9 @@ namespace defocus::engine {
 
 struct LayerNames {
     Layer layer;
-    const char* option;   // in --exr-layers
-    const char* nuke;     // layer in Nuke's files
-    const char* blender;  // pass in Blender's files
+    const char* option;   // name in --exr-layers
+    const char* nuke;     // layer name in Nuke's files
+    const char* blender;  // pass name in Blender's files
     std::array<const char*, 3> channels;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 // Headless OpenGL 4.5 core context through EGL. Displays are tried in this order: enumerated devices (GPUs before
-// software rasterizers), the surfaceless platform, the default display. Reasons of failed attempts are logged.
+// software rasterizers), the surfaceless platform, the default display. log() gives the reason for each failed attempt.
 
 #include <memory>
 #include <string>

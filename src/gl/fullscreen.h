@@ -6,7 +6,7 @@
 
 namespace defocus::engine {
 
-// Vertex shader for the programs that Fullscreen draws.
+// Vertex shader of the programs that Fullscreen draws with.
 inline constexpr const char* fullscreenShader = "include/fullscreen.vert";
 
 class Fullscreen {

@@ -37,7 +37,7 @@ constexpr ShaderConstant constants[] = {
     {"float", "layerLargest", "0.0"},  // colours in a layer are clamped to this value; 0: no clamping
     {"bool", "startsBlock", "false"},
     {"bool", "keepsNearest", "false"},  // the data layer is the depth
-    {"int", "tableEntries", "1"},       // max different numbers that a pixel counts
+    {"int", "tableEntries", "1"},       // max objects or materials that a pixel counts separately
 
     // Surfaces
     {"bool", "lit", "false", "LIT"},
@@ -108,7 +108,7 @@ constexpr ShaderConstant constants[] = {
     {"bool", "lineSamples", "false"},
     {"int", "segmentCapacity", "1"},
     {"bool", "shortIntervals", "false"},  // stores the interval of a segment in 16 bits
-    {"bool", "areaWeights", "true"},      // weights parts of lines by κ
+    {"bool", "areaWeights", "true"},      // weights parts of lines by κ (weights.glsl), not only by length
     {"bool", "lightsVertices", "false", "LIGHTS_VERTICES"},
     {"int", "maxShadingPoints", "1"},
 
@@ -121,7 +121,7 @@ constexpr ShaderConstant constants[] = {
     {"bool", "exactTaps", "false"},
     {"bool", "tapSets", "false"},
     {"bool", "ofChannels", "false"},
-    {"int", "reduction", "1"},  // downsampling factor per axis; method scheuermann uses it, too
+    {"int", "reduction", "1"},  // downsampling factor per axis; also used by method scheuermann
     {"bool", "combinedFields", "false"},
     {"bool", "nearPremultiplied", "false"},
     {"bool", "biasByLuminance", "false"},

@@ -26,8 +26,8 @@ public:
     // Attaches only layer `layer` of each array texture; `depth` is a 2D texture.
     Target(const std::vector<const GlTexture*>& colors, const GlTexture& depth, std::uint32_t layer);
 
-    // Copies all colour attachments and, if `depth`, the depth to `to`, which has the same size and formats. Of a
-    // multisampled target, each pixel's colour is the mean of its samples, and its depth that of one sample.
+    // Copies all colour attachments and, if `depth` is true, the depth attachment to `to`, which has the same size and
+    // formats. If this target is multisampled, a pixel gets the mean colour of its samples and the depth of one sample.
     void resolve(const Target& to, bool depth) const;
     // Binds the framebuffer and sets the viewport to its full size.
     void bind() const;

@@ -1,7 +1,8 @@
 #pragma once
 // Two images prepared for image metrics: equal size, RGB and finite. Grey is copied to all three channels. Alpha is
-// dropped, so premultiplied colours appear over black. A pixel with NaN or infinity is marked and replaced by the other
-// image's pixel, or by black if both are non-finite, so that filters do not spread it.
+// dropped, so premultiplied colours appear over black. A pixel with NaN or infinity is marked and replaced by the
+// corresponding pixel of the other image, or by black if both are non-finite. Filters therefore do not spread NaN and
+// infinity.
 
 #include <cstdint>
 #include <vector>

@@ -15,7 +15,7 @@ namespace defocus::engine {
 // OpenEXR detects other faults.
 void checkExrHeader(std::span<const std::byte> head, std::uint64_t fileBytes, const std::string& name);
 
-// Reads the first `headBytes` of the file `path`, at most, and checks them as above.
+// Reads at most the first `headBytes` bytes of the file `path` and checks them in the same way.
 void checkExrHeader(const std::filesystem::path& path, std::size_t headBytes = std::size_t{1} << 16);
 
 }  // namespace defocus::engine

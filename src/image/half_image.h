@@ -36,7 +36,7 @@ inline float fromHalf(std::uint16_t half) {
 HalfImage halfImage(const ImageView& image);
 Image fullImage(const HalfImage& image);
 
-// Adds `count` finite 16-bit floats to as many sums.
+// Adds each of `count` finite 16-bit floats to the sum with the same index.
 void addHalves(const std::uint16_t* halves, std::size_t count, float* sums);
 
 }  // namespace defocus::engine

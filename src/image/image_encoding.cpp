@@ -40,7 +40,7 @@ Image withoutAlpha(const ImageView& image) {
     return opaque;
 }
 
-// x and y of red, green, blue and the white point D65 of Rec. ITU-R BT.709.
+// CIE xy chromaticities (x, then y) of red, green, blue and the white point D65 of Rec. ITU-R BT.709.
 constexpr std::array<float, 8> rec709 = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
 
 // Adds one metadata value to `spec`, as text for PNG and with its EXR type for EXR.

@@ -30,7 +30,7 @@ struct Rational {  // EXR's framesPerSecond
     int denominator = 1;
     bool operator==(const Rational&) const = default;
 };
-struct TimeCode {  // SMPTE time code without dropped frames
+struct TimeCode {  // SMPTE non-drop-frame time code
     int hours = 0;
     int minutes = 0;
     int seconds = 0;

@@ -46,7 +46,7 @@ PixelState stateAt(const ComparablePair& pair, int x, int y) {
 
 // Rows of the image that are compared together, and the margin above and below that the filters need.
 struct Strip {
-    int first = 0;  // compared rows
+    int first = 0;  // compared rows: [first, end)
     int end = 0;
     int from = 0;  // rows including the margins: [from, to)
     int to = 0;
@@ -67,7 +67,8 @@ std::vector<Strip> stripsOf(int width, int height, std::uint64_t maxBytes) {
     return strips;
 }
 
-// Returns the errors of one row of the strip. `row` counts within the strip, `maskRow` within the image.
+// Returns the errors of one row of the strip. `y` is the index of the row in the strip, `maskRow` its index in the
+// image.
 ErrorSums rowErrors(const ComparablePair& pair, const Image& displayA, const Image& displayB, const Image* mask, int y,
                     int maskRow) {
     ErrorSums row;

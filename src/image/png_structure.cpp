@@ -20,7 +20,7 @@ constexpr std::size_t signatureLength = 8;
 constexpr std::size_t chunkOverhead = 12;  // bytes of a chunk's length, type and checksum
 constexpr std::array<std::string_view, 8> keptChunks = {"IHDR", "PLTE", "IDAT", "IEND", "tRNS", "gAMA", "sRGB", "tEXt"};
 
-constexpr unsigned char filterTypes = 5;      // section 9.2
+constexpr unsigned char filterTypes = 5;      // number of filter types (section 9.2)
 constexpr std::uint32_t maxSide = 1'000'000;  // px, libpng's limit
 constexpr std::size_t headerLength = 13, maxPaletteLength = 3 * 256;
 
@@ -43,7 +43,7 @@ void append(std::vector<unsigned char>& target, std::span<const std::byte> bytes
 struct Header {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    unsigned bits = 0;    // per channel
+    unsigned bits = 0;    // bits per channel
     unsigned colour = 0;  // colour type
     bool interlaced = false;
 };
@@ -59,7 +59,7 @@ Header headerOf(std::span<const std::byte> data, const std::string& name) {
     const Header header{bigEndian(data), bigEndian(data.subspan(4)), byte(8), byte(9), byte(12) == 1};
     if (std::min(header.width, header.height) == 0 || std::max(header.width, header.height) > maxSide)
         fail("{}: damaged PNG image: {} x {} px", name, header.width, header.height);
-    // Table 11.1 of the specification.
+    // Valid combinations of colour type and bits per channel: table 11.1 of the PNG specification.
     const unsigned bits = header.bits, colour = header.colour;
     const bool small = bits == 1 || bits == 2 || bits == 4;
     const bool valid =

@@ -18,7 +18,7 @@ double gradientNoise(int x, int y) {
 
 std::vector<std::uint8_t> quantised(const Image& display, int firstRow) {
     constexpr int betweenChannels = 47;  // offset in px; decorrelates the dither of the channels
-    constexpr double ownValue = 1e-3;    // max distance from a multiple of 1/255 that is not dithered, in 1/255
+    constexpr double ownValue = 1e-3;    // in units of 1/255; values this close to a multiple of 1/255 are not dithered
     std::vector<std::uint8_t> bytes;
     bytes.reserve(display.pixels.size());
     for (int y = 0; y < display.height; ++y)

@@ -1,6 +1,6 @@
 #pragma once
-// Time codes and frame rates of film frames, as EXR files store them. Source: SMPTE ST 12-1, time address of 60-field
-// television, without dropped frames.
+// Time codes and frame rates of film frames, as EXR files store them. Source: SMPTE ST 12-1, non-drop-frame time
+// address of 60-field television.
 
 #include <cstdint>
 #include <optional>

@@ -24,7 +24,7 @@ constexpr int maxCells = 1024;
 // ---- blades ---------------------------------------------------------------------------------------------------------
 
 struct Blade {
-    double halfAngle = 0;  // π/n
+    double halfAngle = 0;  // π/n for n blades
     double curvature = 0;
 };
 

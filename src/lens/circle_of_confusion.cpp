@@ -39,10 +39,10 @@ Interval squared(const Interval& p) {
 
 // Ranges of the terms of the circle of confusion C over a box (circle_of_confusion.h).
 struct Parts {
-    Interval radius2;  // r²
+    Interval radius2;  // r², squared distance from the image's centre
     Interval factor;   // surface's blur factor times the radial blur gain 1 + g·r²
-    Interval front;    // F
-    Interval behind;   // B
+    Interval front;    // term F, in front of the focus plane
+    Interval behind;   // term B, behind the focus plane
 };
 
 Parts partsOver(const ClipCircleOfConfusion& coc, const CocBox& box) {

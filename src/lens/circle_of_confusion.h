@@ -31,14 +31,14 @@ namespace defocus::engine {
 struct ClipCircleOfConfusion {
     double a = 0;
     double aBehind = 0;                                                // a₂ in the equation above, ≤ a
-    double front = 0;                                                  // b₁
+    double front = 0;                                                  // b₁ in the equation above
     double behind = 0;                                                 // b₂ in the equation above, ≤ b₁
-    glm::dvec2 tilt{0};                                                // t
-    double curvature = 0;                                              // κ
-    double gain = 0;                                                   // g
-    double foregroundLimit = std::numeric_limits<double>::infinity();  // R₁
-    double backgroundLimit = std::numeric_limits<double>::infinity();  // R₂
-    double aspect = 1;                                                 // k
+    glm::dvec2 tilt{0};                                                // t of the tilted focus plane
+    double curvature = 0;                                              // κ of the curved focus surface
+    double gain = 0;                                                   // g of the radial blur gain 1 + g·r²
+    double foregroundLimit = std::numeric_limits<double>::infinity();  // R₁, a fraction of the image's width
+    double backgroundLimit = std::numeric_limits<double>::infinity();  // R₂, a fraction of the image's width
+    double aspect = 1;                                                 // k, the image's width over its height
     double shareOfMillimetre = 0;  // fraction of the image's width per mm on the sensor; scales added vertex blur
     double astigmatism = 0;        // coefficient A of aberrations.h
     double coma = 0;               // coefficient B of aberrations.h

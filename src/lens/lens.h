@@ -22,18 +22,18 @@ struct Lens {
     double focusDistance = 2.5;      // m from the camera along the view axis, > 0 (infinity is allowed)
     double horizontalAperture = 36;  // mm, width of the sensor
     bool dofEnabled = true;          // false: a pinhole camera for any f-number
-    double blurScale = 1;            // factor on the blur, ≥ 0; 1 is physical
+    double blurScale = 1;            // factor on the blur, ≥ 0; 1 is physically correct
     bool focusBreathing = false;     // true: thin lens whose field of view narrows as the focus comes nearer
     double exposureTime = 0;         // s, see photographic_exposure.h; 0: the lens doesn't affect the exposure
     double iso = 100;                // sensitivity, > 0
 
     // Aperture; see aperture.h.
     int bladeCount = 0;                   // 0: a disk; else a polygon of 3 or more blades
-    double bladeRotation = 0;             // radians; rotates aperture images too
+    double bladeRotation = 0;             // radians; also rotates aperture images
     double bladeCurvature = 0;            // 0: straight blades, 1: a circle
     double anamorphicRatio = 1;           // > 1 narrows the aperture horizontally (tall ovals)
     double obstruction = 0;               // mirror lens: inner over outer diameter, [0, 1)
-    double sphericalAberration = 0;       // [−1, 1]; > 0: blur disks with a bright rim (soap bubbles), < 0: creamy
+    double sphericalAberration = 0;       // [−1, 1]; > 0: blur disks with a bright rim, < 0: with a bright centre
     double catEye = 0;                    // [0, 1]; fraction of the aperture's radius hidden in the corners
     double axialChromaticAberration = 0;  // dioptres between the focus of red and blue; > 0: red focuses farther
     double astigmatism = 0;               // mm on the sensor; see aberrations.h

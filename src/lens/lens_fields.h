@@ -31,7 +31,7 @@ enum class LensSection { focus, lens, aperture };
 
 struct LensField {
     const char* name;    // name in glTF extras and shot files: "bladeRotation"
-    const char* option;  // on the command line: "--blade-rotation"
+    const char* option;  // name on the command line: "--blade-rotation"
     LensSection section;
     // "MM", "M", "DEG", "PX", "D" (dioptres), "N" (a count), "R" (a ratio), "S", or "" (a boolean).
     const char* unit;

@@ -181,7 +181,8 @@ double smallTriangles(const ObjectPlan& object, const World& world, const FrameP
     return count;
 }
 
-// Bounds the divisions of objects with a curved C, so that a lens sample has at most maxSmallTriangles small triangles.
+// Bounds the divisions of objects whose circle of confusion C is curved, so that a lens sample has at most
+// maxSmallTriangles small triangles.
 void boundDivisions(FramePlan& plan, const World& world) {
     const auto fits = [&](std::uint32_t parts) {
         double count = 0;
@@ -260,7 +261,7 @@ void leaveOutLens(FramePlan& plan, const World& world) {
     plan.largestBlur = largestBlur(plan, world);
     plan.usesLens = plan.settings.keepAll || plan.settings.refocus || plan.largestBlur >= minBlur;
     if (plan.usesLens) return;
-    const double aspect = plan.coc.aspect;  // a pinhole needs the aspect ratio, too
+    const double aspect = plan.coc.aspect;  // a pinhole also needs the aspect ratio
     plan.coc = {};
     plan.coc.aspect = aspect;
     plan.apertureDiameter = 0;

@@ -69,8 +69,8 @@ struct ObjectPlan {
     bool deformed = false;      // the skin or morph targets deform the mesh
     Bounds viewBox;             // bounding box in view space over the entire exposure
     double nearestDepth = 0;    // nearest depth of the bounding box in m; may be less than View::nearPlane
-    double farthestDepth = 0;   // m
-    CocRange coc;               // px, range over the bounding box; `smallest` also over RenderSettings::refocus
+    double farthestDepth = 0;   // m, farthest depth of the bounding box
+    CocRange coc;               // px, range over the bounding box; `smallest` covers all of RenderSettings::refocus
     CocDeviation cocDeviation;  // px, error bounds over the drawn levels
     double projectedEdge = 0;   // px, mean edge length of level 0 at the nearest depth
     double lambda = 0;          // fractional level λ
@@ -128,7 +128,7 @@ struct ShadowPlan {
 };
 
 struct LeftOut {
-    std::string what;  // "object Fish 3", "lens samples", "texture path", …
+    std::string what;  // name of the omitted part: "object Fish 3", "lens samples", "texture path", …
     std::string reason;
 };
 
@@ -140,8 +140,8 @@ struct FramePlan {
     double tanHalfHorizontal = 0;
     double apertureDiameter = 0;  // m; 0 for a pinhole, also if the blur is too small to be visible
     // Upper bound of the CoC in px over the drawn objects and a visible background of varying colour. The bound comes
-    // from bounding boxes and is infinite if a box reaches the near plane. Also set if the
-    // frame uses a pinhole because the blur is too small to be visible.
+    // from bounding boxes and is infinite if a box reaches the near plane. It is also set if the frame uses a pinhole
+    // because the blur is too small to be visible.
     double largestBlur = 0;
     ClipCircleOfConfusion coc;
     std::vector<LensSample> samples;  // samples to draw, in order
@@ -165,7 +165,7 @@ struct FramePlan {
     bool usesBlending = false;   // some object is alpha-blended
     bool sortsBlending = false;  // some primitive is blended back to front
     bool usesTransmission = false;
-    bool needsAlpha = false;  // the background is transparent, so alpha is accumulated too
+    bool needsAlpha = false;  // the background is transparent, so alpha is also accumulated
     bool showsMap = false;    // the background is an environment map
     // Triangle counts, summed over all samples.
     std::uint64_t trianglesDrawn = 0;

@@ -9,7 +9,7 @@
 
 namespace defocus::engine {
 
-// Returns distance `i` of `count` from `from` to `to` in m, evenly in 1/distance.
+// Returns distance `i` (from 0) of `count` distances in m that divide the range evenly in 1/distance.
 double distanceAt(double from, double to, int i, int count);
 
 // Returns `count` focus distances over a range in m, evenly in 1/distance, the nearest first.
@@ -19,8 +19,8 @@ std::vector<double> stackDistances(const FocusRange& range, int count);
 // surface writes depth.
 Image centralDepth(LightField& field);
 
-// Returns the signed diameters in px of the circles of confusion of these surfaces, > 0 behind the focus plane: one
-// channel, without the margin.
+// Returns the signed diameters in px of the circles of confusion of the surfaces that the lens's centre sees, > 0
+// behind the focus plane: one channel, without the margin.
 Image centralCoc(LightField& field, const Refocusing& refocusing);
 
 // Returns the picture in which everything is in focus, as the lens's centre sees it: linear, premultiplied RGBA. Each

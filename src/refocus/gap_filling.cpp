@@ -16,7 +16,7 @@ constexpr std::size_t channels = 5;  // RGBA and weight
 constexpr double cellBlur = 0.5;
 constexpr double minVariance = 0.01;  // px², subtracted from every variance; invisible within a pixel
 
-// Variance in px² of class k.
+// Returns the blur variance in px² of class k, a group of pixels with similar blur.
 double classVariance(std::size_t k) {
     return 0.5 * std::ldexp(1.0, 2 * static_cast<int>(k));
 }
@@ -94,7 +94,7 @@ void GapFilling::add(std::span<const DeepMovedImage> images) {
         const int y = static_cast<int>(row);
         for (const DeepMovedImage& moved : images) {
             const int column = size_.margin - moved.move.x;
-            const int line = y + size_.margin + moved.move.y;  // rows run downwards
+            const int line = y + size_.margin + moved.move.y;  // rows run downwards, moves upwards
             const std::uint16_t* const colours = moved.colour->at(column, line);
             const float* const depths = moved.depth->at(column, line);
             const std::size_t first = row * static_cast<std::size_t>(size_.width);

@@ -22,7 +22,7 @@ namespace defocus::engine {
 struct DeepMovedImage {
     const HalfImage* colour = nullptr;  // image with its margin
     const Image* depth = nullptr;       // depths with the same margin
-    glm::ivec2 move{0};                 // px, right and up
+    glm::ivec2 move{0};                 // px, to the right and up
     float weight = 1;                   // > 0
 };
 
@@ -53,9 +53,9 @@ private:
     PartSize size_;
     DioptreBlur blur_;
     double cellVariance_;              // variance of a cell's blur, as a fraction of the squared circle of confusion
-    double weights_ = 0;               // sum over the images
+    double weights_ = 0;               // sum of the images' weights
     Sum sharp_;                        // samples with hardly any blur
-    std::vector<Sum> front_, behind_;  // by class, from little to much blur
+    std::vector<Sum> front_, behind_;  // sums of the classes on each side of the focus plane, from little to much blur
 };
 
 }  // namespace defocus::engine

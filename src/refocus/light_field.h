@@ -24,13 +24,13 @@ namespace defocus::engine {
 
 struct LightFieldInfo {
     PartSize size;                   // px; the margin has the pixels that enter the image when images move
-    double focusDistance = 1;        // m, s
+    double focusDistance = 1;        // m, s in the equation above
     double fStop = 1;                // f-number of the rendered aperture
-    double pixelsPerDioptre = 0;     // P
+    double pixelsPerDioptre = 0;     // P in the equation above
     FocusRange range;                // focus distances for which margin and levels of detail are sufficient
     bool disk = true;                // the rendered aperture is a uniform disk
     std::vector<glm::dvec2> points;  // lens point (u, v) of each image
-    std::vector<glm::dvec2> pixels;  // position of each image's samples in px from the pixel's centre, right and up
+    std::vector<glm::dvec2> pixels;  // sample position of each image in px from the pixel's centre, right and up
     Metadata metadata;               // metadata of the frame, without the values above
 
     // Returns the move in px, right and up, of the image of lens point (1, 1) for another focus distance.
@@ -42,8 +42,8 @@ struct LightFieldInfo {
 };
 
 // Returns the information about the lens images of a view, without lens points and metadata. The margin suffices for
-// all focus distances in `range`, which must contain the view's focus distance. Throws Error if refocusing would not
-// just shift the images of this lens, and if the margin exceeds the image's longer side.
+// all focus distances in `range`, which must contain the view's focus distance. Throws Error if a change of focus would
+// do more to the images of this lens than shift them, and if the margin exceeds the image's longer side.
 LightFieldInfo lightFieldInfo(const View& view, const FocusRange& range);
 
 // Adds lens points and positions in the pixel of a plan's samples. Throws Error if the plan has objects or vertices
@@ -58,15 +58,15 @@ class LensImages {
 public:
     virtual ~LensImages() = default;
     [[nodiscard]] virtual const LightFieldInfo& info() const = 0;
-    [[nodiscard]] virtual const std::string& name() const = 0;  // for messages
+    [[nodiscard]] virtual const std::string& name() const = 0;  // name of the images in messages
     // Returns the image of lens point i, with its margin: linear, premultiplied RGBA.
     [[nodiscard]] virtual std::shared_ptr<const HalfImage> colour(std::size_t i) = 0;
 };
 
 class LightField : public LensImages {
 public:
-    // Throws Error, with the path in its message, if the file cannot be read, is not a file of lens images, or lacks an
-    // image.
+    // Throws Error, with the path in its message, if the file cannot be read, is not a file of lens images, or lacks
+    // one of its images.
     explicit LightField(const std::filesystem::path& path);
 
     [[nodiscard]] const std::string& name() const override { return name_; }
@@ -85,7 +85,7 @@ private:
     std::string name_;
     ImagePartReader parts_;
     LightFieldInfo info_;
-    std::vector<std::shared_ptr<const HalfImage>> kept_;  // by image; empty: images are not kept
+    std::vector<std::shared_ptr<const HalfImage>> kept_;  // colours of each image; empty: images are not kept
 };
 
 }  // namespace defocus::engine

@@ -20,7 +20,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double curveFactor = 24;  // k of the curve; larger values keep more detail in shadows and less in lights
+constexpr double curveFactor = 24;  // k of log2(1 + k·r); larger values keep more detail in shadows, less in lights
 constexpr double mostRadiance = 4096;
 constexpr int depthColumns = 256;  // max columns of the depths for focusing on a click
 constexpr int maxQuality = 90;
@@ -69,7 +69,8 @@ std::vector<std::string> encodedImages(LightField& field, std::size_t count, dou
         pixels.push_back(encodedRadiance(*field.colour(i), maximum, stepOffset(i)));
         report(progress, "lens images", i + 1, 2 * count);
     }
-    // Bytes grow steeply with quality; lower it by the excess of a few images before all are encoded.
+    // The encoded size grows steeply with quality. Lower the quality until the first images fit into their part of
+    // `limit`, then encode all images.
     std::vector<std::string> images(count);
     for (int quality = maxQuality;; quality -= 10) {
         const std::size_t tried = quality > minQuality ? std::min<std::size_t>(count, 4) : count;
@@ -90,7 +91,7 @@ std::vector<std::string> encodedImages(LightField& field, std::size_t count, dou
     return images;
 }
 
-// Returns the depths of the central image: one of each square of pixels, as 16-bit shares of the largest 1/depth.
+// Returns the depths of the central image at a lower resolution, as 16-bit fractions of the largest 1/depth.
 nlohmann::json depthsOf(LightField& field) {
     const PartSize& size = field.info().size;
     const Image depth = field.depth(field.central());
@@ -145,7 +146,7 @@ std::string refocusPage(LightField& field, const std::string& title, const Refoc
     const std::size_t count = std::min(info.points.size(), maxPageImages);
     const double maximum = largestRadiance(field, count);
     const double share = double(info.size.width) * info.size.height / (1024.0 * 768);
-    constexpr double otherBytes = 300'000;  // page and depths
+    constexpr double otherBytes = 300'000;  // bytes of the page without its images
     const auto limit = static_cast<std::size_t>(std::max(pageBytes * std::max(share, 0.1) - otherBytes, 0.0));
     nlohmann::json data = {{"width", info.size.width},
                            {"height", info.size.height},

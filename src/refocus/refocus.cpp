@@ -18,7 +18,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double tolerance = 1e-6;  // relative, for values that were written as text and read again
+constexpr double tolerance = 1e-6;  // relative tolerance for values that were written as text and read again
 
 constexpr std::size_t imagesAtOnce = 8;
 

@@ -23,16 +23,16 @@ struct Refocusing {
     double focusDistance = 1;        // m; within LightFieldInfo::range
     double fStop = 1;                // not below LightFieldInfo::fStop
     std::optional<Lens> shape = {};  // lens with the aperture's shape; none: as rendered
-    bool fillGaps = false;           // blur each image by its cell of the lens (gap_filling.h)
+    bool fillGaps = false;           // true: each image is blurred like its cell of the lens (gap_filling.h)
 };
 
 // Returns the focus and the aperture with which the lens images were rendered.
 Refocusing asRendered(const LightFieldInfo& info);
 
-// An image's part in a refocused picture.
+// Contribution of a lens image to a refocused picture.
 struct ShiftedImage {
     std::size_t image = 0;  // index of the lens image
-    glm::ivec2 move{0};     // px, right and up
+    glm::ivec2 move{0};     // px, to the right and up
     double weight = 1;      // > 0
 };
 

@@ -16,7 +16,7 @@ namespace {
 constexpr int imagesPerBlock = 64;
 constexpr int stripRows = 4;  // rows that one thread sums at a time, so that the sums stay in its cache
 
-// Adds a value to a compensated sum, with the bits of shaders/include/compensated.glsl.
+// Adds a value to a compensated sum. The result is bit-identical to shaders/include/compensated.glsl.
 void addCompensated(float& sum, float& compensation, float value) {
     const float total = sum + value;
     const float taken = total - sum;
@@ -64,7 +64,7 @@ void ShiftedSum::add(std::span<const MovedImage> images) {
                 std::fill_n(compensations, floats, 0.0f);
                 inBlock = 0;
             }
-            for (int y = first; y < end; ++y)  // rows run downwards
+            for (int y = first; y < end; ++y)  // rows run downwards, moves upwards
                 addRow(moved.image->at(size_.margin - moved.move.x, y + size_.margin + moved.move.y), moved.weight,
                        rowFloats, block_.value.at(0, y), block_.compensation.at(0, y));
             ++inBlock;

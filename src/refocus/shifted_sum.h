@@ -2,7 +2,7 @@
 // Weighted mean of images that are moved by whole pixels.
 //
 // Images are summed in blocks of 64 with Neumaier's compensation, as in render/accumulation/layer_sum.h. Images that
-// are not moved, with weight 1, thus give the bits of method accumulation.
+// are not moved, with weight 1, thus give a result that is bit-identical to method accumulation.
 
 #include <glm/vec2.hpp>
 #include <span>
@@ -15,7 +15,7 @@ namespace defocus::engine {
 // An image that is moved and weighted.
 struct MovedImage {
     const HalfImage* image = nullptr;  // image with its margin
-    glm::ivec2 move{0};                // px, right and up; each component at most the margin
+    glm::ivec2 move{0};                // px, to the right and up; each component at most the margin
     float weight = 1;                  // ≥ 0
 };
 

@@ -134,7 +134,8 @@ bool FrameRun::advance() {
     return true;
 }
 
-// Returns false if the error of the trial is small enough. Otherwise starts the frame again, in blocks.
+// Ends the trial (FrameRun::Trial). Returns false if the trial's error is small enough. Otherwise starts the frame
+// again, in blocks.
 bool FrameRun::endTrial() {
     Trial& trial = *trial_;
     if (trial.estimate.samples() == samples()) return false;  // the trial was already complete

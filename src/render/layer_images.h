@@ -15,7 +15,8 @@ struct NumberCounts {
     int width = 0;
     int height = 0;
     int entries = 0;  // max number of different objects or materials in a pixel
-    // `entries` values per pixel, row 0 at the top: number · 2¹⁶ + count, 0 after the last.
+    // `entries` values per pixel, row 0 at the top: (number of the object or material) · 2¹⁶ + (number of samples).
+    // Unused entries of a pixel are at the end, and are 0.
     std::vector<std::uint32_t> values;
 };
 

@@ -26,7 +26,7 @@ struct Camera {
     std::map<std::string, double, std::less<>> lens;
     std::optional<PhysicalCamera> physical;
     std::string apertureImage;                // from extras: image path relative to the scene file
-    std::optional<std::string> orthographic;  // for an orthographic camera: why it cannot be used
+    std::optional<std::string> orthographic;  // set for an orthographic camera: why it cannot be used
 
     [[nodiscard]] std::optional<double> lensValue(std::string_view lensName) const {
         const auto found = lens.find(lensName);

@@ -17,7 +17,7 @@ bool normalise(glm::vec3& vector) {
     const glm::dvec3 wide = vector;
     const double length = glm::length(wide);
     if (!(length > 1e-12) || !std::isfinite(length)) return false;
-    // Leave vectors unchanged whose length is already 1 within float precision.
+    // Vectors whose length is already 1 within float precision stay unchanged.
     if (std::abs(length - 1.0) > 1e-6) vector = glm::vec3(wide / length);
     return true;
 }

@@ -76,7 +76,7 @@ struct Mesh {
     std::vector<Primitive> primitives;
     std::vector<MorphTarget> morphTargets;
     std::vector<float> morphWeights;  // default weights, one per morph target
-    VertexBlurBounds blurBounds;      // of vertices.blurs
+    VertexBlurBounds blurBounds;      // min and max of vertices.blurs
     std::vector<Strokes> strokes;     // points and lines; see scene/strokes.h
 
     [[nodiscard]] std::size_t triangleCount() const;

@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Half a step of an 8-bit value. Values that leave [0, 1] by less are treated as rounding errors and clamped.
+// Half a step of an 8-bit value. Values outside [0, 1] by at most this much are rounding errors and are clamped.
 constexpr float tolerance = 0.5f / 255;
 
 void checkSize(const ImageView& image, const std::string& label) {

@@ -20,7 +20,7 @@ namespace {
 struct Unit {
     std::string_view name;
     double metres;
-    double millimetres;  // an integer, so that most conversions between units are exact
+    double millimetres;  // length of the unit in mm; an integer, so that most conversions are exact
 };
 constexpr std::array<Unit, 3> units = {{{"m", 1, 1000}, {"cm", 1e-2, 10}, {"mm", 1e-3, 1}}};
 
@@ -63,7 +63,7 @@ std::string lengthsIn(const std::string& unit, const std::string& text) {
 }
 
 double guessedMetresPerUnit(double extent) {
-    constexpr double thumb = 0.05, building = 30, everyday = 0.75;  // metres
+    constexpr double thumb = 0.05, building = 30, everyday = 0.75;  // sizes in metres
     if (!(extent > 0) || !std::isfinite(extent) || (extent >= thumb && extent <= building)) return 1;
     return std::pow(10, std::round(std::log10(everyday / extent)));
 }

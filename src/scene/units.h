@@ -18,8 +18,8 @@ std::string unitOfMetres(double metres);
 std::string lengthsIn(const std::string& unit, const std::string& text);
 
 // Guesses the metres per unit of a scene from the size `extent` of the framed objects in scene units. Returns 1 for
-// 0.05 to 30, from a thumb to a building in metres. Otherwise returns the power of ten that brings the extent closest
-// to 0.75 m. Returns 1 for extents that are not positive and finite.
+// extents from 0.05 to 30: from the size of a thumb to that of a building, in metres. For other extents, returns the
+// power of ten that brings the extent closest to 0.75 m. Returns 1 for extents that are not positive and finite.
 double guessedMetresPerUnit(double extent);
 
 }  // namespace defocus::engine

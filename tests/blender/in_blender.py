@@ -22,6 +22,6 @@ import test_pictures  # noqa: E402
 
 loader = unittest.TestLoader()
 loader.testNamePatterns = [f"*{word}*" for word in sys.argv[sys.argv.index("--") + 1:]] or None
-suite = unittest.TestSuite(loader.loadTestsFromModule(module) for module in (test_bad_input, test_pictures, test_layers))  # Layers resets Blender
+suite = unittest.TestSuite(loader.loadTestsFromModule(module) for module in (test_bad_input, test_pictures, test_layers))  # test_layers is last because it resets Blender
 if not unittest.TextTestRunner(verbosity=2).run(suite).wasSuccessful():
     raise SystemExit(1)

@@ -1,4 +1,4 @@
-// Checks the pops that a film's check finds against frames that differ only in their levels.
+// Tests of PopCheck, which measures how much changed levels of detail change the images of a film.
 
 #include <gtest/gtest.h>
 

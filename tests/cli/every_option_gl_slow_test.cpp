@@ -16,7 +16,7 @@ using Folder = std::filesystem::path;
 // The observable results of one run of a command.
 struct Results {
     std::string pixels;   // values of the linear image; empty for commands that render no image
-    std::string display;  // the PNG
+    std::string display;  // content of the PNG file
     std::string other;    // printed text, rows or statistics, without times
     bool operator==(const Results&) const = default;
 };

@@ -173,7 +173,7 @@ TEST_F(Faults, aReportThatIsKilledIsWhole) {
         if (WIFSIGNALED(status))
             ++killed;
         else
-            // this run ended before the kill: the first run may have scanned for fonts or waited for a busy machine
+            // This run ended before the kill: the measured first run took longer, for example to scan fonts.
             lasts /= 2;
         EXPECT_TRUE(complete() || (!before && !fs::exists(folder() / "report/index.html"))) << i;
         for (const fs::directory_entry& entry : fs::directory_iterator(folder() / "report")) {

@@ -95,7 +95,7 @@ protected:
 
     Request options_;
     LodMetric metric_ = LodMetric::size;
-    double minLevelPop_ = 0.003;  // a level by size or by the published rule changes its pixels by more than this
+    double minLevelPop_ = 0.003;  // min change (RMSE) by the nearest level, so that the test is meaningful
 };
 std::unique_ptr<GlContext> NoPopping::context_;
 

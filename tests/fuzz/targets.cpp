@@ -98,7 +98,7 @@ void runGltf(std::span<const std::byte> bytes) {
             frame.world.pyramids = pyramids;
             static_cast<void>(planFrame(frame.world, frame.view, frame.settings));
         }
-    } catch (const Error&) {  // refused
+    } catch (const Error&) {  // the scene is rejected, which is correct
     }
 }
 

@@ -21,9 +21,9 @@ TEST(DamagedExr, messagesHaveNoBytesOfDamagedNames) {
     const std::string name = "screenWindowWidth";
     const std::size_t at = bytes.find(name);
     ASSERT_NE(at, std::string::npos);
-    bytes[at + 1] = '\xfe';  // no UTF-8
+    bytes[at + 1] = '\xfe';  // invalid UTF-8
     bytes[at + 2] = '\n';
-    bytes[at + name.size() + 1 + std::string("float").size() + 1] = 9;  // size of the value, 4
+    bytes[at + name.size() + 1 + std::string("float").size() + 1] = 9;  // size of the value, normally 4
     std::ofstream(folder / "a.exr", std::ios::binary) << bytes;
     const std::string message = messageOf<Error>([&] { static_cast<void>(readImage(folder / "a.exr")); });
     EXPECT_NE(message.find("'s??eenWindowWidth'"), std::string::npos) << message;

@@ -42,7 +42,7 @@ Bytes stored(const Bytes& rows) {
     const auto length = static_cast<std::uint8_t>(rows.size());
     Bytes zlib = {0x78, 0x01, 0x01, length, 0, static_cast<std::uint8_t>(~length), 0xff};
     zlib.insert(zlib.end(), rows.begin(), rows.end());
-    std::uint32_t a = 1, b = 0;  // Adler-32
+    std::uint32_t a = 1, b = 0;  // the two sums of the Adler-32 checksum
     for (const std::uint8_t byte : rows) {
         a = (a + byte) % 65521;
         b = (b + a) % 65521;

@@ -37,7 +37,7 @@ inline Bytes buildPng(int width, int height, int bits, PngColour colour, const B
     Bytes rows;
     const std::size_t rowLength = samples.size() / static_cast<std::size_t>(height);
     for (int y = 0; y < height; ++y) {
-        rows.push_back(0);  // no filter
+        rows.push_back(0);  // filter type 0: none
         const auto first = samples.begin() + static_cast<std::ptrdiff_t>(rowLength) * y;
         rows.insert(rows.end(), first, first + static_cast<std::ptrdiff_t>(rowLength));
     }
@@ -49,7 +49,7 @@ inline Bytes buildPng(int width, int height, int bits, PngColour colour, const B
         zlib.push_back(static_cast<std::uint8_t>(value >> 8));
     }
     zlib.insert(zlib.end(), rows.begin(), rows.end());
-    std::uint32_t a = 1, b = 0;  // Adler-32
+    std::uint32_t a = 1, b = 0;  // the two sums of the Adler-32 checksum
     for (const std::uint8_t byte : rows) {
         a = (a + byte) % 65521;
         b = (b + a) % 65521;

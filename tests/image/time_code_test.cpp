@@ -1,4 +1,4 @@
-// Time codes and frame rates of film frames, and EXR's standard attributes as the image library reads them back.
+// Tests time codes and frame rates of film frames, and EXR's standard attributes as the image library reads them.
 
 #include "image/time_code.h"
 

@@ -222,7 +222,7 @@ TEST(ApertureImage, thoseThatPassNoLightAreNamed) {
     EXPECT_EQ(message(image), "");
 }
 
-// The density of a lens point is that of the definition, with the same constant factor at all points.
+// At every lens point, the light density is the definition's density times the same constant factor.
 TEST(Aperture, givesTheLightDensityOfAPoint) {
     for (const ApertureShape& shape : apertureShapes) {
         const Lens lens = shape.lens();

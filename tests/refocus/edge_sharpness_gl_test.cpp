@@ -14,7 +14,7 @@ namespace {
 
 constexpr double slant = 7 * std::numbers::pi / 180;  // angle between the edge and the vertical
 constexpr int imageSide = 96;
-constexpr double away = 3;  // m
+constexpr double away = 3;  // distance from the camera to the square, m
 
 // Returns a white, unlit square whose left edge passes through the image's centre.
 defocus::Scene slantedEdge() {
@@ -86,7 +86,7 @@ TEST_F(LightFieldTest, edgesInFocusAreAsSharpAsRenderedOnes) {
     const double refocused = mtf50(field.refocus({FocusDistance{away}, {}}));
     EXPECT_GT(direct, 0.3);
     EXPECT_GE(refocused, 0.9 * direct);
-    EXPECT_LT(mtf50(field.refocus()), 0.5 * direct);  // out of focus
+    EXPECT_LT(mtf50(field.refocus()), 0.5 * direct);  // the edge is out of focus
 }
 
 }  // namespace

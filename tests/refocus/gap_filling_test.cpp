@@ -62,7 +62,7 @@ double widthVariance(const Image& image) {
 const auto everywhere = [](float value) { return [value](int, int) { return value; }; };
 const auto point = [](int x, int y) { return x == 32 && y == 24 ? 50.0f : 0.0f; };
 
-// The cells of N images have the standard deviation c/(2·√N).
+// For N lens images and a blur diameter of c px, the blur of a lens cell has a standard deviation of c/(2·√N) px.
 TEST(GapFilling, blursAPointByItsCell) {
     for (const float depth : {0.5f, 4.0f})  // in front of and behind the focus plane at 1 m
         for (const double diameter : {4.0, 12.0, 20.0}) {

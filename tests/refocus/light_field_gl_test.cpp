@@ -16,7 +16,7 @@ namespace {
 TEST_F(LightFieldTest, atTheRenderedFocusHasTheBitsOfAccumulation) {
     Request request = smallSchool();
     request.background = TransparentBackground{};
-    request.samples = 100;  // more than a block
+    request.samples = 100;  // more than one block of 64 samples
     LightField field(lensImages(request, FocusRange{1.5, 3}));
     const LightFieldInfo& info = field.info();
     ASSERT_EQ(info.points.size(), 100u);

@@ -166,7 +166,7 @@ TEST(LensImages, needALensThatOnlyMovesThem) {
     EXPECT_NE(refusalOf({}, 1e-3).find("a focus from 0.001 to 3 m need a margin of"), std::string::npos);
 }
 
-// The margin holds the largest move over the focus range, rounded to whole pixels.
+// The margin is at least the largest shift of a lens image over the focus range, rounded to whole pixels.
 TEST(LensImages, haveAMarginForTheFocusRange) {
     View view;
     view.lens.focusDistance = 2;

@@ -124,8 +124,8 @@ std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end
     return small;
 }
 
-// Triangles without a jump of the slope of C are sheared by the tessellator itself. The image is that of the geometry
-// shader, which cuts other triangles.
+// Triangles in which the slope of C does not jump are only divided, and need no geometry shader that cuts them. With
+// that shader, the image is the same.
 TEST_F(CocControls, dividedTrianglesNeedNoCuts) {
     const auto floor = checkeredFloor(3, 2, 12);
     floor->view.lens.fieldCurvature = 0.5;

@@ -341,7 +341,7 @@ TEST(EmbreeTexture, TexelsLieWhereGltfPutsThem) {
     EXPECT_EQ(image.at(8, 8)[0], 1);
     EXPECT_EQ(image.at(24, 8)[1], 1);
     EXPECT_EQ(image.at(8, 24)[2], 1);
-    EXPECT_NEAR(image.at(24, 24)[0], 0.5029, 1e-3);  // sRGB 188/255
+    EXPECT_NEAR(image.at(24, 24)[0], 0.5029, 1e-3);  // linear value of the sRGB code 188
     // Filtering is bilinear between decoded texels, here about a quarter of the way between the centres of the red and
     // the green texel.
     scene.textures[0].magnification = Filter::linear;

@@ -75,8 +75,7 @@ View viewOf(double fStop) {
 
 // Each wavelength t, from 0 (red) to 1 (blue), is blurred according to its own focus. With the weight w(t) of a colour
 // channel and the diameter c(t) of the blur, the channel's second moment is E[w(t)·c(t)²]/8, as a disk of diameter c
-// has c²/8. The point's own 2 × 2 px add 2/3, the pixel filter 1/6 (a box has the variance 1/12 per axis), and the
-// read-out another box.
+// has c²/8. The size of the point and the pixel filter add a constant, which is measured without the aberration.
 TEST_F(LensColour, bandsHaveTheBlurOfTheirOwnFocus) {
     View view = viewOf(0.35);
     view.lens.axialChromaticAberration = 0.08;

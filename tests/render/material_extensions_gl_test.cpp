@@ -42,7 +42,8 @@ protected:
 
 // ---- multiple scattering
 
-// Single-scattering albedo of GGX with height-correlated masking, facing the eye, integrated independently.
+// `single` is the single-scattering albedo of GGX with height-correlated masking at normal incidence, which was
+// integrated with other code.
 TEST_F(MaterialExtensions, roughWhiteMetalKeepsItsLightWithMultipleScattering) {
     for (const auto& [roughness, single] : {std::pair(0.2f, 0.9986), {0.4f, 0.967}, {0.6f, 0.824}, {1.0f, 0.307}}) {
         EXPECT_NEAR(middleOf(furnaceImage(metal(roughness), 1)).x, single, 0.005) << roughness;
@@ -243,8 +244,8 @@ TEST_F(MaterialExtensions, aWhiteSheetPassesOnAllLight) {
     for (const float share : {0.25f, 1.0f}) EXPECT_NEAR(middleOf(furnaceImage(sheet(share), 0.8)).x, 1, 1e-5) << share;
 }
 
-// A sheet that neither reflects specularly nor absorbs sends E·cos/π to the lit side times 1 − t, and to the other side
-// times t.
+// A sheet with the diffuse transmission t that neither reflects specularly nor absorbs divides the irradiance E·cos θ
+// between its sides. The lit side has the radiance (1 − t)·E·cos θ/π, the other side t·E·cos θ/π.
 TEST_F(MaterialExtensions, aSheetDividesTheLightOfASunBetweenItsSides) {
     for (const float side : {-1.0f, 1.0f})
         for (const float share : {0.25f, 1.0f}) {
@@ -264,7 +265,7 @@ TEST_F(MaterialExtensions, aSheetDividesTheLightOfASunBetweenItsSides) {
 
 // ---- dispersion
 
-// The channels leave the volume where rays of their refractive indices do: n ∓ (n − 1)·dispersion/40 for red and blue.
+// Each colour channel is refracted with its own index: n for green, and n ∓ (n − 1)·dispersion/40 for red and blue.
 TEST_F(MaterialExtensions, dispersionRefractsEachChannelByItsIndex) {
     Material prism = clear();
     prism.ior = 1.7f;
@@ -274,7 +275,7 @@ TEST_F(MaterialExtensions, dispersionRefractsEachChannelByItsIndex) {
     const glm::dmat4 placed = glm::rotate(small->world.pose.objects[0].worldFromObject, 0.5, glm::dvec3(0, 1, 0));
     small->world.pose.objects[0].worldFromObject = placed;
     addWall(*small, 4, unlitMaterial(glm::vec4(1)), 2);
-    // All channels of the wall behind grow from left to right, so that a colour tells a position.
+    // All colour channels of the wall behind increase from left to right, so that a colour identifies a position.
     for (glm::vec4& color : small->scene.meshes[1].vertices.colors) color = glm::vec4(glm::vec3(color.r), 1);
     finish(*small);
     const Image image = wallImage(*small);

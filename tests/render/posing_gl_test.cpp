@@ -57,7 +57,7 @@ TEST_P(PosingOf, equalsTheBakedMeshes) {
 
 INSTANTIATE_TEST_SUITE_P(Models, PosingOf, testing::ValuesIn(posedModels), posedModelName);
 
-// Coarse levels are posed too: an unlit figure's coarsest level equals the same level posed on the CPU.
+// Coarse levels are also posed: an unlit figure's coarsest level equals the same level posed on the CPU.
 TEST_F(Posing, coarseLevelsArePosedToo) {
     for (const char* file : {"meshes/reed.glb", "Fox.glb", "RiggedFigure.glb"}) {
         const auto posed = posedWorld(modelPath(file), 0.4, 0);

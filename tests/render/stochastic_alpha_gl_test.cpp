@@ -135,7 +135,7 @@ TEST_F(StochasticAlpha, layersOfOnePrimitiveAreIndependent) {
     RenderSettings settings = settingsFor(64);
     settings.keepAll = true;
     FramePlan plan = planFrame(small->world, small->view, settings);
-    plan.blendOrder.assign(1, {});  // the entire primitive
+    plan.blendOrder.assign(1, {});  // one entry for the only primitive
     plan.blendOrder[0].stochastic = true;
     const Image image = imageInFloats(small->world, plan);
     const glm::dvec4 expected = over(green, over(red, {0, 0, 1, 1}));

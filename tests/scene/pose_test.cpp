@@ -160,7 +160,8 @@ TEST(Animation, linearMeetsItsKeysAndHalves) {
 }
 
 TEST(Animation, cubicSplineReproducesACubic) {
-    // x(t) = t³ − 2t² + 3 with the derivative 3t² − 4t at t = 0, 1 and 3: a Hermite spline is exact for cubics.
+    // The keys are values and slopes of x(t) = t³ − 2t² + 3 at t = 0, 1 and 3. A Hermite spline reproduces a cubic
+    // exactly.
     const auto x = [](double t) { return t * t * t - 2 * t * t + 3; };
     const auto slope = [](double t) { return static_cast<float>(3 * t * t - 4 * t); };
     std::vector<float> values;

@@ -63,8 +63,8 @@ TEST(SpecularAlbedo, ofAMirrorIsSchlicksFresnel) {
 }
 
 TEST(SpecularAlbedo, ofAFacingWhiteMetal) {
-    // The expected value is the radiance of white metal in a uniform environment of radiance 0.7, computed by another
-    // program.
+    // The expected value is the radiance of white metal in a uniform environment of radiance 0.7, which another
+    // renderer computed.
     EXPECT_NEAR(0.7f * (specularAlbedo(1, 0.4f).x + specularAlbedo(1, 0.4f).y), 0.677f, 1e-3f);
     EXPECT_NEAR(0.7f * (specularAlbedo(1, 1).x + specularAlbedo(1, 1).y), 0.215f, 1e-3f);
 }

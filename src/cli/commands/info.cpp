@@ -75,7 +75,7 @@ struct Totals {
     std::uint64_t trianglesInScene = 0;  // sum over all objects of the scene
     std::uint64_t vertices = 0;
     std::uint64_t points = 0;
-    std::uint64_t lines = 0;  // segments
+    std::uint64_t lines = 0;  // number of line segments
 };
 
 Totals totalsOf(const Scene& scene, const std::vector<std::size_t>& objects) {

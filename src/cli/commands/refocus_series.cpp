@@ -17,7 +17,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Temporary folder beside a file, removed with its content at the end.
+// Temporary folder beside a file. The destructor removes the folder and its content.
 class FrameFolder {
 public:
     explicit FrameFolder(const std::filesystem::path& file) : path_(file) {

@@ -30,7 +30,7 @@ std::vector<MethodUse> chosenMethods(const ConvergenceOptions& options) {
     const auto has = [&](const std::string& name) {
         return std::ranges::any_of(uses, [&](const MethodUse& use) { return use.method->name == name; });
     };
-    // All methods except "auto", which draws with one of the others.
+    // All methods except "auto", which only chooses one of the others.
     const bool all = uses.empty();
     for (const Method& method : methods())
         if ((all && method.name != automaticMethod) ||
@@ -190,7 +190,7 @@ Frame frameOf(const World& world, const View& view, const ConvergenceCase& wante
     RendererOptions own = options;
     own.settings = wanted.use.settings;
 
-    // Set up the renderer and draw an untimed first wave.
+    // Set up the renderer and draw an untimed first wave (a batch of lens samples).
     const Clock::time_point begin = Clock::now();
     const std::unique_ptr<Renderer> renderer = wanted.use.method->make(world, own);
     renderer->start(plan);
@@ -355,7 +355,7 @@ void measureConvergence(const World& world, const View& view, const ReferenceIma
     const std::uint64_t total = cases.size() * static_cast<std::size_t>(options.runs);
     std::uint64_t count = 0;
     Measurement measurement(world, view, reference, options.renderer, pyramidMilliseconds, options.seeds, done);
-    std::set<std::string> leftOut;  // texts of methods with their settings
+    std::set<std::string> leftOut;  // names of the skipped methods, with their settings
 
     for (int run = 0; run < options.runs; ++run)
         for (const ConvergenceCase& wanted : cases) {

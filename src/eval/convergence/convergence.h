@@ -3,9 +3,9 @@
 // difference from a converged reference image.
 //
 // Equal for all cases: scene, camera, lens, image size, reference, process. Runs alternate between all cases, so a
-// slowdown of the machine affects all of them, and a bench that stops early has measured each case with fewer runs.
-// Before a frame is timed, its first wave is drawn once, so that shaders, uploads and driver caches are ready. Threads
-// are not pinned to cores.
+// slowdown of the machine affects all of them, and a bench that stops early has measured all cases, with fewer runs of
+// each. Before a frame is timed, its first wave (a batch of lens samples) is drawn once, so that shaders, uploads and
+// driver caches are ready. Threads are not pinned to cores.
 //
 // Each finished frame is reported at once as a ConvergenceRun. convergence/rows.h computes medians over these.
 
@@ -48,8 +48,8 @@ struct ConvergenceOptions {
     std::vector<PublishedForm> published;                    // forms for MethodForm::published
     RenderSettings plan;                                     // settings of every case; the lists below override them
     std::vector<std::uint32_t> sampleCounts = {8, 16, 32, 64, 128, 256};  // for methods that use lens samples
-    // For methods that draw levels of detail. Accumulation at full detail is measured even if LodMode::off is not
-    // listed.
+    // Level modes for methods that draw levels of detail. Accumulation at full detail is measured even if LodMode::off
+    // is not listed.
     std::vector<LodMode> lods = {LodMode::off, LodMode::fractional};
     std::vector<LodMetric> metrics = {LodMetric::measured};
     std::vector<double> thresholdFactors = {0.5, 1, 2};  // factors on defaultThresholds for the number of samples

@@ -14,21 +14,22 @@ namespace defocus::engine {
 
 inline constexpr std::array comparedErrors{0.01, 0.005, 0.0033};  // RMSE of display values in [0, 1]
 
-// A method, whose settings and number of samples are chosen for each error separately. Accumulation is two competitors:
-// at full detail and with levels.
+// A method, whose settings and number of samples are chosen for each error separately. Accumulation counts as two
+// competitors: at full detail and with levels.
 struct Competitor {
     std::string name;  // such as "accumulation with levels" or "embree"
     struct Time {
         double rmse = 0;
         std::optional<double> milliseconds;  // time of a frame; none if no row reaches the error
-        bool atMost = false;                 // upper bound, because the fastest row already has a smaller error
+        bool atMost = false;                 // true: upper bound, because the fastest row already has a smaller error
     };
     std::vector<Time> times;  // in the order of the requested errors
 };
 
 // Returns each competitor's times to reach `errors`, which must be > 0. Times are interpolated on the competitor's
-// Pareto front, with the error as a power of the time between neighbouring rows; this is exact for sampling noise of
-// any order. Accumulation with levels comes first, the others in order of appearance. Rows with faults are ignored.
+// Pareto front. Between neighbouring rows, the error is assumed to be a power of the time. This is exact for sampling
+// noise, whatever its order of convergence is. Accumulation with levels comes first, the others in order of appearance.
+// Rows with faults are ignored.
 std::vector<Competitor> timesToErrors(std::span<const ConvergenceRow> rows, std::span<const double> errors);
 
 // Returns a text table of seconds and of ratios to the first competitor's time; empty for fewer than two competitors.

@@ -47,7 +47,7 @@ void addErrors(ConvergenceRow& row, const std::vector<const ConvergenceRun*>& ru
         row.ofSeeds.push_back(run->error);
         if (run->bias) biases.push_back(*run->bias);
     }
-    // Copy a single value, so that it stays bit-identical.
+    // With a single seed, copy the error so that it stays bit-identical.
     row.error = row.ofSeeds.size() == 1 ? row.ofSeeds.front() : meanOf(row.ofSeeds);
     if (!biases.empty()) row.bias = biases.size() == 1 ? biases.front() : meanOf(biases);
 }

@@ -10,7 +10,7 @@ namespace defocus::engine {
 
 namespace {
 
-const glm::vec3 towardsLight = glm::normalize(glm::vec3(0.4f, 0.8f, 0.6f));  // object space
+const glm::vec3 towardsLight = glm::normalize(glm::vec3(0.4f, 0.8f, 0.6f));  // direction in object space
 constexpr float ambient = 0.2f;
 
 // Returns the mean linear colour of the image; white for an image without pixels.

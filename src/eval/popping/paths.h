@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 enum class Movement {
     focusPull,  // the focus moves from the nearest to the farthest object, evenly in 1/distance, like a focus ring
-    dolly,      // the camera moves ahead by half the focus distance; the plane of focus stays fixed in the scene
+    dolly,      // the camera moves forward by half the focus distance; the plane of focus stays fixed in the scene
     turntable,  // the camera circles the scene's centre once, about the vertical axis
     clip,       // an animation of the scene plays once, such as a walk cycle; the camera is fixed
 };

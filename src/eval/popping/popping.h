@@ -12,9 +12,9 @@
 //           levels that move with the camera.
 //   step:   I_t minus the same view and pose drawn with the previous frame's levels and its splits of the
 //           samples between two levels. The step is the pop alone.
-// Both are measured over the complete image and over the object pixels, which an object or its blur covers in frame t
-// or t − 1. For the step, only objects whose levels or splits differ count. Unchanged objects thus don't dilute a pop,
-// and the error of a pop hardly depends on the number of objects that pop in a frame.
+// Both are measured over the complete image and over the object pixels: the pixels that an object or its blur covers in
+// frame t or t − 1. For the step, only objects whose levels or splits differ count. Unchanged objects thus don't dilute
+// a pop, and the error of a pop hardly depends on the number of objects that pop in a frame.
 //
 // Expected step: if all N samples change their level at once, the difference is blurred by c px. The difference of a
 // single sample is sharp and w px wide, so its step is √(c/w)/N of the pop of all samples. If less than one sample
@@ -51,7 +51,7 @@ struct PoppingOptions {
     std::vector<std::uint32_t> sampleCounts = {8, 16, 32};
     int clip = 0;          // index of the scene's clip, for Movement::clip
     int pathFrames = 240;  // frames of a complete movement; determines its speed
-    int frames = 48;       // measured frames of each movement: those with the most level changes
+    int frames = 48;       // measured frames of each movement: the consecutive frames with most level changes
     RenderSettings plan;   // settings that the bench doesn't vary: seed, metric, keepAll …
     RendererOptions renderer;
 };
@@ -89,7 +89,7 @@ struct SampleStep {
 };
 
 struct PoppingVisitor {
-    // Called with the frames of a movement and a number of samples, in all modes.
+    // Called once for each movement and each number of samples, with the frames of all modes.
     std::function<void(std::span<const PoppingFrame>)> frames;
     std::function<void(const SampleStep&)> sampleStep;
 };

@@ -1,6 +1,6 @@
 #pragma once
 // Measures two scenes that exceed the scaling benchmark: 100 million triangles in 10,000 instances of one mesh, and
-// 10,000 objects with a mesh each. Measures the time to the first image, the time of a frame, and the memory.
+// 10,000 objects with separate meshes. Measures the time to the first image, the time of a frame, and the memory.
 
 #include <cstdint>
 #include <filesystem>
@@ -18,7 +18,7 @@ struct LargeScene {
     std::string name;
     int objects = 0;
     int trianglesPerObject = 0;
-    bool instances = false;  // all objects share one mesh
+    bool instances = false;  // true: all objects share one mesh
 };
 
 // Returns the two scenes.

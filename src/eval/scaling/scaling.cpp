@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array comparedModes = {LodMode::off, LodMode::fractional};
 constexpr int gridTriangles = 500;        // triangles of each instance at full detail
-constexpr int smallFactor = 40;           // divides width and height, so that only vertex work remains
+constexpr int smallFactor = 40;           // divisor of width and height that leaves only vertex work
 constexpr double bytesPerTriangle = 600;  // main memory: mesh, pyramid while it is built, driver's copy
 constexpr double memoryShareMax = 0.8;
 constexpr double minMargin = 0.05;  // min difference of two ranked parts, as a fraction of the frame time
@@ -149,7 +149,7 @@ std::string measuredOrWhyNot(Subject& subject, const ScalingPoint& point, const 
             subject.point = point;
         }
         measurePoint(*subject.world, point, options, visitor);
-    } catch (const Error& error) {  // such as out of graphics memory
+    } catch (const Error& error) {  // for example, graphics memory is full
         reason = error.what();
     } catch (const std::bad_alloc&) {
         reason = "main memory is exhausted";

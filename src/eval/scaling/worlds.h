@@ -20,7 +20,7 @@ struct ScalingWorld {
 // depend on the number of triangles. Pyramids are cached in `cacheFolder`; empty: no cache.
 ScalingWorld schoolOf(std::uint64_t triangles, const std::filesystem::path& cacheFolder, const Progress& progress = {});
 
-// Returns a school of `count` fish, each with a mesh of its own of about `triangles` triangles.
+// Returns a school of `count` fish, each with its own mesh of about `triangles` triangles.
 ScalingWorld differentFish(int count, int triangles, const std::filesystem::path& cacheFolder,
                            const Progress& progress = {});
 

@@ -104,8 +104,8 @@ bool followsLevels(const Method& method) {
     return method.needsGl && method.usesLensSamples;
 }
 
-// Returns the subjects in the order of the rows. Size-only and blur-only subjects follow the row that they are parts
-// of.
+// Returns the subjects in the order of the rows. Subjects whose levels depend on size alone or on blur alone (LodCause)
+// follow the row that includes their results.
 std::deque<SpeedupSubject> subjectsOf(std::span<const SpeedupForm> forms, const std::vector<MethodUse>& methods) {
     std::deque<SpeedupSubject> subjects;  // a deque, because pointers to its elements stay valid
     const auto add = [&](const SpeedupForm& form, const MethodUse& use, LodMode mode, LodCause cause) {
@@ -217,8 +217,8 @@ SpeedupRow rowOf(const Setting& setting, const SpeedupSubject& subject, const Re
     return row;
 }
 
-// Calls `visit` with a row for each subject, but adds size-only and blur-only subjects to the preceding row as its
-// parts.
+// Calls `visit` with a row for each subject. Subjects whose levels depend on size alone or on blur alone have no row:
+// their results are added to the preceding row.
 void visitRows(const std::deque<SpeedupSubject>& subjects, const Setting& setting, const ReferenceImage* reference,
                const std::function<void(const SpeedupRow&)>& visit) {
     for (std::size_t i = 0; i < subjects.size();) {

@@ -2,8 +2,9 @@
 // The benchmark of Jeong, Kim and Lee 2011 (their Figure 2). Measures how much faster a frame is with levels of detail
 // than at full detail, for a fixed camera. Varies the number of lens samples, the f-number and the focus distance.
 //
-// Equal for the three modes: scene, camera, lens, lens samples, image size, layers per draw, process, renderer. Runs
-// alternate between all compared modes and methods, so a slowdown of the machine affects all of them.
+// Equal for full detail, nearest level and fractional level: scene, camera, lens, lens samples, image size, layers per
+// draw, process, renderer. Runs alternate between all compared modes and methods, so a slowdown of the machine affects
+// all of them.
 
 #include <functional>
 #include <optional>
@@ -30,8 +31,8 @@ struct SpeedupForm {
 
 struct SpeedupOptions {
     std::vector<std::uint32_t> sampleCounts = {16, 32, 64, 128, 256, 512};  // measured with the view's own lens
-    std::vector<double> fStops;                                             // further f-numbers, at `sweepSamples`
-    std::vector<double> focusDistances;  // further focus distances, m, at `sweepSamples`
+    std::vector<double> fStops;                                             // f-numbers to measure with `sweepSamples`
+    std::vector<double> focusDistances;  // focus distances (m) to measure with `sweepSamples`
     std::uint32_t sweepSamples = 64;
     std::vector<MethodUse> methods;  // measured after accumulation, with the first form's settings
     int runs = 5;                    // runs of each frame, ≥ 1

@@ -249,9 +249,9 @@ FrameDriver::Fit FrameDriver::fitOf(const FrameOrder& order) {
             order.rows};
 }
 
-// Returns the number of samples per wave for a frame that must be able to stop soon: on a CPU 1, because a sample may
-// take long; on a GPU a few, which take little time and keep the GPU busy. The result is at most the request's wave.
-// Returns 0 (no limit) for other frames.
+// Returns the number of samples per wave (samples drawn together) for a frame that must be able to stop soon. On a CPU,
+// returns 1, because a sample may take long. On a GPU, returns a few, which take little time and keep the GPU busy. The
+// result is at most the request's wave. Returns 0 (no limit) for other frames.
 std::uint32_t FrameDriver::shortWave(const FrameOrder& order) const {
     if (!fitOf(order).shortDraws) return 0;
     const std::uint32_t shortest = currentIsSoftware() ? 1 : 8;

@@ -26,7 +26,7 @@ namespace defocus::engine {
 struct DriverOptions {
     MethodUse method;
     DrawLimits limits;
-    std::filesystem::path shaderFolder;  // its shaders replace the embedded ones; may be empty
+    std::filesystem::path shaderFolder;  // shaders in this folder replace the embedded ones; empty: none
     std::uint64_t keptPixelBytes = 0;    // bytes per pixel of the images that the caller holds in main memory
 };
 
@@ -50,7 +50,7 @@ struct FrameOrder {
     std::optional<SampleRange> samples = {};         // draw only these lens samples, for sums(); none: all samples
     std::optional<std::vector<RowRange>> rows = {};  // draw only these rows, in tiles; none: all rows
     RowSink takeRows = {};                           // receives finished rows of tiles; empty: image() returns them
-    SampleSink takeSample = {};                      // receives each lens sample's image; the driver then sums none
+    SampleSink takeSample = {};                      // receives each lens sample's image; no mean is then computed
     std::string untiledReason = {};                  // reason why tiles are forbidden; empty: tiles are allowed
     bool shortDraws = false;                         // advance() draws few samples; implied by a time limit
 };
@@ -68,14 +68,14 @@ public:
     // options. Throws Error if the frame fits into memory neither untiled nor in tiles, if the method cannot draw the
     // requested part alone, and for settings that the method doesn't support.
     void start(FrameOrder order);
-    // Draws one wave of samples. Returns false once the frame is complete.
+    // Draws one wave, a batch of lens samples. Returns false once the frame is complete.
     bool advance();
 
     // Returns whether a frame was started. All members below require a started frame.
     [[nodiscard]] bool started() const { return drawing_ != nullptr; }
     [[nodiscard]] std::uint32_t samples() const;      // drawn so far; in tiles: mean over all rows, rounded down
     [[nodiscard]] std::uint32_t sampleTotal() const;  // expected total when the frame is complete
-    [[nodiscard]] double share() const;               // finished fraction of the work, 0 … 1; never falls
+    [[nodiscard]] double share() const;               // finished fraction of the work, 0 … 1; never decreases
     [[nodiscard]] const FramePlan& plan() const;      // plan of the complete frame
     [[nodiscard]] RenderStats stats() const;
     [[nodiscard]] double planMilliseconds() const;
@@ -84,7 +84,7 @@ public:
     // Returns the linear RGBA mean of the samples so far; unfinished tiles are black with alpha 0. Not available if
     // FrameOrder::takeRows is set.
     [[nodiscard]] Image image();
-    // Returns the layers RenderSettings::layers; nullopt without layers.
+    // Returns the images of the layers in RenderSettings::layers; nullopt if there are none.
     [[nodiscard]] std::optional<LayerImages> layerImages();
     // Returns the partial sums over FrameOrder::samples once they are complete, without settings and metadata.
     [[nodiscard]] FramePart sums();

@@ -39,7 +39,7 @@ public:
     // Begins the frame of the driver's request, or the missing part of an interrupted run. Throws Error in the same
     // cases as SceneDriver::start.
     void start(const Progress& progress = {});
-    // Draws one wave of samples and writes the finished rows. Returns false once the frame is complete.
+    // Draws one wave, a batch of lens samples, and writes the finished rows. Returns false once the frame is complete.
     bool advance();
     // Writes the partial sums, completes the file of the share, or joins the tiles into the output files. Returns the
     // image of an untiled frame; the caller writes that image.
@@ -69,7 +69,7 @@ private:
     RowRange wanted_;       // rows to draw: all rows of the frame, or the rows of the share
     int rowsKept_ = 0;
     int rowsDone_ = 0;                      // rows that this run has written to files
-    std::optional<ImageRowWriter> writer_;  // writer of the file of the share
+    std::optional<ImageRowWriter> writer_;  // writes the file of FrameFiles::share
 };
 
 }  // namespace defocus::engine

@@ -49,7 +49,7 @@ public:
 
     // Begins a frame. If the request fails its checks, throws Error and leaves the previous frame unchanged.
     void start(const Request& request, const FrameParts& parts = {}, const Progress& progress = {});
-    // Draws one wave of samples. Returns false once the frame is complete.
+    // Draws one wave, a batch of lens samples. Returns false once the frame is complete.
     bool advance();
 
     [[nodiscard]] const Request& firstRequest() const { return first_; }

@@ -39,13 +39,13 @@ constexpr float maxUnseenGrowth = 4;
 using SquareSums = std::array<double, blurSizes>;
 using SurroundSums = std::array<SquareSums, surrounds.size()>;
 
-// A picture with its means over patches of 2, 4, … cells. Each patch has two means: one over the white fields of a
-// checkerboard of cells, one over the black fields.
+// A picture with its means over patches of 2, 4, … cells. Each patch has two means, over the cells on the white and on
+// the black squares of a checkerboard.
 class Patches {
     struct Size {
         CellBox shown;                                // patches that may contain lit cells
         CellBox kept;                                 // `shown`, padded with empty patches for the next patch size
-        std::array<LargeVector<glm::vec3>, 2> means;  // means over white and over black fields; empty for single cells
+        std::array<LargeVector<glm::vec3>, 2> means;  // means over white and over black squares; empty for single cells
     };
 
 public:
@@ -75,7 +75,7 @@ public:
     [[nodiscard]] std::size_t count() const { return sizes_.size(); }
     [[nodiscard]] const CellBox& box(std::size_t size) const { return sizes_[size].shown; }
     // Returns a row of patch means, starting at the left edge of the box. `black` selects the means over the black
-    // fields of the checkerboard. For single cells (size 0), `black` is ignored and the row has the cells' values.
+    // squares of the checkerboard. For single cells (size 0), `black` is ignored and the row has the cells' values.
     [[nodiscard]] const glm::vec3* row(std::size_t size, bool black, int y) const {
         const LargeVector<glm::vec3>& values = size == 0 ? *cells_ : sizes_[size].means[black ? 1 : 0];
         return &values[sizes_[size].kept.indexOf(sizes_[size].shown.left, y)];
@@ -150,8 +150,8 @@ LargeVector<glm::vec3> before(float background, LargeVector<glm::vec3> light) {
 // black cells replaces the rows of the reference.
 //
 // Each cell samples one point of the surface, so that a patch mean contains sampling noise. Squaring the mean would add
-// the variance of this noise. Therefore the mean over the white fields of a checkerboard is multiplied by the mean over
-// the black fields. The noise of the two means is uncorrelated and cancels on average.
+// the variance of this noise. Therefore the mean over the white squares of a checkerboard is multiplied by the mean
+// over the black squares. The noise of the two means is uncorrelated and cancels on average.
 void addSquares(const Patches* reference, const Patches& seen, std::span<const glm::vec3> dark, float brightest,
                 SquareSums& sums) {
     for (std::size_t i = 0; i < seen.count(); ++i) {

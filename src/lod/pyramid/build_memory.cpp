@@ -14,8 +14,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Bytes for each triangle and vertex. Fitting and comparing levels take most of it. The images that measure blurred
-// errors (blurred_error.h) have a constant size.
+// Memory that building a pyramid takes: a constant size for the images that measure blurred errors (blurred_error.h),
+// and the bytes for each triangle and vertex. Fitting and comparing levels take most of this memory.
 constexpr std::uint64_t imageBytes = 16u << 20;
 constexpr std::uint64_t levelTriangleBytes = 300, fullTriangleBytes = 70;
 constexpr std::uint64_t vertexBytes = 60;

@@ -18,7 +18,7 @@ namespace {
 
 // ---- growing: assignment of triangles to clusters
 
-constexpr float coneWeight = 0.75f;     // weight of similar normals against a compact shape, 0 … 1
+constexpr float coneWeight = 0.75f;     // weight of similar normals relative to a compact shape, 0 … 1
 constexpr float minTurn = 1e-3f;        // lower bound of the cost factor for a differing normal
 constexpr std::size_t seedsAhead = 64;  // max neighbours of earlier clusters that are tested as seeds
 // Max number of triangles around a vertex that one cluster considers. Files may have millions of triangles at one
@@ -55,7 +55,7 @@ struct ClusterGrowth {
     glm::vec3 normals{0};
     // Triangles that touch the growing cluster; some of them may already be assigned.
     std::vector<TriangleNumber> closed;    // all three corners are in the cluster
-    std::vector<TriangleNumber> hanging;   // last unassigned triangle at a vertex, expensive in another cluster
+    std::vector<TriangleNumber> hanging;   // only unassigned triangle at a vertex; expensive in another cluster
     std::vector<TriangleNumber> beside;    // two corners are in the cluster
     std::vector<TriangleNumber> touching;  // one corner is in the cluster
     std::vector<TriangleNumber> left;      // unassigned neighbours of earlier clusters

@@ -32,7 +32,8 @@ PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options);
 
 struct PyramidFileHeader {
     static constexpr std::uint64_t expectedMagic = 0x3150445053554644ull;  // "DFUSPDP1"
-    // Changes only with the file format. Changes to buildPyramid are covered by the key: see pyramidKey.
+    // Version of the file format. Changes of buildPyramid need no new version, because they change the key
+    // (pyramidKey).
     static constexpr std::uint32_t expectedVersion = 7;
 
     std::uint64_t magic = expectedMagic;

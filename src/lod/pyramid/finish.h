@@ -18,7 +18,7 @@
 
 namespace defocus::engine {
 
-// A texture, downsampled to a size that is sufficient for these pictures.
+// A texture, downsampled to a size that is sufficient for the pictures of picture.h.
 struct FinishImage {
     static constexpr int maxSide = 256;  // texels
 

@@ -45,9 +45,9 @@ LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, s
 // one converge at this rate on rendered scenes (bench/results/llvmpipe-sequences.txt).
 double expectedSampleError(std::uint32_t sampleCount);
 
-// Level of an object whose circle of confusion is as large as its projected bounding box, for the metric `proportional`.
-// Jeong, Kim and Lee 2011 print no value. This one is the largest of 10 · 2ⁿ for which the levels raise the FLIP of the
-// built-in school at 32 samples by at most 2 % (docs/reference.md).
+// Level of an object whose circle of confusion is as large as its projected bounding box, for the metric
+// `proportional`. Jeong, Kim and Lee 2011 state no value. This value is the largest of 10 · 2ⁿ for which the levels
+// raise the FLIP of the built-in school at 32 samples by at most 2 % (docs/reference.md).
 inline constexpr double proportionalLevels = 10;
 
 // Returns the thresholds of a metric for N = `sampleCount` lens samples.
@@ -60,7 +60,8 @@ inline constexpr double proportionalLevels = 10;
 // levels with fewer samples gain nothing. The ratio is 2.4 at N = 64 and decreases beyond; both errors vanish as N
 // grows. Measured on the school of fish at 512 × 384 (bench/results/llvmpipe-thresholds.txt).
 //
-// Metric `proportional`: `blur` is proportionalLevels for every N, because the paper's rule has no number of samples.
+// Metric `proportional`: `blur` is proportionalLevels for every N, because the paper's rule does not depend on the
+// number of samples.
 //
 // Metric `measured`: `light` is 6.7 · expectedSampleError(N)². The error of one sample at a random lens position is the
 // standard deviation of the radiance within the blur. The error of N samples is expectedSampleError(N) times that

@@ -249,7 +249,7 @@ std::vector<double> vertexShares(LevelVertices vertices) {
     return vertices == LevelVertices::quarters ? std::vector{0.75, 0.5} : std::vector<double>();
 }
 
-// Approximate progress after each stage; on one core, collapsing takes half of the time.
+// Approximate fraction of the work that is complete after each stage. On one core, collapsing takes half of the time.
 constexpr double shareOfCollapses = 0.6, shareUntilFitted = 0.7, shareUntilMeasured = 0.8, shareUntilClustered = 0.85;
 
 // Returns why the pyramid has only level 0, without an attempt to collapse edges; nullopt if further levels may save
@@ -472,7 +472,7 @@ std::uint64_t trianglesOf(std::span<const Mesh> meshes) {
 std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all) {
     const double share =
         static_cast<double>(mesh.triangleCount()) / static_cast<double>(std::max<std::uint64_t>(1, all));
-    static const unsigned available = std::max(1u, std::thread::hardware_concurrency());  // a system call
+    static const unsigned available = std::max(1u, std::thread::hardware_concurrency());  // a system call, made once
     const auto cores = std::llround(share * available);
     return static_cast<std::size_t>(std::max(1ll, cores) - 1);
 }

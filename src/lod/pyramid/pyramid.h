@@ -5,9 +5,8 @@
 // All levels index one shared vertex buffer, sorted by the coarsest level that uses each vertex. Vertices at the same
 // position are adjacent. Level l therefore uses the prefix [0, vertexCount[l]). Joints, weights, tangents and morph
 // targets are copied from the surviving vertices of the mesh. Positions, normals, colours and texture coordinates are
-// stored per level and fitted to level 0 (level_fit.h). With LevelVertices::surviving they are copied from the
-// surviving vertices, too. With LevelVertices::quarters there are three levels, with 100 %, 75 % and 50 % of the
-// vertices.
+// stored per level and fitted to level 0 (level_fit.h). With LevelVertices::surviving they are also copied from the
+// surviving vertices. With LevelVertices::quarters there are three levels, with 100 %, 75 % and 50 % of the vertices.
 
 #include <array>
 #include <cstddef>
@@ -64,7 +63,7 @@ using BlurTable = std::array<float, blurSizes>;
 // of the mesh's mean radiance. A real background is between the two.
 enum class Surround { black, grey };
 inline constexpr std::array surrounds = {Surround::black, Surround::grey};
-using BlurTables = std::array<BlurTable, surrounds.size()>;  // one table per surround
+using BlurTables = std::array<BlurTable, surrounds.size()>;  // one table per background (Surround)
 
 struct PyramidLevel {
     std::vector<IndexRange> primitives;  // one range per primitive of the mesh, in mesh order

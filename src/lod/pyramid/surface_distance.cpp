@@ -173,7 +173,7 @@ Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t
     if (!std::isfinite(nearest.squaredDistance)) nearest.squaredDistance = infinity;
     const glm::vec3 place(p);
     const float slack = rounding * std::max({surface.extent, std::abs(place.x), std::abs(place.y), std::abs(place.z)});
-    // Returns the smallest distance so far, slightly enlarged because the boxes' squared distances are rounded, too.
+    // Returns the smallest distance so far, slightly enlarged because the boxes' squared distances are rounded as well.
     const auto bound = [&] { return static_cast<float>(nearest.squaredDistance * (1 + 1e-6)); };
     float max = bound();
     stack[size++] = {0, 0};

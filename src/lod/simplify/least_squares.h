@@ -104,7 +104,7 @@ private:
         return result;
     }
 
-    Numbered<UnknownNumber, float> inverseDiagonal_;  // reciprocal diagonal of the equations; 0 where it is 0
+    Numbered<UnknownNumber, float> inverseDiagonal_;  // reciprocals of the diagonal; 0 for elements that are 0
 };
 
 }  // namespace defocus::engine

@@ -18,7 +18,7 @@ namespace {
 // Lower bound of the mean cosine between normals: normals that differ more have no meaningful mean.
 constexpr float minAgreement = 0.125f;
 
-// Sums over the anchors at each level vertex: share · weight, and share · weight · value.
+// Sums over the anchors at each level vertex: share · weight, and share · weight · value (terms of least_squares.h).
 struct AnchorSums {
     using Three = std::array<double, 3>;
     Numbered<LevelVertexNumber, double> weights;
@@ -264,7 +264,7 @@ void growComponents(Numbered<LevelVertexNumber, glm::vec3>& positions, const Lev
 // Max triangle count of levels whose reflected light is corrected. Finer levels match the reflected light of level 0
 // without correction.
 constexpr std::size_t maxLitTriangles = 16'384;
-// Max triangle count of levels whose outline is corrected. Thin parts lose area at the first level already; meshes with
+// Max triangle count of levels whose outline is corrected. Thin parts already lose area at the first level; meshes with
 // more triangles would take too long.
 constexpr std::size_t maxOutlinedTriangles = 131'072;
 

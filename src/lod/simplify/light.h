@@ -21,10 +21,10 @@ std::array<glm::dvec3, lightCount> directionsToLights();
 // three channels replaces a colour.
 using LightMeans = std::array<double, lightCount>;
 
-// Match normalSpread() and meanCosine() in shaders/include/shading.glsl: light reflected by a distribution of normals.
-// `agreement`, in [0, 1], is the length of the mean of the unit normals. `mean` is agreement · cosine if the
-// distribution is symmetric about the mean normal. In that case, the average of the result over all light directions is
-// 1/4.
+// normalSpread() and meanCosine() compute the light that a distribution of normals reflects. They match the functions
+// in shaders/include/shading.glsl. `agreement`, in [0, 1], is the length of the mean of the unit normals. `mean` is
+// agreement · cosine if the distribution is symmetric about the mean normal. In that case, the average of the result
+// over all light directions is 1/4.
 inline float normalSpread(float agreement) {
     const float lost = 1 - agreement;
     const float root = std::sqrt(lost);
@@ -34,7 +34,7 @@ inline float meanCosine(float mean, float cosine, float spread) {
     return 0.5f * (mean + std::sqrt(mean * mean + spread * std::max(1 - cosine * cosine, 0.0f)));
 }
 
-// Lower bound of interpolated agreements, as in the shaders.
+// Lower bound of agreements (lengths of mean normals) that are interpolated over a triangle, as in the shaders.
 inline constexpr float minShownAgreement = 0.05f;
 
 // A surface with vertex attributes; three indices form a triangle.

@@ -132,7 +132,7 @@ void orient(PairedSurface& surface, const EdgeGroups& groups) {
         const SurfaceCorner a = groups[g][0];
         const SurfaceCorner b = groups[g][1];
         const bool sameFace = surface.at[previousCorner(a)] == surface.at[previousCorner(b)];
-        if (sameFace && surface.forward(a) == surface.forward(b)) continue;  // faces of two primitives coincide
+        if (sameFace && surface.forward(a) == surface.forward(b)) continue;  // the same face in two primitives
         across[a] = b;
         across[b] = a;
     }

@@ -33,7 +33,7 @@ struct Manifold {
     Numbered<SurfaceFaceNumber, TriangleNumber> faces;  // the input triangle of each face
     Numbered<SurfaceCorner, SurfaceVertexNumber> corners;
     Numbered<SurfaceFaceNumber, std::uint8_t> turned;  // 1: the face has the opposite winding of its input triangle
-    Numbered<SurfaceCorner, SurfaceCorner> twins;      // the opposite half-edge, or invalid
+    Numbered<SurfaceCorner, SurfaceCorner> twins;      // the opposite half-edge; invalid if there is none
     Numbered<SurfaceVertexNumber, PositionNumber> positions;
     Repairs repairs;
 };

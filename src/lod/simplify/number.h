@@ -28,19 +28,19 @@ struct Number {
     auto operator<=>(const Number&) const = default;
 };
 
-using FileVertexNumber = Number<struct FileVertexKind>;  // into Mesh::vertices
+using FileVertexNumber = Number<struct FileVertexKind>;  // index into Mesh::vertices
 // Vertex of the mesh to simplify; equal file vertices share one number. Twins, which are copies of vertices (see
 // Simplification), have the numbers after the mesh's own vertices.
 using MeshVertexNumber = Number<struct MeshVertexKind>;
 using PositionNumber = Number<struct PositionKind>;            // a position, which several vertices may share
 using SurfaceVertexNumber = Number<struct SurfaceVertexKind>;  // vertex of the manifold before any collapse
 using SurfaceFaceNumber = Number<struct SurfaceFaceKind>;      // face of the manifold before any collapse
-using WedgeNumber = Number<struct WedgeKind>;                  // into WedgeTable
-using ComponentNumber = Number<struct ComponentKind>;          // into Simplifier::components
-using PrimitiveNumber = Number<struct PrimitiveKind>;          // into Mesh::primitives
+using WedgeNumber = Number<struct WedgeKind>;                  // index into WedgeTable
+using ComponentNumber = Number<struct ComponentKind>;          // index into Simplifier::components
+using PrimitiveNumber = Number<struct PrimitiveKind>;          // index into Mesh::primitives
 using TriangleNumber = Number<struct TriangleKind>;            // index into a TriangleSet
 using LevelVertexNumber = Number<struct LevelVertexKind>;      // vertex of one level, numbered by first use
-using PyramidVertexNumber = Number<struct PyramidVertexKind>;  // into Pyramid::vertices
+using PyramidVertexNumber = Number<struct PyramidVertexKind>;  // index into Pyramid::vertices
 
 // Kind of the corners of faces. Corner 3·f + i is corner i of face f.
 template <typename Face>

@@ -314,7 +314,7 @@ private:
     EdgeFill fill_;
     std::vector<glm::dvec2> cells_;   // projected position of each vertex group
     std::vector<std::int8_t> turns_;  // per face: 1 counterclockwise, −1 clockwise, 0 edge-on
-    std::vector<const Edge*> rim_;    // potential outline: edges that lack two faces of the same turn
+    std::vector<const Edge*> rim_;    // potential outline: all edges except those between two faces with equal turns_
 };
 
 }  // namespace

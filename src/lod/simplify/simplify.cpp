@@ -247,7 +247,7 @@ std::size_t nextTarget(const Simplifier& s, std::size_t minTriangles) {
 // Returns the min number of faces that collapses should leave for a level with `target` faces. See isKept for `share`.
 std::size_t collapseFloor(const Simplifier& s, std::size_t target, double share) {
     const SurfaceMesh& mesh = *s.mesh;
-    std::size_t stuck = 0;  // faces without any collapsible vertex, such as those of tetrahedra or isolated triangles
+    std::size_t stuck = 0;  // faces without a collapsible vertex, such as faces of tetrahedra or isolated triangles
     Numbered<ComponentNumber, std::uint8_t> movable(s.components.size(), 0);  // 1: not all faces are stuck
     forEachFace(mesh, [&](FaceHandle face) {
         const FaceCorners corners = cornersOf(mesh, face);

@@ -37,7 +37,7 @@ constexpr std::size_t fewestToGiveBack = 16'384;
 
 struct SimplifyOptions {
     std::uint32_t minTriangles = 64;  // halving ends at this number of triangles
-    int maxLevels = 23;               // excluding level 0
+    int maxLevels = 23;               // max number of levels, excluding level 0
     // true: anchors are computed for the levels. A level without anchors cannot be fitted.
     bool anchors = true;
     // If not empty, replaces halving: the fraction of the mesh's positions that each level keeps, in decreasing order.

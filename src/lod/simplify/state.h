@@ -22,7 +22,7 @@ struct Origin {
     const Vertices& vertices;
     const VertexGroups& smoothing;
     Frame frame;
-    // surface vertex at the first corner; or invalid
+    // surface vertex at the first corner that uses the mesh vertex; invalid if no corner uses it
     Numbered<MeshVertexNumber, SurfaceVertexNumber> firstVertex;
     Numbered<MeshVertexNumber, PrimitiveNumber> firstPrimitive;  // primitive of the mesh vertex's first corner
     Numbered<SurfaceVertexNumber, PositionNumber> places;
@@ -36,7 +36,7 @@ struct Component {
     double area = 0;
     PrimitiveNumber primitive;  // primitive of one of its faces
     std::size_t faces = 0;      // number of remaining faces
-    // Number of vertices with a good or poor collapse, according to the tests made so far.
+    // Number of vertices with a good or poor collapse (simplify.h), according to the tests made so far.
     std::size_t harmless = 0;
     bool spent = false;     // true since `harmless` first reached 0
     bool standsIn = false;  // the component replaces removed components

@@ -48,8 +48,8 @@ Numbered<WedgeNumber, WedgeNumber> keepDrawnWedges(SurfaceMesh& mesh) {
 }  // namespace
 
 void linkFaces(SurfaceMesh& mesh, const Manifold& manifold, const TriangleSet<MeshVertexNumber>& triangles) {
-    // Each pair of twins forms an edge, and so does each half-edge without a twin. The half-edge with the lower number
-    // is half-edge 0 of its edge.
+    // Each pair of opposite half-edges forms an edge, and so does each half-edge without an opposite one. The half-edge
+    // with the lower number is half-edge 0 of its edge.
     Numbered<SurfaceCorner, HalfedgeHandle> halfedges(manifold.twins.size());
     int edges = 0;
     for (const SurfaceCorner h : halfedges.numbers()) {

@@ -103,7 +103,7 @@ public:
         positions_ = points();
     }
 
-    // Faster than OpenMesh's own accessors, which look up the property array at each access.
+    // These accessors are faster than OpenMesh's own, which look up the property array at each access.
     [[nodiscard]] VertexData& data(VertexHandle v) { return vertexData_[v.idx()]; }
     [[nodiscard]] const VertexData& data(VertexHandle v) const { return vertexData_[v.idx()]; }
     [[nodiscard]] HalfedgeData& data(HalfedgeHandle h) { return halfedgeData_[h.idx()]; }

@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr float agreeingCosine = 0.99985f;  // 1°
+constexpr float agreeingCosine = 0.99985f;  // cosine of 1°
 
 // Gives equal vertices the same id. Uses a hash table with open addressing and linear probing, at most half full.
 // `equal` compares vertices with equal hashes.

@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 // Exposure duration and motion sampling.
 struct ShutterSettings {
-    double seconds = 0;  // 0: no motion blur
+    double seconds = 0;  // duration of the exposure; 0: no motion blur
     ShutterPosition position = ShutterPosition::centre;
     MotionSegments motionSegments = 1u;
     std::optional<double> opening;  // s, time of the opening relative to the frame's time; replaces `position`

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t maxConvexTriangles = 1000;  // max triangles of a primitive that isConvex() tests
 constexpr std::size_t maxParts = 5000;            // max parts in all primitives: all overlapping pairs are compared
-constexpr double tolerance = 1e-4;                // relative to the primitive's size; for rounded flat and round shapes
+constexpr double tolerance = 1e-4;                // relative to the primitive's size; allows for rounded positions
 
 // A blended or transmissive primitive of an object.
 struct Candidate {
@@ -32,11 +32,11 @@ struct BlendNode {
     BlendPart part;  // unused for entire primitives that transmit or are drawn by stochastic transparency
 };
 
-// Nodes that are related to an earlier node.
+// Relations of a node to the nodes before it in BlendSorter::nodes_, as indices of these nodes.
 struct Relations {
-    std::vector<std::size_t> before;     // nodes that must be drawn before the node
-    std::vector<std::size_t> after;      // nodes that must be drawn after the node
-    std::vector<std::size_t> unordered;  // nodes that have no order with the node
+    std::vector<std::size_t> before;     // nodes that must be drawn before this node
+    std::vector<std::size_t> after;      // nodes that must be drawn after this node
+    std::vector<std::size_t> unordered;  // nodes that cannot be sorted relative to this node
 };
 
 class BlendSorter {
@@ -57,9 +57,9 @@ private:
 
     FramePlan* plan_;
     const World* world_;
-    std::vector<Candidate> candidates_;  // candidates of the nearest objects first
+    std::vector<Candidate> candidates_;  // sorted by object, the nearest object first
     std::vector<BlendNode> nodes_;
-    std::vector<Relations> relations_;  // relations of each node to the nodes before it in nodes_
+    std::vector<Relations> relations_;  // one entry per node
 };
 
 void BlendSorter::findCandidates() {

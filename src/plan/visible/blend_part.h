@@ -13,7 +13,7 @@ namespace defocus::engine {
 // Plane n·x = d.
 struct Plane {
     glm::dvec3 normal{0};  // unit vector n
-    double distance = 0;   // d
+    double distance = 0;   // distance d from the origin
 };
 
 // A convex piece of a surface at one of the object's poses, in view space: a triangle, or the surface of a convex body
@@ -28,12 +28,13 @@ struct PosedPart {
 
 struct BlendPart {
     std::vector<PosedPart> poses;  // one pose, or one for each shutter time
-    bool flat = false;             // a single triangle
+    bool flat = false;             // the part is a single triangle
     // Rectangle of the image in px, relative to its centre, that contains all lens samples' images of the part.
     glm::dvec2 low{0}, high{0};
 };
 
-// Returns the part with the given triangles of the object. `positions`: of the drawn level, in object space.
+// Returns the part with the given triangles of the object. `positions` are the vertex positions of the drawn level, in
+// object space.
 BlendPart blendPart(const ObjectPlan& object, const FramePlan& plan, const std::vector<glm::vec3>& positions,
                     std::span<const std::uint32_t> indices);
 

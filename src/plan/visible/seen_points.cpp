@@ -14,9 +14,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int rayColumns = 16;  // rays through the image
+constexpr int rayColumns = 16;  // columns and rows of the grid of rays through the image
 constexpr int rayRows = 12;
-constexpr int rayDepths = 4;              // points of a ray in a bounding box
+constexpr int rayDepths = 4;              // points on the part of a ray inside a bounding box
 constexpr std::size_t maxCrossings = 16;  // max boxes along a ray; farther boxes are ignored
 
 // Part of a ray inside the bounding box of an object. Depths in m.

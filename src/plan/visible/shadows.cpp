@@ -20,7 +20,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr int minMapSize = 128;               // px
-constexpr int maxImageMapSize = 2048;         // px, max size of a map that has the image's size
+constexpr int maxImageMapSize = 2048;         // px, max map size that is chosen to match the image's size
 constexpr double resolvedShare = 0.95;        // fraction of visible points where texels are at most texelPixels wide
 constexpr double texelPixels = 2;             // px; lens samples shift the texels, so texels may be wider than pixels
 constexpr double minTexelLimit = 1 << 20;     // max texels of a map; for large images, twice the number of pixels
@@ -30,7 +30,7 @@ constexpr double widestTangent = 3;           // max tan of half a map's field o
 constexpr double levelErrorTexels = 0.5;      // texels, max simplification error of a caster
 constexpr std::size_t maxBoxes = 64;          // with more casters, a single box bounds them all
 constexpr double nearShare = 1e-4;            // near plane of point and spot lights, relative to the scene's size
-constexpr std::uint32_t smoothPoints = 64;    // points on a light from which a penumbra looks smooth
+constexpr std::uint32_t smoothPoints = 64;    // min number of points on a light for a smooth penumbra
 
 struct Rectangle {
     glm::dvec2 min{std::numeric_limits<double>::infinity()};
@@ -307,8 +307,8 @@ double texelsNeeded(const FramePlan& plan, const ShadowProjection& projection, i
 }
 
 // Returns the map size that suffices for all but a small fraction of the visible surfaces, within the limits of memory
-// and time. Sizes are rounded up to a power of two or 1.5 times a power of two, because
-// shaders are compiled for a size.
+// and time. Sizes are rounded up to a power of two or 1.5 times a power of two, because shaders are compiled for each
+// size.
 int mapSize(const World& world, const FramePlan& plan, const ShadowPlan& shadows,
             const EnvironmentDirections& directions, const std::vector<std::vector<SeenPoint>>& rays) {
     const glm::dvec3 camera(plan.view.worldFromCamera[3]);

@@ -40,7 +40,7 @@ struct LensRange {
 
 // An object as seen by all samples of the frame.
 struct ObjectViews {
-    std::vector<glm::dmat4> viewFromObject;  // at the shutter times, and in the middle of the exposure
+    std::vector<glm::dmat4> viewFromObject;  // first in the middle of the exposure, then at each shutter time
     std::vector<LensRange> lenses;           // empty: no cluster is culled for facing away
     double lensRadius = 0;                   // m, radius of the disk that bounds the lens
     double shapeLoss = 1;                    // max factor by which a tilted focus plane shrinks a triangle's altitude
@@ -213,7 +213,7 @@ struct LevelCorners {
     bool apart = false;                 // true: one shutter time per sample; false: linear motion between times
     double terms = 0;                   // m, magnitude of the terms that the GPU sums to positions
     double lensRadius = 1;              // max distance of the lens samples from the lens's centre
-    double sign = 1;                    // −1 for mirrored objects
+    double sign = 1;                    // 1, or −1 for mirrored objects
 };
 
 LevelCorners levelCorners(const ObjectPlan& object, std::uint32_t level, const World& world, const FramePlan& plan) {

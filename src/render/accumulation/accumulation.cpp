@@ -32,7 +32,7 @@ namespace {
 constexpr std::uint32_t maxWave = 16;
 
 // Returns the number of layers, which is the number of samples per wave: a power of two, at most 16. If `requested` is
-// 0, as many as fit into RendererOptions::waveBytes.
+// 0, it is the largest number that fits into RendererOptions::waveBytes.
 std::uint32_t chosenWave(const Scene& scene, const FramePlan& plan, const RendererOptions& options,
                          std::uint32_t requested, LayerFormat format) {
     const LayerWindow window = layerWindow(plan);
@@ -208,8 +208,8 @@ private:
     }
 
     // Returns whether the environment is drawn into the layers. An environment that is not a map is usually composited
-    // when the layers are added to the sum. The environment must be drawn if the environment is visible through a
-    // transmitting surface, or if alpha marks blended surfaces for the blur of lens cells.
+    // when the layers are added to the sum. It must be drawn if it is visible through a transmitting surface, or if
+    // alpha marks blended surfaces for the blur of lens cells.
     [[nodiscard]] bool drawsSky() const {
         const EnvironmentType type = scene_.world().environment.type;
         return !plan_.needsAlpha &&
@@ -238,7 +238,7 @@ private:
         stats_.trianglesDrawn += trianglesDrawn(plan_, first, count);
     }
 
-    // Draws the sky into the picture only.
+    // Draws the sky into the picture's layers, but not into the data layers.
     void drawSky(std::uint32_t first, std::uint32_t count) {
         if (layers_) sum_->layers().bind();
         surfaces_->drawSky(first, count);

@@ -1,6 +1,6 @@
 #pragma once
 // Sums the pixels of a block of samples separately by blur class, the rounded size of a lens cell's blur
-// (plan/lens_cells.h), and returns the block's image with each class blurred.
+// (plan/lens_cells/lens_cells.h), and returns the block's image with each class blurred.
 //
 // The classes are composited from the farthest to the nearest: behind the focus plane from more to less blur, then
 // sharp pixels, then in front of the focus plane from less to more blur. Each class is averaged only over the samples
@@ -56,8 +56,8 @@ private:
     GlTexture spread_;         // per tile: bit masks of the blur classes whose means are read and written in the tile
     Target spreadTarget_;
     // Per blur class, means over squares of pixels: shownMeans_ of the visible radiance, openMeans_ of the number of
-    // samples that no nearer class covers. Layer 0 holds the classes in front of the focus plane, layer 1 those behind,
-    // side by side.
+    // samples that no nearer class covers. Layer 0 holds the classes in front of the focus plane, and layer 1 the
+    // classes behind it. The classes of a layer are side by side.
     glm::ivec2 squares_;  // columns and rows of the finest grid, whose squares have the size of a pixel
     GlTexture shownMeans_, openMeans_;
     Target meanTargets_[2];

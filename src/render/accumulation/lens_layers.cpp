@@ -51,7 +51,7 @@ std::vector<Layer> numberLayers(const std::vector<Layer>& layers) {
     return found;
 }
 
-// Returns the sum of both textures.
+// Returns the RGBA texture `sum` plus its compensation.
 Image total(const GlTexture& sum, const GlTexture& compensation) {
     Image image = readBack(sum, 4);
     const Image lost = readBack(compensation, 4);
@@ -67,7 +67,7 @@ Image channelOf(const Image& image, int channel) {
     return result;
 }
 
-// Returns the first channels of `sum`, divided by the number of samples of each pixel.
+// Returns `channels` channels of `sum` from channel `first` on, divided by each pixel's number of samples.
 Image mean(const Image& sum, const Image& samples, int first, int channels) {
     Image result(sum.width, sum.height, channels);
     for (std::size_t i = 0; i < samples.pixels.size(); ++i)
@@ -77,7 +77,7 @@ Image mean(const Image& sum, const Image& samples, int first, int channels) {
     return result;
 }
 
-// Returns the share of the samples that count any number.
+// Returns for each pixel the share of the samples that show any object or material.
 Image coverageOf(const NumberCounts& counts, const Image& samples) {
     Image coverage(counts.width, counts.height, 1);
     const auto entries = static_cast<std::size_t>(counts.entries);

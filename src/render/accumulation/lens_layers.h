@@ -23,7 +23,7 @@ public:
 
     // Returns the defines of the surface pass whose fragment shader is accumulation/layers.frag.
     [[nodiscard]] static ShaderDefines defines(const std::vector<Layer>& layers, bool countsSamples);
-    // Returns the bytes per pixel of one wave's layers, and of the sums.
+    // Return bytes per pixel: of the data layers of one lens sample, and of the sums over all samples.
     [[nodiscard]] static std::uint64_t layerBytes(const std::vector<Layer>& layers);
     [[nodiscard]] static std::uint64_t sumBytes(const std::vector<Layer>& layers);
 

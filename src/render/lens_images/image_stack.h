@@ -29,12 +29,14 @@ public:
     // `software`: OpenGL runs on the CPU.
     ImageStack(std::filesystem::path shaderFolder, bool software);
 
-    // Allocates the images, at most maxImages, without contents. Throws Error if the driver has too little memory.
+    // Allocates `count` images, at most maxImages, with undefined pixels. Throws Error if the driver has too little
+    // memory.
     void allocate(int width, int height, std::uint32_t count);
     void free();
-    // Stores an image of the same size, rounded to half floats.
+    // Stores an image of the allocated size, rounded to half floats.
     void store(std::uint32_t image, const GlTexture& texture);
-    // Computes the mean of at least one image, of a size in px. All its pixels must be within each image.
+    // Computes the mean of at least one image. The mean has `width` × `height` px. The rectangle of this size at
+    // Part::corner must lie within the image.
     void computeMean(std::span<const Part> parts, int width, int height);
 
     // Returns the latest mean, with row 0 at the bottom.
@@ -49,7 +51,7 @@ private:
     bool software_;
     GlTexture images_;               // all images; or, where OpenGL runs on the CPU, the latest one
     std::vector<HalfImage> halves_;  // all images where OpenGL runs on the CPU, with row 0 at the bottom
-    std::vector<float> sums_;        // RGBA of the mean there
+    std::vector<float> sums_;        // RGBA of the mean, where OpenGL runs on the CPU
     GlTexture mean_;
     Target meanTarget_;
     Program store_, sum_;

@@ -17,8 +17,8 @@ struct DividedRun {
     std::uint32_t firstBase = 0;  // index in the buffer of undivided triangles
     std::uint32_t baseCount = 0;
     std::uint32_t parts = 1;
-    std::uint32_t firstVertex = 0;    // index of the division's first vertex in the frame
-    std::uint32_t firstTriangle = 0;  // index of the division's first triangle in the frame
+    std::uint32_t firstVertex = 0;    // index of the first new vertex among the frame's vertices
+    std::uint32_t firstTriangle = 0;  // index of the first small triangle among the frame's triangles
 
     [[nodiscard]] std::uint64_t vertexCount() const { return std::uint64_t{baseCount} * (parts + 1) * (parts + 2) / 2; }
     [[nodiscard]] std::uint64_t triangleCount() const { return std::uint64_t{baseCount} * parts * parts; }
@@ -29,21 +29,21 @@ struct DividedRun {
 inline constexpr double maxSmallTriangles = 1'000'000;
 
 // Returns the number of parts n ≤ 64 into which each edge is divided, so that C deviates from linear by at most
-// `tolerance` px. n is smaller where the `triangles` triangles of the object would become more than `maxTriangles`.
+// `tolerance` px. n is smaller if the object's `triangles` triangles would otherwise become more than `maxTriangles`.
 std::uint32_t partsOfEdges(const ObjectPlan& object, std::uint64_t triangles, double tolerance, double maxTriangles);
 
 class DividedTriangles {
 public:
     explicit DividedTriangles(std::filesystem::path shaderFolder, bool lightsVertices);
 
-    // Forgets all runs. `defines` are those of the front end.
+    // Removes all runs. `defines`: shader defines of the front end (LensFront).
     void start(const ShaderDefines& defines);
     void add(const DividedRun& run) { runs_.push_back(run); }
     [[nodiscard]] bool empty() const { return runs_.empty(); }
-    // Writes the small triangles. The undivided triangles, the frame's triangles and, with light of vertices, the first
-    // triangle of each vertex must be bound at points 1, 2 and 3.
+    // Writes the small triangles. The buffers of the undivided triangles, the frame's triangles and, if vertices are
+    // lit, the first triangle of each vertex must be bound at storage binding points 1, 2 and 3.
     void makeTriangles(const Buffer& bases) const;
-    // Computes the vertices from the undivided ones in the same buffer.
+    // Both functions compute the new vertices from the vertices of the undivided triangles, in the same buffer.
     void makeClips(const Buffer& bases, const Buffer& clips, const Buffer& ownBlurs) const;
     void makeAttributes(const Buffer& bases, const Buffer& attributes) const;
 

@@ -16,7 +16,7 @@ MethodSetting cocInterpolationSetting();
 
 // Returns a renderer that finds hits with `kernel`. `options.settings` must be complete. Renderer::start throws Error,
 // with the setting in its message, for unsupported features: axial chromatic aberration, cat's eye, exact motion, and
-// those of the kernel.
+// features that the kernel does not support.
 std::unique_ptr<Renderer> makeLensSpaceRenderer(const World& world, const RendererOptions& options,
                                                 std::unique_ptr<VisibilityKernel> kernel);
 

@@ -7,8 +7,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Entries of a tile's list that an iteration of shaders/lens_space/behind.comp tests. Mesa's software driver ends the
-// loops of a thread after a total of 65,535 iterations.
+// Number of entries of a tile's list that an iteration of shaders/lens_space/behind.comp tests. Mesa's software driver
+// ends the loops of a thread after a total of 65,535 iterations.
 constexpr std::uint32_t entriesAtOnce = 8;
 constexpr std::uint32_t softwareIterations = 65'000;
 

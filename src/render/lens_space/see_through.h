@@ -1,10 +1,10 @@
 #pragma once
 // Cut-out and alpha-blended surfaces in the lens-space methods. After the visibility kernel, each ray that hits such a
-// surface stops there or goes on, by the surface's alpha at the hit (shaders/lens_space/let_through.comp). Rays that go
-// on find their next hit (behind.comp), until all rays have stopped.
+// surface stops there or goes on, depending on alpha at the hit (shaders/lens_space/let_through.comp). Rays that go on
+// find their next hit (behind.comp), until all rays have stopped.
 //
-// A line sample goes on as point samples: one at each shading point of the surface that lets it through. This is an
-// approximation of ours, because Tzeng et al. 2012 draw only opaque surfaces.
+// Behind such a surface, a line sample continues as point samples, one from each shading point on the surface. Tzeng et
+// al. 2012 draw only opaque surfaces, so this approximation is ours.
 
 #include "render/lens_space/lens_front.h"
 #include "render/lens_space/record_shading.h"
@@ -15,7 +15,7 @@ class SeeThrough {
 public:
     SeeThrough(std::filesystem::path shaderFolder, std::uint32_t tileSize);
 
-    // Prepares the programs for the groups of `front`. `defines` are those of the front end, the rays and the kernel.
+    // Prepares the programs for the groups of `front`. `defines`: shader defines of `front`, rays and kernel.
     void prepare(const FramePlan& plan, const LensFront& front, const ShaderDefines& defines);
     // Moves the hits of `count` records of the wave that starts at ray `firstRay` to the surfaces at which their rays
     // stop. Rays, records and the frame's uniforms must be bound. Returns the number of searches for a next hit. Throws

@@ -31,7 +31,7 @@ public:
     [[nodiscard]] virtual const char* addShader() const { return "lens_space/add.comp"; }
     // Returns the min bytes of the records of one ray.
     [[nodiscard]] virtual std::uint64_t rayBytes() const = 0;
-    // Prepares a frame; called before its first wave. `defines` are the defines of the front end and of the rays.
+    // Prepares a frame; called before its first wave. `defines`: shader defines of LensFront and of the rays.
     virtual void start(const FramePlan& plan, const RaySets& rays, const ShaderDefines& defines) = 0;
     // Finds the hits of the wave's rays and returns the number of records. Reduces `wave.count` if the records would
     // exceed the max buffer size. The frame's uniforms and the rays must be bound.

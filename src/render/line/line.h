@@ -7,7 +7,7 @@
 // Intersecting segments change order only at the end of a segment, and each segment is shaded once, at its midpoint. By
 // default, this implementation finds the visible intervals exactly, including intersections. The number of shading
 // points per interval depends on the parallax of its surface in pixels. Shading points are random, so that textures are
-// blurred too.
+// also blurred.
 
 #include "render/methods.h"
 

@@ -46,8 +46,8 @@ struct WheelPoint {
 };
 
 // Returns one point per line of the wagon wheel (line_sets.h). Two coordinates of the low-discrepancy sequence are the
-// positions in the pixel. A third coordinate assigns positions to lines, so that they are well distributed over the
-// wheel too. Shading positions advance by the golden ratio from line to line.
+// positions in the pixel. A third coordinate assigns positions to lines, so that they are also well distributed over
+// the wheel. Shading positions advance by the golden ratio from line to line.
 std::vector<WheelPoint> wheelPoints(const RenderSettings& settings, std::uint32_t variant, std::uint32_t lines) {
     std::vector<SequencePoint> points;
     for (std::uint32_t line = 0; line < lines; ++line)
@@ -93,7 +93,8 @@ LineSets lineSets(const FramePlan& plan, bool turned, std::uint32_t linesPerPosi
     for (std::uint32_t variant = 0; variant < sets.variants; ++variant)
         wheels.push_back(wheelPoints(plan.settings, variant, count));
     const std::uint32_t positions = (count + linesPerPosition - 1) / linesPerPosition;
-    // Positions of a prefix of the sequence are well distributed. wheelPoints() sorts, so take every n-th point.
+    // Take every n-th point. wheelPoints() sorts by one coordinate of the sequence, so its first points cover only a
+    // part of this coordinate's range.
     const auto positionOf = [&](std::uint32_t variant, std::uint32_t angle) {
         return wheels[variant][angle % positions * count / positions].pixel;
     };

@@ -3,7 +3,7 @@
 // shaders/line/line.glsl.
 //
 // From lens point p·d, a clip-space vertex (x, y, w) with signed circle of confusion C appears at the offset
-// (α + p·β)/w from image position s, with α = (x, y) − w·s and β = C·d. The edge functions are linear in p too,
+// (α + p·β)/w from image position s, with α = (x, y) − w·s and β = C·d. The edge functions are also linear in p,
 // α_i × α_j + p·(α_i × β_j + β_i × α_j), because all β are parallel. They correspond to the inequality
 // C_i + u·A_i(y) − v·B_i(x) ≥ 0 of Tzeng et al. 2012 along a line.
 

@@ -65,8 +65,8 @@ public:
     // tested.
     [[nodiscard]] const RemainingDraws& shown() const { return shown_; }
     // Returns the draws of hidden pieces that may be visible in samples [first, first + count), after shown() has been
-    // drawn. The depths of sample `first` are in layer `layer` of `depths`, those of later samples in the layers after
-    // it.
+    // drawn. The depths of sample `first` are in layer `layer` of `depths`, and the depths of later samples are in the
+    // layers after it.
     [[nodiscard]] RemainingDraws uncovered(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
                                            std::uint32_t layer) const;
 

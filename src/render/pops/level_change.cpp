@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr float maxBlur = 256;  // px; max blur diameter by which objects are grown
+constexpr float maxBlur = 256;  // max diameter (px) of the blur disks by which objects are grown
 
 bool sameDraw(const LevelDraw& a, const LevelDraw& b) {
     return a.sampleCount == b.sampleCount &&

@@ -20,7 +20,7 @@ struct HeldPlan {
 const ObjectPlan* objectOf(const FramePlan& plan, int object);
 
 // Returns `plan` with the previous frame's levels and division of samples between levels, for objects that are in both
-// frames. Returns none if nothing differs, or if the numbers of samples differ.
+// frames. Returns nullopt if nothing differs, or if the numbers of samples differ.
 std::optional<HeldPlan> asBefore(const FramePlan& plan, const FramePlan& before);
 
 // Marks the levels that the plan's objects draw in FramePlan::levelsUsed.

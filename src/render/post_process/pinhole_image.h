@@ -12,7 +12,8 @@ namespace defocus::engine {
 struct PinholeImage {
     PinholeImage() = default;
     // `format` must have alpha (rgba16f, rgba32f). `depthFormat` is depth32f, or r32f if a fragment shader writes the
-    // depth. If `keepsOwnBlur`, the blur controls of surfaces are stored too. `samples` per pixel: above 1, multisampled.
+    // depth. If `keepsOwnBlur`, the blur controls of surfaces are also stored. `samples`: samples per pixel; above 1,
+    // the image is multisampled.
     PinholeImage(int width, int height, LayerFormat format, TextureFormat depthFormat, bool keepsOwnBlur,
                  int samples = 1);
 

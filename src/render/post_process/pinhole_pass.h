@@ -23,7 +23,7 @@ FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t c
 
 class PinholePass {
 public:
-    // `format` must have alpha (rgba16f, rgba32f). If `ownBlur`, the blur controls of surfaces are stored too. With
+    // `format` must have alpha (rgba16f, rgba32f). If `ownBlur`, the blur controls of surfaces are also stored. With
     // `samples` > 1 per pixel, the image is multisampled. Needs a current OpenGL context.
     PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool ownBlur, int samples,
                 const std::filesystem::path& shaderFolder);
@@ -53,7 +53,7 @@ private:
     std::filesystem::path shaderFolder_;
     PinholeImage image_;
     PinholeImage multisampled_;         // empty without multisampling
-    Target target_, resolvedTarget_;    // of the image that is drawn, and of image_ with multisampling
+    Target target_, resolvedTarget_;    // targets of the drawn image and, with multisampling, of image_
     bool transparent_ = false;  // true if the background is transparent
     ShadowMaps shadows_;
     SurfacePass surfaces_;

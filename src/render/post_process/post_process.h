@@ -18,7 +18,7 @@ public:
     // Prepares the blur for a frame; called before the frame's first draw().
     virtual void start(const FramePlan& plan, const FrameUniforms& frame) = 0;
     // Draws `pinhole` blurred into `output`: linear radiance, alpha 1. The blur must be a linear function of the
-    // radiance, because it is applied to coverage too. Pixels outside PinholeImage::part may be omitted.
+    // radiance, because it is also applied to coverage. Pixels outside PinholeImage::part may be omitted.
     virtual void draw(const PinholeImage& pinhole, const FrameUniforms& frame, const Target& output) = 0;
     // Returns whether the blur is nowhere larger than the lens blur in the plan.
     [[nodiscard]] virtual bool blursAsTheLens() const { return true; }
@@ -27,7 +27,7 @@ public:
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
-// Return settings that several methods share; `standard` is the default.
+// Return settings that several post-process methods share.
 MethodSetting pinholesSetting();
 MethodSetting transparencyBucketsSetting(const char* defaultValue);
 

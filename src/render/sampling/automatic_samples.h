@@ -15,9 +15,9 @@ inline constexpr std::uint32_t maxAutomaticSamples = 1024;
 double flipOf(Quality quality);
 
 // Returns the number of samples to begin with: 16 (draft), 32 (good) or 64 (fine), or complete blocks of 64 up to
-// 1,024. N points in a disk of c px, the largest blur diameter, are about c·√(π/(4N)) px apart; N is chosen for at most
-// 8 (draft), 4.5 (good) or 3 px (fine). With shadow maps or motion, N is at least 64. Objects that extend to the near
-// plane have unbounded blur and are ignored, as is blur above largestSampledBlur().
+// 1,024. N points in a disk of c px, the largest blur diameter, are about c·√(π/(4N)) px apart. N is chosen so that
+// this distance is at most 8 (draft), 4.5 (good) or 3 px (fine). With shadow maps or motion, N is at least 64. Objects
+// that extend to the near plane have unbounded blur and are ignored, as is blur above largestSampledBlur().
 std::uint32_t firstSamples(const FramePlan& plan, Quality quality);
 
 // Returns the number of samples of a frame whose error cannot be estimated before it is complete, such as a frame in
@@ -26,7 +26,7 @@ std::uint32_t firstSamples(const FramePlan& plan, Quality quality);
 std::uint32_t samplesForBlur(const FramePlan& plan, Quality quality);
 
 // Returns the blur diameter in px at which the blur disk has maxAutomaticSamples times the area of the image. In wider
-// disks, fewer than one of that many samples shows the blurred point.
+// disks, on average fewer than one of that many samples shows a blurred point inside the image.
 double largestSampledBlur(const FramePlan& plan);
 
 // Returns whether the bounded blur of some object exceeds largestSampledBlur(). Further samples then hardly improve the

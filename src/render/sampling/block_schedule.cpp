@@ -10,7 +10,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double levelShare = 0.5;       // max level error relative to the intended error; √(1 + 0.5²) = 1.12
+// Max level error relative to the intended error. The total error is then at most √(1 + 0.5²) = 1.12 times the intended
+// error.
+constexpr double levelShare = 0.5;
 constexpr double withoutLevelError = 4;  // factor on the expected samples, if the level error is unknown
 constexpr double blockTolerance = 0.7;   // s
 constexpr double maxThresholdSamples = 1e8;

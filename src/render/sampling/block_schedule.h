@@ -49,8 +49,8 @@ public:
     // Returns the settings of the next block, with its level-of-detail thresholds and its number of samples, limited by
     // StopSettings::sampleLimit.
     [[nodiscard]] RenderSettings nextBlock() const;
-    // Returns whether addImage() needs the frame's image after `samples` samples. This number is half the samples of
-    // the first error estimate, which compares the image after each of the two numbers.
+    // Returns whether addImage() needs the frame's image after `samples` samples. For an automatic number of samples,
+    // the first error estimate compares the image at its sample count with the image at half this count.
     [[nodiscard]] bool wantsImage(std::uint32_t samples) const;
     void addImage(const Image& mean, std::uint32_t samples) { estimate_.add(mean, samples); }
     // Records that a block has been drawn with `plan`, made from the settings of nextBlock(). Returns whether another

@@ -50,8 +50,8 @@ public:
     // Returns the RMS error of the latest image over pixels and channels, in display-encoded values in [0, 1] at EV 0;
     // nullopt for fewer than two images.
     [[nodiscard]] std::optional<double> error() const { return error_; }
-    // Returns the FLIP of the latest image, estimated from the mean absolute error of these values; nullopt for fewer
-    // than two images.
+    // Returns the FLIP of the latest image, estimated from the mean absolute error of the display-encoded values;
+    // nullopt for fewer than two images.
     [[nodiscard]] std::optional<double> flip() const { return flip_; }
     [[nodiscard]] std::uint32_t samples() const { return kept_.empty() ? 0 : kept_.back().samples; }
 

@@ -179,7 +179,7 @@ private:
     bool thinLens_;
     bool unlimited_;
     bool bytes_;   // true: 8-bit encoded colour, as published; false: half floats
-    int samples_;  // per pixel of the pinhole image
+    int samples_;  // samples per pixel of the pinhole image
     MethodSettings settings_;
     std::vector<glm::vec2> points_;  // taps in the unit disk
     bool shaped_ = false;            // true if the aperture is not a disk
@@ -235,7 +235,7 @@ BlurrinessPlanes withPlanesByHand(const BlurrinessPlanes& planes, const PlanesBy
 }
 
 std::vector<glm::vec2> poissonDisk(std::uint32_t count) {
-    std::vector<glm::vec2> points = {glm::vec2(0)};  // the centre keeps its distance too, but is no tap
+    std::vector<glm::vec2> points = {glm::vec2(0)};  // taps also keep a distance to the centre, which is no tap
     std::uint64_t next = 0;
     while (points.size() <= count) {
         glm::vec2 best(0);

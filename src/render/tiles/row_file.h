@@ -18,7 +18,7 @@ struct RowFileHeader {
     int height = 0;
     RowRange rows;
     std::string settings;  // settings of the frame, equal for all parts
-    std::string share;     // "1/4": requested part of the rows; empty: chosen by memory
+    std::string share;     // "1/4": requested part of the rows; empty: rows chosen to fit into memory
     Metadata metadata;     // metadata of the full frame
 };
 

@@ -37,7 +37,7 @@ struct Tiling {
     std::vector<Band> bands;  // from top to bottom
 };
 
-// Bytes per pixel: of the sums on the device, of a tile that is read back, and of a band.
+// Bytes per pixel of the sums on the device, and of a tile and a band on the host.
 inline constexpr std::uint64_t sumPixelBytes = 9 * 16;
 inline constexpr std::uint64_t tilePixelBytes = 16;  // RGBA, read back
 inline constexpr std::uint64_t bandPixelBytes = 16;  // RGBA, with the full width of the image

@@ -65,7 +65,7 @@ public:
             [&](const CameraSample& sample) { return Values{valueOf(sample)}; });
     }
 
-    // Adds buffer and animation to the file, if anything moves.
+    // Adds the buffer and the animation to the file, unless all samples have the same values.
     void finish(Json& file) {
         if (animation.empty()) return;
         file["extensionsUsed"] = {"KHR_animation_pointer"};

@@ -7,8 +7,8 @@
 
 namespace defocus::engine {
 
-// Returns a .gltf text with one camera node. Lens values are extras of the camera. Several samples become an animation:
-// of the node, and of the lens by KHR_animation_pointer. Animated values have 32-bit precision.
+// Returns a .gltf text with one camera node. Lens values are extras of the camera. Several samples become an animation
+// of the node and, by KHR_animation_pointer, of the lens values. Animated values have 32-bit precision.
 std::string cameraGltfText(const CameraTake& take);
 
 }  // namespace defocus::engine

@@ -15,8 +15,8 @@ namespace defocus::engine {
 std::string cameraJsonText(const CameraTake& take);
 
 // Returns the camera of a JSON text. Between samples, positions and lens values are interpolated linearly and rotations
-// spherically. `name`: the camera's expected name; empty: any. `file` is the name in messages. Throws Error for
-// text that is not such a camera.
+// spherically. `name`: the name that the camera must have; empty: any name. `file`: file name for messages. Throws
+// Error if the text does not describe such a camera.
 CameraTrack jsonCamera(std::string_view text, const std::string& name, const std::string& file);
 
 }  // namespace defocus::engine

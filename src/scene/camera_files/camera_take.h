@@ -22,7 +22,7 @@ struct CameraSample {
 struct CameraTake {
     std::string name;
     double aspect = 1;      // width / height of the image
-    double frameRate = 24;  // frames per second; samples lie at frames
+    double frameRate = 24;  // frames per second; each sample is at the time of a frame
     std::vector<CameraSample> samples;
     std::optional<ShutterInterval> shutter;
 };

@@ -13,9 +13,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double unitsPerMillimetre = 0.01;  // USD gives lengths of the lens in tenths of the unit, which is 1 m
+constexpr double unitsPerMillimetre = 0.01;  // USD gives lens lengths in tenths of the layer's unit, 1 m here
 
-// Lens values that are attributes of USD, or follow from them.
+// Lens values that USD attributes express, directly or indirectly.
 constexpr std::array<std::string_view, 5> usdValues = {"focalLength", "horizontalAperture", "fStop", "focusDistance",
                                                        "dofEnabled"};
 

@@ -15,7 +15,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr double widestSensor = 1000;  // mm; a wider sensor is probably given in mm instead of tenths of a unit
-constexpr double plainUnit = 0.01;     // metersPerUnit of a layer without this entry; a tenth of it is 1 mm
+constexpr double plainUnit = 0.01;     // default of the layer entry metersPerUnit; a tenth of this unit is 1 mm
 constexpr const char* lensPrefix = "defocus:";
 
 // A camera with its ancestors, from the root to the camera.
@@ -45,7 +45,7 @@ bool hasArcs(const UsdPrim& prim) {
     return !prim.arcs.empty() || std::ranges::any_of(prim.children, hasArcs);
 }
 
-// Returns the advice for a layer whose content comes from other files; empty for other layers.
+// Returns advice for the error message of a layer whose content comes from other files; empty for other layers.
 std::string arcsAdvice(const UsdLayer& layer) {
     if (!layer.metadata.contains("subLayers") && std::ranges::none_of(layer.prims, hasArcs)) return "";
     return "; content of other layers, references and variants is not read, so write it to one file with: usdcat "
@@ -226,7 +226,7 @@ private:
     PrimPath path_;
     std::string where_;
     Stage stage_;
-    std::optional<double> tenthMillimetres_;  // mm per unit of lens lengths, if they don't follow USD's rule
+    std::optional<double> tenthMillimetres_;  // mm per unit of lens lengths; none: a tenth of the layer's unit
 };
 
 }  // namespace

@@ -3,7 +3,7 @@
 // operations) and UsdStage (interpolation of time samples).
 //
 // Time code c corresponds to c / timeCodesPerSecond seconds of the animation. The layer's unit and up axis are
-// converted. Numbers "custom double defocus:NAME" of the camera are lens values by their names in lens/lens_fields.h.
+// converted. Attributes "custom double defocus:NAME" of the camera are lens values; lens/lens_fields.h lists the names.
 
 #include <string>
 

@@ -34,7 +34,7 @@ public:
 
     UsdLayer layer() {
         UsdLayer result;
-        at_ = std::min(text_.find('\n'), text_.size());  // "#usda 1.0"
+        at_ = std::min(text_.find('\n'), text_.size());  // skips the first line, "#usda 1.0"
         if (next() == '(') metadata(result);
         while (next() != '\0') result.prims.push_back(prim(0));
         return result;
@@ -70,7 +70,7 @@ private:
         if (!accept(letter)) refuse(fmt::format("expected '{}'", letter));
     }
 
-    // Returns the word at the current position without taking it; empty if there is none.
+    // Returns the word at the current position without consuming it; empty if there is none.
     std::string_view peekWord() {
         next();
         std::size_t end = at_;
@@ -91,7 +91,7 @@ private:
         return true;
     }
 
-    // Takes the text up to `end` and returns it.
+    // Consumes the text up to and including `end`. Returns the text before `end`.
     std::string until(std::string_view end) {
         const std::size_t found = text_.find(end, at_);
         if (found == std::string_view::npos) refuse(fmt::format("there is no closing {}", end));
@@ -210,7 +210,7 @@ private:
     void entries(const Found& found) {
         expect('(');
         while (!accept(')')) {
-            if (next() == '"' || next() == '\'') {  // documentation
+            if (next() == '"' || next() == '\'') {  // documentation, which has no key
                 quoted();
                 continue;
             }

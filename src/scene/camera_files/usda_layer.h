@@ -10,24 +10,25 @@
 
 namespace defocus::engine {
 
-// A value with its nesting removed: a matrix4d is 16 numbers. Empty lists mean that the value has another type.
+// A value whose nested lists and tuples are flattened: a matrix4d is 16 numbers. A list is empty if the value has
+// another type.
 struct UsdValue {
     std::vector<double> numbers;     // booleans are 0 or 1
     std::vector<std::string> texts;  // strings, tokens, paths and assets
-    bool blocked = false;            // None, which hides the value
+    bool blocked = false;            // true for the value None, which means no value
 };
 
 struct UsdAttribute {
-    UsdValue value;                                    // without time
+    UsdValue value;                                    // value that applies without time samples
     std::vector<std::pair<double, UsdValue>> samples;  // by time code, increasing
 };
 
 struct UsdPrim {
     std::string specifier;  // "def", "over" or "class"
-    std::string type;       // "Camera", "Xform", …; empty: none
+    std::string type;       // "Camera", "Xform", …; empty: the prim has no type
     std::string name;
     std::map<std::string, UsdAttribute, std::less<>> attributes;  // attributes of transforms and of cameras only
-    std::vector<std::string> arcs;                                // "references", "payload", "variantSets", …
+    std::vector<std::string> arcs;                                // composition arcs: "references", "payload", …
     std::vector<UsdPrim> children;
 };
 

@@ -19,7 +19,7 @@ enum class Kind {
     strings,
     boolean,
     number,
-    numbers,    // array of numbers; of `length` entries unless `length` is 0
+    numbers,    // array of numbers, with `length` entries if `length` > 0
     size,       // integer ≥ 0
     index,      // integer index into the top-level array `target`
     indices,    // array of indices
@@ -309,7 +309,7 @@ private:
 
     const Place* parent_ = nullptr;
     std::string_view name_;
-    std::size_t index_ = noIndex;  // entry of an array
+    std::size_t index_ = noIndex;  // index in the array; noIndex for a member of an object
 };
 
 class Checker {

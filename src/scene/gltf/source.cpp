@@ -46,7 +46,7 @@ constexpr std::array<std::string_view, 24> supportedExtensions = {
 // Extensions that do not change the picture: metadata about the file.
 constexpr std::array<std::string_view, 2> metadataExtensions = {"KHR_xmp", "KHR_xmp_json_ld"};
 
-// How files with an unsupported extension are drawn.
+// An unsupported extension, and how files with it are drawn.
 struct Fallback {
     std::string_view extension;
     std::string_view look;

@@ -112,7 +112,7 @@ void convertGlossiness(Source& source, std::vector<Material>& materials, Texture
         const nlohmann::json* extension =
             findExtension(source.document.json["materials"][i], "KHR_materials_pbrSpecularGlossiness");
         if (extension == nullptr || !extension->contains("specularGlossinessTexture")) continue;
-        if (!use.used()) {  // draw a dielectric rather than a mirror
+        if (!use.used()) {  // without the texture, use a dielectric instead of a mirror
             materials[i].ior = Material().ior;
             continue;
         }

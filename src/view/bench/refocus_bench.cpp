@@ -20,8 +20,8 @@ constexpr int dragFrames = 20;
 // A drag of the focus distance or the f-number.
 struct Drag {
     std::string name;
-    double focusDistance = 1;  // m, at the end
-    double fStop = 1;          // at the end
+    double focusDistance = 1;  // m, at the end of the drag
+    double fStop = 1;          // f-number at the end of the drag
 };
 
 std::vector<Drag> dragsOf(const Document& document, const ViewState& state) {
@@ -44,7 +44,7 @@ public:
     DragRun(Document& document, ViewState& state, const ViewBenchOptions& options)
         : state_(state), picture_(document, state, options.software) {}
 
-    // Fills the times and qualities of `row`. Returns the picture at the end of the drag, and at full quality.
+    // Fills the times and qualities of `row`. Returns two pictures: at the end of the drag, and at full quality.
     std::pair<Image, Image> run(const Drag& drag, RefocusBenchRow& row) {
         rest();
         row.keptImages = picture_.image().keptImages() ? picture_.image().keptImages()->drawn() : 0;

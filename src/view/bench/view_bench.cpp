@@ -20,10 +20,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double step = glm::radians(1.0);    // orbit per frame
+constexpr double step = glm::radians(1.0);    // angle of the orbit per frame
 constexpr double settledSeconds = 1;          // time at rest before the movement, so that the first input is typical
 constexpr std::uint32_t minStillSamples = 4;  // samples of the first picture that the window shows at rest
-constexpr double comparedShares[] = {0.25, 0.5, 0.75};  // parts of the movement whose frames are compared
+constexpr double comparedShares[] = {0.25, 0.5, 0.75};  // fractions of the movement at which frames are compared
 
 struct ShownFrame {
     std::uint32_t frame = 0;  // number of the frame in the movement

@@ -23,7 +23,7 @@ FocusRange keptRange(const View& view, const FramePlan& plan);
 class KeptImages {
 public:
     static constexpr std::uint32_t maxImages = ImageStack::maxImages;
-    static constexpr std::uint32_t minImages = 16;  // fewer images show separate copies of blurred surfaces
+    static constexpr std::uint32_t minImages = 16;  // with fewer images, blurred surfaces show as copies
 
     // `world` must outlive this object. `software`: OpenGL runs on the CPU. Needs a current GL context.
     KeptImages(const World& world, RendererOptions options, bool software);
@@ -49,8 +49,9 @@ public:
         return static_cast<std::uint32_t>(imagesFor(lens).size());
     }
 
-    // Draws the picture for the lens's focus distance and f-number, from all images that are serving the lens, at least
-    // one. Needs complete images. The lens may differ from that of begin() in these two values only.
+    // Draws the picture for the lens's focus distance and f-number from the images that serving() counts, of which
+    // there must be at least one. All planned images must be drawn. The lens may differ from that of begin() in these
+    // two values only.
     void refocus(const Lens& lens);
     // Returns the latest picture of refocus(): linear, premultiplied RGBA, row 0 at the bottom.
     [[nodiscard]] const GlTexture& picture() const { return stack_.mean(); }
@@ -64,7 +65,7 @@ private:
 
     const World* world_;
     RendererOptions options_;
-    std::unique_ptr<Renderer> renderer_;  // while images are drawn
+    std::unique_ptr<Renderer> renderer_;  // null unless images are being drawn
     LightFieldInfo info_;
     FramePlan plan_;
     std::uint32_t drawn_ = 0;

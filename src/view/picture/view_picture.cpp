@@ -52,7 +52,7 @@ std::vector<double> displayKey(const DisplaySettings& display) {
             display.differenceGain};
 }
 
-// Returns the view at another resolution. The lens's blur limits, in px, are scaled too.
+// Returns the view at another resolution. Limits on the lens's blur, in px, are also scaled.
 View resized(const View& view, double resolution) {
     View result = view;
     result.width = std::max(1, static_cast<int>(std::lround(view.width * resolution)));

@@ -85,8 +85,8 @@ public:
     [[nodiscard]] std::uint32_t wave() const { return sides_.empty() ? 0 : first().stats().wave; }
     // Returns the times of the latest frame: passes from timer queries, set-up by wall clock.
     [[nodiscard]] const std::vector<PassTime>& passes() const { return passes_; }
-    [[nodiscard]] std::uint64_t changes() const { return changes_; }  // counts changes of the view or the scene
-    [[nodiscard]] std::uint64_t begun() const { return begun_; }      // counts the still images begun
+    [[nodiscard]] std::uint64_t changes() const { return changes_; }  // number of changes of the view or the scene
+    [[nodiscard]] std::uint64_t begun() const { return begun_; }      // number of still images that were begun
 
 private:
     using Clock = std::chrono::steady_clock;

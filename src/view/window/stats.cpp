@@ -79,7 +79,7 @@ ordered_json windowJson(const Session& session) {
     const InputLatency::Summary latency = session.times.latency.summary();
     return {
         {"fault", state.fault},
-        {"frames", session.framesDrawn},  // the state includes all events before the second to last frame
+        {"frames", session.framesDrawn},  // frames drawn; the state includes all events before the last two of them
         {"typing", inputContext(session).typing},
         {"openPath", state.openPath},
         {"frameMilliseconds", session.times.frame},

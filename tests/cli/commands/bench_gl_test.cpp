@@ -45,7 +45,7 @@ TEST_F(BenchConvergence, aRunCutOffAnywhereIsTakenUp) {
         ASSERT_EQ(rows.size(), full.size()) << share;
         for (const auto& [key, cells] : full) {
             ASSERT_TRUE(rows.contains(key)) << key;
-            EXPECT_EQ(rows.at(key).at(14), cells.at(14)) << key;  // MSE
+            EXPECT_EQ(rows.at(key).at(14), cells.at(14)) << key;  // column 14: mean squared error
         }
         EXPECT_EQ(rowsOf("out/results.csv", 0, 4).size(), 6u);
     }

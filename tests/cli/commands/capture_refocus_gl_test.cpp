@@ -67,7 +67,7 @@ TEST_F(CaptureRefocus, aFrameIsTheSameBitsHoweverItIsRendered) {
     EXPECT_TRUE(bytesOf(frame("shard", 5)) == bytesOf(frame("all", 5)));
     const Outcome resumed = filmed("all", {"--refocus", "--resume"});
     EXPECT_NE(resumed.err.find("8 frames, 8 of them from earlier runs"), std::string::npos) << resumed.err;
-    expectOneLine(filmed("all", {"--resume"}), 1);  // other settings
+    expectOneLine(filmed("all", {"--resume"}), 1);  // fails, since the existing frames have other settings
 }
 
 // The aperture closes by two stops, so 4 · 64 lens images are needed for 64 samples of the last frame.
@@ -86,7 +86,7 @@ TEST_F(CaptureRefocus, smallAperturesHaveAsManySamples) {
     };
     EXPECT_EQ(samples(0), 256);
     EXPECT_NEAR(samples(7), 64 * 0.827, 4);               // the hexagon has 82.7 % of the disk's area
-    document["lens"]["fStop"]["keys"][1]["value"] = 5.6;  // four stops need 16 times as many
+    document["lens"]["fStop"]["keys"][1]["value"] = 5.6;  // four stops need 16 times as many lens images
     writeShot(document);
     const std::string plan = filmed("far", {"--refocus", "--dry-run"}).out;
     EXPECT_NE(plan.find("0000.exr (refocused)"), std::string::npos) << plan;  // several runs are cheaper than one

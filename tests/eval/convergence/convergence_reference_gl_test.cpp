@@ -64,7 +64,7 @@ TEST_F(ConvergenceReference, knowsTheOrderOfItsOwnError) {
     const double error = compareImages(fine.image, coarse.image).rmse;
     EXPECT_LE(error, 1.25 * coarse.remaining.rmse);
     EXPECT_GE(error, 0.4 * coarse.remaining.rmse);
-    // random samples would reduce the error only by √32
+    // random samples would reduce the error only by a factor of √32
     EXPECT_LT(fine.remaining.rmse, coarse.remaining.rmse / std::sqrt(32.0));
     EXPECT_NEAR(coarse.remaining.psnr, -20 * std::log10(coarse.remaining.rmse), 1e-9);
 }

@@ -118,7 +118,7 @@ TEST_F(SceneRendererTest, aProgressThatThrowsCancelsAndTheRendererGoesOn) {
     EXPECT_EQ(renderer.render().pixels, full.pixels);
     EXPECT_THROW(SceneRenderer(smallRequest(), [](auto...) { throw Cancelled(); }), Cancelled);
 
-    // Cancelling the first build of levels leaves the renderer usable too.
+    // Cancelling the first build of levels also leaves the renderer usable.
     Request sharp = smallRequest();
     sharp.lod = LodMode::off;
     SceneRenderer late(sharp);

@@ -50,7 +50,7 @@ double unitsPerCoordinate(const Pyramid& pyramid) {
 }
 
 struct Shift {
-    double mean = 0;  // object units
+    double mean = 0;  // mean distance, in object units
     // fraction of pixels whose distance is too large for a shift, as they show different charts or parts of the surface
     double elsewhere = 0;
 };

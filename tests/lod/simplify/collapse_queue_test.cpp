@@ -73,7 +73,7 @@ TEST(CollapseQueue, whatIsTakenWaitsNoMore) {
     for (int v = 0; v < 5; ++v) queue.put(vertex(v), static_cast<float>(v), false);
     queue.take(vertex(0));
     queue.take(vertex(3));
-    queue.take(vertex(3));  // already taken
+    queue.take(vertex(3));  // no effect: the vertex has already left the queue
     EXPECT_EQ(emptied(queue), (std::vector<int>{1, 2, 4}));
     queue.take(vertex(1));
     EXPECT_TRUE(queue.empty());

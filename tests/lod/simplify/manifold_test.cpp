@@ -94,8 +94,8 @@ TEST(Manifold, ThirdFaceOfAnEdgeIsCutOffWhereTheOthersContinueEachOther) {
 }
 
 TEST(Manifold, SheetWithTwoFacesClosesAroundItsOutline) {
-    // The square and its reverse form a sheet: fronts join fronts across the diagonal, and fronts join backs at the
-    // four outer edges.
+    // The faces of the square and their reversed copies form a two-sided sheet. Across the diagonal, faces join faces
+    // of the same side; at the four outer edges, each face joins its reversed copy.
     const Manifold manifold = manifoldOf(square, {0, 1, 2, 0, 2, 1, 0, 2, 3, 0, 3, 2});
     expectConsistent(manifold);
     EXPECT_EQ(pairedHalfEdges(manifold), 12);

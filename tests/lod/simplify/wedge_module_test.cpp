@@ -24,8 +24,8 @@ Vertices grid() {
     return vertices;
 }
 
-// The positions of grid(), but the right column of quads has its own vertices where both columns meet. Its uv are
-// shifted by `jump` cells.
+// Returns the grid, but the right column of quads has its own vertices where both columns meet. The texture coordinate
+// u of its vertices is shifted by `jump`.
 //
 //   6---7 11---8
 //   | / |  | / |

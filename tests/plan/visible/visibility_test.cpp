@@ -138,7 +138,7 @@ struct Counts {
     int couldBeAway = 0;  // triangles inside the image that face away over the entire lens and exposure
 };
 
-constexpr int lensPoints = 16;  // number of lens points on the rim; the lens centre is tested too
+constexpr int lensPoints = 16;  // number of lens points on the rim; the lens centre is also tested
 
 // Fails if a culled triangle shows its front inside the image at some lens point and time.
 Counts checkTriangles(const SmallWorld& small, const FramePlan& plan) {

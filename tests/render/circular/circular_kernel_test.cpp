@@ -62,7 +62,8 @@ TEST(CircularKernel, onlyTheNumbersOfComponentsThereAre) {
 
 TEST(CircularKernel, nodesIntegrateOverTheSquare) {
     for (const double extent : {1.0, 1.3}) {
-        // The disk lies inside the square, touches it, cuts its corners or contains it.
+        // `edge` is the radius of a disk that lies inside the square, touches it, reaches beyond its sides, or contains
+        // it.
         for (const double edge : {0.5, 1.0, 1.2, 1.5, 2.5}) {
             EXPECT_NEAR(integralOverSquare(extent, edge, [](double) { return 1; }), 4 * extent * extent, 1e-12);
             EXPECT_NEAR(integralOverSquare(extent, edge, [](double u) { return u; }), 8.0 / 3 * std::pow(extent, 4),

@@ -67,7 +67,7 @@ TEST(LensSight, boxesHoldWhatTheLensSees) {
     expectBoxesHoldWhatIsSeen(*fiveSpheres());
 }
 
-// The bounds of what is visible of a box also hold for a pinhole camera, whose plan has no lens.
+// The bounds of a box's image also hold for a pinhole camera, whose plan has no lens.
 TEST(LensSight, boxesHoldWhatAPinholeSees) {
     const auto small = fiveSpheres();
     small->view.lens.dofEnabled = false;

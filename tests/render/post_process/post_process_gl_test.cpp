@@ -238,16 +238,13 @@ TEST_P(CircularNearField, lightsThatAreHardlyBlurredKeepOutOfWideBlurs) {
 INSTANTIATE_TEST_SUITE_P(Forms, CircularNearField, testing::Values("circular:near-field=coverage", "circular"),
                          [](const auto& instance) { return instance.index == 0 ? "coverage" : "premultiplied"; });
 
-// A bias by luminance does not brighten edges as much as a constant bias does. A bright, blurred board over black shows
-// its coverage. A constant bias doubles the coverage; a bias by luminance increases it in proportion to the board's
-// share of the disk.
 // With ten bits per channel, an image without blur is the pinhole image, clipped at 1 and rounded to 1023 steps.
 TEST_F(PostProcessesAlone, tenBitsHoldTheWholeImage) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
     const Image floats = postProcessed(*small, "circular:pinholes=1,storage=float");
     const Image tenBits = postProcessed(*small, "circular:pinholes=1,storage=r10g10b10a2");
-    double squared = 0;  // error in steps
+    double squared = 0;  // sum of squared errors; unit: steps of 1/1023
     for (std::size_t i = 0; i < floats.pixels.size(); ++i)
         squared += std::pow(1023 * (double(tenBits.pixels[i]) - std::min(double(floats.pixels[i]), 1.0)), 2);
     // the RMS error of rounding is 1/√12 step; alpha has none, and half floats add a little
@@ -256,6 +253,9 @@ TEST_F(PostProcessesAlone, tenBitsHoldTheWholeImage) {
     EXPECT_LT(error, 1.3 / std::sqrt(12.0));
 }
 
+// A bias by luminance does not brighten edges as much as a constant bias does. A bright, blurred board over black shows
+// its coverage. A constant bias doubles the coverage; a bias by luminance increases it in proportion to the board's
+// share of the disk.
 TEST_F(PostProcessesAlone, biasByLuminanceLeavesEdges) {
     const auto small = boards({{1, {-0.3, 0}, {0.3, 0.5}, {4, 4, 4, 1}}}, glm::vec3(0));
     small->view.lens.blurScale = 24 / (0.05 * (1.0 / 1 - 1.0 / 2) * 96 / 0.72);

@@ -51,7 +51,7 @@ TEST(UsdCamera, convertsCentimetres) {
     EXPECT_LT(glm::distance(glm::dvec3(tracked.worldFromCamera[3]), glm::dvec3(1, 0.2, 3)), 1e-12);
 }
 
-// Expands the sensor on one side, as USD's policy "expandAperture" does.
+// If an image has another aspect ratio than the sensor, the sensor is extended, as by USD's policy "expandAperture".
 TEST(UsdCamera, showsTheWholeSensor) {
     Pose pose;
     pose.tracked = camera(usda_samples::plain).at(0);
@@ -63,8 +63,8 @@ TEST(UsdCamera, showsTheWholeSensor) {
     EXPECT_NEAR(tanHalf(0.75), 24.0 / 50, 1e-12) << "a narrower image keeps the width of 36 mm: 48 mm high";
 }
 
-// z up: the camera looks along −z before its rotation about x, which turns it to look along +y of USD; then about z by
-// 30°. In y-up axes, USD's (x, y, z) is (x, z, −y).
+// The layer has z up. The camera looks along −z in its own axes. Rotated about x, it looks along +y; a rotation by 30°
+// about z follows. In y-up axes, USD's (x, y, z) is (x, z, −y).
 TEST(UsdCamera, followsTimeSamplesInZUpLayers) {
     const CameraTrack track = camera(usda_samples::animated);
     EXPECT_TRUE(track.moves);

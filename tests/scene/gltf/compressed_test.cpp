@@ -72,7 +72,7 @@ class Compressed : public testing::TestWithParam<CompressedCase> {};
 
 // Compressed files equal the originals up to the precision of the compression. glTF-Transform stores positions with 14
 // bits over the longest side, so rounding moves a point by at most √3/2 of a step. Skin matrices, which include the
-// scale of the steps, and offsets of morph targets are rounded too.
+// scale of the steps, and offsets of morph targets are also rounded.
 TEST_P(Compressed, isTheOriginalToItsPrecision) {
     const std::filesystem::path path = modelPath(std::filesystem::path("tests/data/compressed") / GetParam().file);
     const std::filesystem::path originalPath = modelPath(std::filesystem::path("meshes") / GetParam().original);

@@ -543,7 +543,7 @@ TEST(GltfScene, physicalCamerasInMillimetresAreIgnoredWithAReason) {
     EXPECT_NE(scene.ignored[0].reason.find("millimetres"), std::string::npos);
 }
 
-// Extras of a camera's node are lens values too: Blender exports custom properties of the camera's data as extras of
+// Extras of a camera's node are also lens values: Blender exports custom properties of the camera's data as extras of
 // the camera, and those of the object as extras of the node.
 TEST(GltfScene, customPropertiesOfACamerasNodeAreLensValuesToo) {
     GltfBuilder builder;

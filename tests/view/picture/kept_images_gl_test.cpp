@@ -27,7 +27,7 @@ constexpr std::uint64_t muchMemory = 1ull << 30;
 
 Request smallSchool() {
     Request request;
-    request.fishCount = 9;  // at 1 to 2.6 m
+    request.fishCount = 9;  // fish at depths of 1 to 2.6 m
     request.trianglesPerFish = 2'000;
     request.noCache = true;
     request.size = {160, 120};
@@ -128,7 +128,7 @@ TEST_F(KeptImagesOfAView, serveSmallerAperturesAndFocusDistancesInTheirRange) {
     EXPECT_EQ(serving(range.farthest * 1.01, 0.95), 0u);
     EXPECT_NEAR(serving(2, 0.95 * std::sqrt(2)), 32, 3);
     EXPECT_EQ(serving(2, 0.9), 0u);
-    EXPECT_EQ(serving(2, 4), 0u);  // about 4 images
+    EXPECT_EQ(serving(2, 4), 0u);  // only about 4 images lie within the aperture, which is too few
 }
 
 // Fixture of a window's picture that has come to rest.
@@ -201,7 +201,7 @@ TEST_F(PictureAtRest, isReplacedOnceTheImageHasAsManySamples) {
     EXPECT_GT(compareImages(picture_.image(), refocused).psnr, 38);
     rest();
     EXPECT_EQ(picture_.samples(), 128u);
-    request_.view.lens.focusDistance = 1.3;  // the images still serve
+    request_.view.lens.focusDistance = 1.3;  // the kept images also cover this focus distance
     draw();
     EXPECT_TRUE(picture_.refocused());
 }

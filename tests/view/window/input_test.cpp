@@ -38,7 +38,7 @@ TEST_F(ViewInputKeys, flyWhileTheyAreHeld) {
     key(key::leftShift, true);
     EXPECT_NEAR(flown(), 4 * slow, 1e-12 * slow);
     key(key::leftShift, false);
-    key('S', true);  // opposite keys
+    key('S', true);  // W and S cancel out
     EXPECT_EQ(flown(), 0);
     key('S', false);
     EXPECT_NEAR(flown(), slow, 1e-12 * slow);
