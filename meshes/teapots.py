@@ -112,7 +112,7 @@ def teapots(steps=6):
     for column in range(7):
         document.node(f"Lamp {column + 1}", mesh=mesh, scale=[0.03] * 3,
                       translation=[round(0.42 * (column - 3), 5), round(0.75 + 0.12 * math.cos(2.2 * column), 5), -4.5])
-    document.sun([1.0, 0.96, 0.88], 5.0, quaternion((-0.8944272, 0.4472136, 0), 50))
+    document.sun([1.0, 0.96, 0.88], 3.2, quaternion((-0.8944272, 0.4472136, 0), 50))
     document.camera(2 * math.atan(0.27), 4 / 3, {"fStop": 0.95, "focusDistance": 1.1, "horizontalAperture": 36.0},
                     rotation=quaternion((1, 0, 0), -4), translation=[0, 0.06, 0])
     return document.glb()

@@ -2,7 +2,7 @@
 
     scripts/figures lines [--program build/release/defocus] [--runs FOLDER]
 
-Takes minutes on a CPU. --runs keeps the results of the bench in FOLDER, and doesn't repeat the runs that are there.
+Takes minutes on a CPU. --runs keeps the results of the bench in FOLDER, and measures only what FOLDER lacks.
 scripts/figures tables then writes the tables of the page. Needs Pillow (Debian: python3-pil) and the font of
 fonts-dejavu-core.
 """
@@ -18,8 +18,8 @@ from PIL import Image, ImageChops, ImageStat
 from figures.command import ROOT, add_program, parser_of, path, run
 from figures.contact_sheet import HEIGHT, WIDTH, contact_sheet
 from figures.files import write_file
-from figures.line_rows import DETAILS, EXACT, NAME, NAMES, POINTS, PUBLISHED, RUNS, blur_runs, equal_time_points, row_of
-from figures.results import RESULTS, run_of
+from figures.line_rows import DETAILS, EXACT, POINTS, PUBLISHED, VIEWS, equal_time_points, row_of, run_name, runs, text_of
+from figures.results import RESULTS
 
 sys.path.insert(0, str(ROOT / "meshes"))
 import teapots  # noqa: E402
@@ -30,11 +30,11 @@ PLACES = {"blurred edges": (38, 76), "in focus": (124, 68), "lights": (16, 0)}  
 
 
 def measure(program, folder):
-    """Runs the bench for every view of the scene that has no results in the folder, and keeps the results."""
+    """Runs the bench for every view of the scene, where the folder lacks results, and copies the results."""
     (folder / "teapots.glb").write_bytes(teapots.teapots())
-    for name, options in RUNS.items():
-        if not (folder / name / "results.json").exists():
-            run(program, "bench", "convergence", "teapots.glb", "--size", f"{WIDTH}x{HEIGHT}", *options, "-o", name, cwd=folder)
+    for name, options in runs().items():
+        again = ["--resume"] if (folder / name).exists() else []
+        run(program, "bench", "convergence", "teapots.glb", "--size", f"{WIDTH}x{HEIGHT}", *options, *again, "-o", name, cwd=folder)
         write_file(RESULTS / f"{name}.json", (folder / name / "results.json").read_bytes())
         print(name, flush=True)
 
@@ -45,11 +45,11 @@ class Pictures:
     def __init__(self, folder):
         self.folder = folder
 
-    def reference(self, name):
-        return self.opened(f"{name}/images/reference.png")
+    def reference(self, blur):
+        return self.opened(f"{VIEWS[blur]}/images/reference.png")
 
-    def drawn(self, name, method, samples):
-        return self.opened(f"{name}/{row_of(name, method, samples)['image']}")
+    def drawn(self, blur, method, samples):
+        return self.opened(f"{run_name(blur, method)}/{row_of(blur, method, samples)['image']}")
 
     def opened(self, file):
         with Image.open(self.folder / file) as image:
@@ -72,25 +72,25 @@ def save(sheet, name):
     print(name, flush=True)
 
 
-def draw_rows(pictures, columns, names, texts, file):
-    """Draws a row for each run: the reference and the columns' methods and numbers of samples."""
-    titles = ("reference", *(f"{count} {NAMES[method]}" for method, count in columns))
-    save(contact_sheet(titles, texts, lambda index: [pictures.reference(names[index]), *(
-        pictures.drawn(names[index], *column) for column in columns)], columns=1), file)
+def draw_views(pictures, columns, texts, file):
+    """Draws a row for each view. columns: methods and numbers of samples, beside the reference; texts: by blur scale."""
+    blurs = list(texts)
+    save(contact_sheet(("reference", *(text_of(*column) for column in columns)), list(texts.values()), lambda index: [
+        pictures.reference(blurs[index]), *(pictures.drawn(blurs[index], *column) for column in columns)], columns=1), file)
 
 
 def draw_details(pictures):
-    """Draws the details, and keeps their errors."""
-    errors = {}
+    """Draws the details, and writes their errors."""
+    texts, errors = [text_of(*column) for column in DETAILS], {}
 
     def row(index):
         name = list(PLACES)[index]
-        reference = detail(pictures.reference(NAME), name)
-        parts = {text: detail(pictures.drawn(*place), name) for text, place in DETAILS.items()}
-        errors[name] = {text: round(difference(reference, part), 4) for text, part in parts.items()}
-        return [part.resize((WIDTH, HEIGHT), Image.NEAREST) for part in (reference, *parts.values())]
+        reference, *parts = (detail(image, name) for image in (
+            pictures.reference(1), *(pictures.drawn(1, *column) for column in DETAILS)))
+        errors[name] = {text: round(difference(reference, part), 4) for text, part in zip(texts, parts)}
+        return [part.resize((WIDTH, HEIGHT), Image.NEAREST) for part in (reference, *parts)]
 
-    save(contact_sheet(("reference", *DETAILS), list(PLACES), row, columns=1), "figure-8.jpg")
+    save(contact_sheet(("reference", *texts), list(PLACES), row, columns=1), "figure-8.jpg")
     write_file(RESULTS / "llvmpipe-teapots-details.json", json.dumps(errors, indent=1) + "\n")
 
 
@@ -104,8 +104,7 @@ def main(words):
         folder.mkdir(parents=True, exist_ok=True)
         measure(arguments.program, folder)
         pictures = Pictures(folder)
-        draw_rows(pictures, [(EXACT, 16), (PUBLISHED, 16), (POINTS, equal_time_points())], [NAME], ["teapots"], "figure-1.jpg")
+        draw_views(pictures, [(EXACT, 16), (PUBLISHED, 16), (POINTS, equal_time_points())], {1: "teapots"}, "figure-1.jpg")
         draw_details(pictures)
-        names = blur_runs()
-        draw_rows(pictures, [(EXACT, 16), (PUBLISHED, 16), (POINTS, 16), (POINTS, 64)], names,
-                  [f"{run_of(name)['lens']['blurScale']:g} times the blur" for name in names], "figure-9.jpg")
+        draw_views(pictures, [(EXACT, 16), (PUBLISHED, 16), (POINTS, 64), (POINTS, 256)],
+                   {blur: f"{blur:g} times the blur" for blur in VIEWS}, "figure-9.jpg")

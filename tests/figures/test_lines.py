@@ -1,6 +1,7 @@
 """Tests of the teapots in meshes/ and of the pictures and tables of scripts/figures lines."""
 
 import math
+import re
 import sys
 from pathlib import Path
 
@@ -64,13 +65,19 @@ def test_details_keep_their_size_and_differences_are_rmse():
     assert lines.difference(white, grey) == pytest.approx(0.2 / math.sqrt(6))
 
 
-def test_the_number_of_points_with_the_time_of_16_lines(monkeypatch):
+@pytest.mark.parametrize("times, count", [((60, 240, 960), 16), ((30, 120, 480), 64), ((1, 8, 90), 256)])
+def test_the_number_of_points_with_the_time_of_16_lines(monkeypatch, times, count):
     def row(method, samples, time):
         return {"method": method, "form": "standard", "samples": samples, "milliseconds": {"median": time}}
 
-    def run(times):
-        return {"rows": [row("line", 16, 100), *(row("stochastic", count, time) for count, time in times.items())]}
+    rows = [row("line", 16, 100), *(row("stochastic", *pair) for pair in zip((16, 64, 256), times))]
+    monkeypatch.setattr(line_rows, "run_of", lambda name: {"rows": rows})
+    assert line_rows.equal_time_points() == count
 
-    for times, count in (({4: 20, 16: 60, 64: 240}, 16), ({4: 9, 16: 30, 64: 120}, 64), ({4: 110, 16: 300, 64: 900}, 4)):
-        monkeypatch.setattr(line_rows, "run_of", lambda name, times=times: run(times))
-        assert line_rows.equal_time_points() == count
+
+def test_the_page_shows_every_picture_and_every_committed_run():
+    page = (line_rows.RESULTS / "line-samples.md").read_text()
+    assert re.findall(r"!\[\]\((.*?)\)", page) == [f"lines/figure-{number}.jpg" for number in (1, 8, 9)]
+    assert all((line_rows.RESULTS / picture).exists() for picture in re.findall(r"!\[\]\((.*?)\)", page))
+    for name in line_rows.runs():
+        assert line_rows.run_of(name)["commands"][0].startswith("defocus bench convergence teapots.glb ")
