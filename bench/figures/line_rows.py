@@ -52,6 +52,11 @@ def equal_time_points():
     return min(COUNTS[POINTS], key=lambda count: abs(math.log(milliseconds(row_of(1, POINTS, count)) / lines)))
 
 
+def quality_ratio(method):
+    """Returns the RMSE of 16 lines divided by the RMSE of 256 points."""
+    return math.sqrt(row_of(1, method, 16)["mse"] / row_of(1, POINTS, 256)["mse"])
+
+
 def cells(blur, method, samples):
     row = row_of(blur, method, samples)
     times = f"{milliseconds(row_of(blur, POINTS, 256)) / milliseconds(row):.2f}"
