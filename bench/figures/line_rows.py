@@ -77,7 +77,7 @@ def qualities():
 
 
 def details():
-    errors = read_json(RESULTS / "llvmpipe-teapots-details.json")
+    errors = read_json(RESULTS / "lines" / "details.json")
     texts = [text_of(*column) for column in DETAILS]
     return table(["RMSE", *texts], [[name, *(f"{part[text]:.4f}" for text in texts)] for name, part in errors.items()])
 

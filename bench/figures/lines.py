@@ -91,7 +91,7 @@ def draw_details(pictures):
         return [part.resize((WIDTH, HEIGHT), Image.NEAREST) for part in (reference, *parts)]
 
     save(contact_sheet(("reference", *texts), list(PLACES), row, columns=1), "figure-8.jpg")
-    write_file(RESULTS / "llvmpipe-teapots-details.json", json.dumps(errors, indent=1) + "\n")
+    write_file(FOLDER / "details.json", json.dumps(errors, indent=1) + "\n")
 
 
 def main(words):
