@@ -16,7 +16,7 @@ class Document:
     def __init__(self):
         self.json = {"asset": {"version": "2.0", "generator": "defocus make_meshes.py"}, "scene": 0,
                      "scenes": [{"nodes": []}], "nodes": [], "meshes": [], "materials": [], "accessors": [],
-                     "bufferViews": [], "cameras": []}
+                     "bufferViews": [], "cameras": [], "images": [], "samplers": [], "textures": []}
         self.binary = bytearray()
 
     def accessor(self, rows, component, kind, target=None, normalized=False, bounds=False):
@@ -73,13 +73,16 @@ class Document:
     def checks(self, light, dark):
         """A texture of 2 x 2 checks (sRGB bytes) that repeats without smoothing."""
         rows = b"".join(b"\0" + bytes(first) + bytes(second) for first, second in ((light, dark), (dark, light)))
-        image = png(2, 2, rows)
+        self.json["samplers"].append({"magFilter": 9728, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497})
+        return self.texture(png(2, 2, rows), sampler=0)
+
+    def texture(self, image, **fields):
+        """A texture of a PNG image."""
         self.json["bufferViews"].append({"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(image)})
         self.binary += image + b"\0" * (-len(image) % 4)
-        self.json["images"] = [{"mimeType": "image/png", "bufferView": len(self.json["bufferViews"]) - 1}]
-        self.json["samplers"] = [{"magFilter": 9728, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}]
-        self.json["textures"] = [{"source": 0, "sampler": 0}]
-        return 0
+        self.json["images"].append({"mimeType": "image/png", "bufferView": len(self.json["bufferViews"]) - 1})
+        self.json["textures"].append({"source": len(self.json["images"]) - 1, **fields})
+        return len(self.json["textures"]) - 1
 
     def slide(self, name, moves):
         """A clip of one second in which each node of `moves` goes by so much, evenly."""
@@ -133,14 +136,18 @@ class Document:
                 struct.pack("<I4s", len(self.binary), b"BIN\0") + bytes(self.binary))
 
 
-def png(width, height, rows):
-    """A PNG of 8-bit RGB; `rows` begin with a filter byte each. Not compressed: the same bytes from every zlib."""
+def png(width, height, rows, palette=b""):
+    """A PNG of 8-bit RGB, or of indices of a palette of RGB bytes; `rows` begin with a filter byte each. Not compressed:
+    the same bytes from every zlib."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    block = struct.pack("<BHH", 1, len(rows), len(rows) ^ 0xffff) + rows
-    stream = b"\x78\x01" + block + struct.pack(">I", zlib.adler32(rows))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
-            chunk(b"IDAT", stream) + chunk(b"IEND", b""))
+    blocks = [rows[i:i + 0xffff] for i in range(0, len(rows), 0xffff)]
+    stream = b"\x78\x01" + b"".join(
+        struct.pack("<BHH", i + 1 == len(blocks), len(block), len(block) ^ 0xffff) + block
+        for i, block in enumerate(blocks)) + struct.pack(">I", zlib.adler32(rows))
+    return (b"\x89PNG\r\n\x1a\n" +
+            chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 3 if palette else 2, 0, 0, 0)) +
+            (chunk(b"PLTE", palette) if palette else b"") + chunk(b"IDAT", stream) + chunk(b"IEND", b""))
 
 
 class Surface:

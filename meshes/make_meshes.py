@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes the small test scenes of this folder: bokeh.gltf, staircase.gltf, thicket.gltf, fish.glb, chess.glb,
-artefact-*.gltf, swimmers.glb, reed.glb and painted-blur.glb. Python's standard library only.
+artefact-*.gltf, swimmers.glb, reed.glb, painted-blur.glb and orrery.glb. Python's standard library only.
 
     make_meshes.py            write them beside this file
     make_meshes.py --check    compare them with what would be written; exit code 1 when one differs
@@ -14,6 +14,7 @@ import sys
 
 sys.dont_write_bytecode = True  # no __pycache__ beside the scenes
 from gltf_document import Document, Surface, add_tube, linear, quaternion, smooth_normals
+from orrery import orrery
 from painted_blur import painted_blur
 from reed import reed
 from swimmers import swimmers
@@ -474,7 +475,8 @@ def main():
                        ("artefact-leaking.gltf", leaking), ("artefact-lost-background.gltf", lost_background),
                        ("artefact-half-discs.gltf", half_discs), ("artefact-ghosting.gltf", ghosting),
                        ("artefact-resolution-loss.gltf", resolution_loss), ("artefact-panes.gltf", panes),
-                       ("swimmers.glb", swimmers), ("reed.glb", reed), ("painted-blur.glb", painted_blur)):
+                       ("swimmers.glb", swimmers), ("reed.glb", reed), ("painted-blur.glb", painted_blur),
+                       ("orrery.glb", orrery)):
         path, data = HERE / name, make()
         if not check:
             path.write_bytes(data)

@@ -24,7 +24,8 @@ from figures.command import ROOT, add_program, parser_of, path
 from figures.markdown import table
 from figures.results import run_of
 
-# Files of many parts: name, number, and the seconds of the version that was first measured (commit 557338bc~1).
+# Files with many parts: name and number of the parts, and the seconds to render the file with the baseline version
+# (commit 557338bc~1).
 MANY = [("roots", 300_000, 41), ("nodes in a chain", 100_000, 17), ("materials", 65_000, 7.6), ("meshes", 65_000, 12)]
 TRIANGLE = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
 

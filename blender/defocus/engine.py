@@ -13,11 +13,10 @@ from .export import export
 from .failure import Cancelled, Failure
 from .main_thread import on_main_thread
 from .motion import exposure_of, poses_during
+from .passes import passes_of, read_passes, words_for
 from .preferences import find_program
 
-FAR = 1e10  # m; Blender's depth of the background
-CHANNELS = {"Combined": 4, "Depth": 1}
-pictures = {}  # scene and view layer → (pixels of each pass, width, height) of the last picture
+pictures = {}  # scene and view layer → (pixels of each pass, texts, width, height) of the last picture
 reports = {}  # scene name → lines on what the last export left out
 
 
@@ -29,14 +28,13 @@ class DefocusEngine(bpy.types.RenderEngine):
     bl_use_eevee_viewport = True
 
     def update_render_passes(self, scene=None, renderlayer=None):
-        self.register_pass(scene, renderlayer, "Combined", 4, "RGBA", "COLOR")
-        if renderlayer is not None and renderlayer.use_pass_z:
-            self.register_pass(scene, renderlayer, "Depth", 1, "Z", "VALUE")
+        for one in passes_of(renderlayer):
+            self.register_pass(scene, renderlayer, one.name, len(one.channels), one.channels, one.kind)
 
     def render(self, depsgraph):
         try:
-            pixels, view = self.render_frame(depsgraph)
-            pictures[picture_key(depsgraph)] = pixels, view.picture_width, view.picture_height
+            pixels, texts, view = self.render_frame(depsgraph)
+            pictures[picture_key(depsgraph)] = pixels, texts, view.picture_width, view.picture_height
         except Failure as failure:
             self.report({"ERROR"}, str(failure))
         except Cancelled:
@@ -47,7 +45,7 @@ class DefocusEngine(bpy.types.RenderEngine):
         return on_main_thread(function, self.test_break)
 
     def render_frame(self, depsgraph):
-        """Returns the pixels of each pass (name → array of all values) and the View."""
+        """Returns the pixels of each pass (name → array of all values), the texts for the metadata, and the View."""
         scene = depsgraph.scene_eval
         found = find_program()
         with tempfile.TemporaryDirectory(prefix="defocus-") as folder:
@@ -57,16 +55,14 @@ class DefocusEngine(bpy.types.RenderEngine):
             reports[scene.name] = exported.notes
             for note in exported.notes:
                 self.report({"WARNING"}, f"Defocus: {note}")
-            wants_depth = depsgraph.view_layer_eval.use_pass_z
+            passes = passes_of(depsgraph.view_layer_eval)
             picture = os.path.join(folder, "picture.exr")
-            words = [found, "render", *exported.words, "-o", picture, *(["--aov", "depth"] if wants_depth else [])]
+            words = [found, "render", *exported.words, "-o", picture, *words_for(passes)]
             for message in program.run(words, folder, self.show_progress, self.test_break):
                 is_warning = message.startswith("warning: ")
                 self.report({"WARNING" if is_warning else "INFO"}, "Defocus: " + message.removeprefix("warning: ").removeprefix(f"{picture}: "))
-            files = {"Combined": picture}
-            if wants_depth:
-                files["Depth"] = os.path.join(folder, "picture.depth.exr")
-            return self.on_main_thread(lambda: {name: read_pass(name, file, exported.view) for name, file in files.items()}), exported.view
+            pixels, texts = read_passes(passes, picture, os.path.join(folder, "picture.depth.exr"), exported.view)
+            return pixels, texts, exported.view
 
     def show_progress(self, stage, share):
         self.update_stats("", f"Defocus: {stage}")
@@ -77,7 +73,7 @@ class DefocusEngine(bpy.types.RenderEngine):
 
         Blender clears the render result before each render. After a failure, the picture of an earlier render stays.
         """
-        pixels, *size = pictures.get(picture_key(depsgraph), ({}, 0, 0))
+        pixels, texts, *size = pictures.get(picture_key(depsgraph), ({}, {}, 0, 0))
         if tuple(size) != picture_size(depsgraph.scene_eval.render):
             return
         result = self.begin_result(0, 0, *size, layer=depsgraph.view_layer_eval.name)
@@ -86,29 +82,13 @@ class DefocusEngine(bpy.types.RenderEngine):
         passes.foreach_set("rect", numpy.concatenate([
             pixels.get(one.name, numpy.zeros(size[0] * size[1] * one.channels, numpy.float32)) for one in passes]))
         self.end_result(result)
+        metadata = self.get_result()
+        for name, text in texts.items():
+            metadata.stamp_data_add_field(name, text.replace("ViewLayer.", f"{depsgraph.view_layer_eval.name}."))
 
 
 def picture_key(depsgraph):
     return f"{depsgraph.scene_eval.name}/{depsgraph.view_layer_eval.name}"
-
-
-def read_pass(name, file, view):
-    """Returns the values of the part of a canvas that Blender shows.
-
-    Blender's RenderLayer.load_from_file would multiply the colours by alpha once more.
-    """
-    image = bpy.data.images.load(file)
-    try:
-        image.colorspace_settings.name = "Non-Color"
-        pixels = numpy.empty(image.size[0] * image.size[1] * image.channels, numpy.float32)
-        image.pixels.foreach_get(pixels)
-        pixels = pixels.reshape(image.size[1], image.size[0], image.channels)
-    finally:
-        bpy.data.images.remove(image)
-    pixels = pixels[view.y:view.y + view.picture_height, view.x:view.x + view.picture_width, :CHANNELS[name]]
-    if name == "Depth":
-        pixels = numpy.where(numpy.isfinite(pixels), numpy.minimum(pixels, FAR), FAR)
-    return pixels.ravel()
 
 
 @persistent

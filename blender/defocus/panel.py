@@ -5,6 +5,7 @@ import textwrap
 import bpy
 
 from .engine import DefocusEngine, reports
+from .passes import PROPERTIES
 
 LETTER_WIDTH = 6.5  # px; mean of Blender's font
 
@@ -81,7 +82,8 @@ class DEFOCUS_PT_passes(DefocusPanel, bpy.types.Panel):
 
     def draw(self, context):
         self.layout.use_property_split = True
-        self.layout.prop(context.view_layer, "use_pass_z", text="Depth")
+        for name in PROPERTIES:
+            self.layout.prop(context.view_layer, name)
 
 
 CLASSES = (DEFOCUS_PT_sampling, DEFOCUS_PT_motion, DEFOCUS_PT_report, DEFOCUS_PT_passes)

@@ -1,6 +1,7 @@
-// Writes two bit masks of blur classes of lens cells for each tile. Bit k: class k may have non-zero means that are
-// read in the tile. Bit besideSpread + k: the means of class k must be written in the tile, even if 0, because
-// interpolation in the tile or its neighbours may read them.
+// Writes two bit masks of the blur classes of lens cells (cells.glsl) for each tile. The means of a class are averages
+// over squares of pixels. Bit k is set if the tile may read a non-zero mean of class k. Bit besideSpread + k is set if
+// the means of class k must be written in the tile, even if they are 0: interpolation in the tile or its neighbours may
+// read them.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform usampler2D heldClasses;

@@ -17,7 +17,7 @@ layout(std140, binding = 6) uniform WaveBlock {
     // (all up to the end of this block), each is filtered over 1/(2N − 1) of the pixel's area. A sample represents 1/N
     // of the pixel, but trilinear lookups average over more than their nominal area.
     float footprint;      // side of the filtered area, in px
-    float mipBias;        // log2(footprint): bias on the mip level that is chosen for a whole pixel
+    float mipBias;        // log2(footprint): bias on the mip level, which OpenGL chooses for a full pixel
 } wave;
 
 // Directional albedo of the specular part (src/scene/specular_albedo.h).

@@ -1,5 +1,5 @@
-// Varyings of the stages before the lens shear, in addition to the surface: pinhole position (x, y, w of clip space),
-// blur modifiers, and the lens sample of the instance.
+// Varyings that the stages before the lens shear pass on, in addition to the surface attributes: the vertex position
+// before the shear (x, y, w of clip space), the blur modifiers, and the lens sample of the instance.
 
     vec3 pinhole;
     vec2 ownBlur;

@@ -51,7 +51,8 @@ struct Alpha {
     float level;
 };
 
-// `unitAndSlot`: the base colour's texture (material_textures.glsl).
+// Returns the alpha of the texture at the surface point, or 1 without a texture. `unitAndSlot`: unit and slot of the
+// texture of the base colour (material_textures.glsl); a negative unit means no texture.
 Alpha textureAlpha(ivec2 unitAndSlot) {
     if (unitAndSlot.x < 0) return Alpha(1.0, 0.0);
     vec2 size = vec2(textureSize(materialTextures[unitAndSlot.x], 0));

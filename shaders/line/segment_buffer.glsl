@@ -31,7 +31,8 @@ const float minLength = 1.0 / 512.0;         // fraction of the line's length
 const float sameColor = 1.0 / 16.0;          // max difference of a colour channel
 const float sameDepth = 0.02;                // max relative difference of 1/w where two segments join
 const float sameSlope = 0.02;                // max relative difference of 1/w by the slopes, over the joined segment
-const float continuation = shortIntervals ? 1.0 / 127.0 : 1e-3;   // max gap in p between a segment and its continuation
+// Max gap, in position p along the line, between a segment and its continuation.
+const float continuation = shortIntervals ? 1.0 / 127.0 : 1e-3;
 
 const uint slots = threads * uint(segmentCapacity);
 shared vec2 longEnds[shortIntervals ? 1u : slots];
@@ -47,7 +48,8 @@ uint merged = 0u;
 float hidden = 0.0;      // surfaces with a smaller 1/w are hidden by a segment over the entire line
 
 #ifdef LIGHTS_VERTICES
-layout(std430, binding = 8) readonly buffer LightBlock { vec4 lights[]; };   // per vertex: front's light, back's light
+// Two values per vertex: the light of the front, then the light of the back.
+layout(std430, binding = 8) readonly buffer LightBlock { vec4 lights[]; };
 
 // Returns the light of a triangle at position p of the line, mapped to [0, 1].
 vec3 colorAt(uint triangle, OnLine line, bool front, float p) {

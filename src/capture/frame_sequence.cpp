@@ -196,8 +196,7 @@ FrameMoment frameAt(const Shot& shot, const SequenceBase& base, int frame) try {
     const auto momentAt = [&](double offset) {
         ShutterMoment moment;
         const double seconds = frame / shot.frameRate + offset;
-        moment.pose = unmeasuredPoseAt(*base.scene, timeAt(shot, *base.scene, clip, seconds), clip);
-        hideNodes(*base.scene, base.hidden, moment.pose);
+        moment.pose = shutterPoseAt(*base.scene, timeAt(shot, *base.scene, clip, seconds), clip, result.pose);
         moment.worldFromCamera = movedView(shot, base, moment.pose, seconds * shot.frameRate).worldFromCamera;
         return moment;
     };

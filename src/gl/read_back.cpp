@@ -1,6 +1,8 @@
 #include "gl/read_back.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace defocus::engine {
 
@@ -22,6 +24,14 @@ Image readBack(const GlTexture& texture, int channels) {
     glGetTextureSubImage(texture.name(), 0, 0, 0, 0, image.width, image.height, 1, format, GL_FLOAT,
                          static_cast<GLsizei>(image.pixels.size() * sizeof(float)), image.pixels.data());
     turnRows(image);
+    return image;
+}
+
+HalfImage readHalves(const GlTexture& texture) {
+    const auto [width, height] = std::pair(texture.info().width, texture.info().height);
+    HalfImage image{width, height, std::vector<std::uint16_t>(4 * std::size_t(width) * std::size_t(height))};
+    glGetTextureSubImage(texture.name(), 0, 0, 0, 0, width, height, 1, GL_RGBA, GL_HALF_FLOAT,
+                         static_cast<GLsizei>(image.rgba.size() * sizeof(std::uint16_t)), image.rgba.data());
     return image;
 }
 

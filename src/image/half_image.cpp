@@ -23,4 +23,8 @@ Image fullImage(const HalfImage& image) {
     return result;
 }
 
+void addHalves(const std::uint16_t* __restrict halves, std::size_t count, float* __restrict sums) {
+    for (std::size_t i = 0; i < count; ++i) sums[i] += fromHalf(halves[i]);
+}
+
 }  // namespace defocus::engine

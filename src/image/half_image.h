@@ -36,4 +36,7 @@ inline float fromHalf(std::uint16_t half) {
 HalfImage halfImage(const ImageView& image);
 Image fullImage(const HalfImage& image);
 
+// Adds `count` finite 16-bit floats to as many sums.
+void addHalves(const std::uint16_t* halves, std::size_t count, float* sums);
+
 }  // namespace defocus::engine

@@ -36,7 +36,7 @@ void checkRequest(const View& view, const RenderSettings& settings) {
     const LodThresholds thresholds =
         chosenThresholds(settings.thresholds, settings.metric, std::max(settings.sampleCount, 1u));
     if (!(thresholds.blur >= 0) || !(thresholds.size >= 0) || !(thresholds.light >= 0))
-        fail("level-of-detail thresholds must be at least 0");
+        fail("--blur-threshold, --size-threshold and --light-threshold must be at least 0");
     const LodMetric metric = chosenMetric(settings.metric, settings.thresholds);
     const bool measured = metric == LodMetric::measured;
     if ((metric == LodMetric::score || metric == LodMetric::proportional) && settings.thresholds.size)

@@ -24,6 +24,8 @@ struct NodeState {
     glm::dquat rotation;
     glm::dvec3 scale;
     std::vector<double> morphWeights;  // one per morph target of the node's mesh
+    bool visible;                      // without its ancestors
+    bool hides;                        // an animation hides the node at some times
 };
 
 // Animatable properties of a scene at one instant.
@@ -50,6 +52,9 @@ std::vector<double> restWeights(const Scene& scene, const Node& node) {
 void animateNode(const AnimationChannel& channel, double time, NodeState& node) {
     if (channel.path == ChannelPath::rotation) {
         node.rotation = sampleRotation(channel, time);
+    } else if (channel.path == ChannelPath::visible) {
+        node.visible = sampleValues(channel, 1, time)[0] >= 0.5;
+        node.hides = true;
     } else if (channel.path == ChannelPath::weights) {
         node.morphWeights = sampleValues(channel, node.morphWeights.size(), time);
     } else {
@@ -87,6 +92,7 @@ void animate(const AnimationClip& clip, double time, SceneState& state) {
             case ChannelPath::rotation:
             case ChannelPath::scale:
             case ChannelPath::weights:
+            case ChannelPath::visible:
                 animateNode(channel, time, state.nodes[target]);
                 break;
             case ChannelPath::cameraYfov:
@@ -107,7 +113,8 @@ SceneState stateAt(const Scene& scene, double time, int clip) {
     SceneState state{{}, scene.cameras, scene.lights};
     state.nodes.reserve(scene.nodes.size());
     for (const Node& node : scene.nodes)
-        state.nodes.push_back({node.translation, node.rotation, node.scale, restWeights(scene, node)});
+        state.nodes.push_back(
+            {node.translation, node.rotation, node.scale, restWeights(scene, node), node.visible, false});
     if (clip >= 0 && !scene.clips.empty()) {
         if (static_cast<std::size_t>(clip) >= scene.clips.size())
             fail("there is no animation clip {}; the scene has {} clips (0 to {})", clip, scene.clips.size(),
@@ -191,11 +198,12 @@ void placeObjects(const Scene& scene, const SceneState& state, int nodeIndex, do
     }
 }
 
-void placeLight(const Scene& scene, const SceneState& state, int nodeIndex, Pose& pose) {
+void placeLight(const Scene& scene, const SceneState& state, int nodeIndex, bool visible, Pose& pose) {
     const Node& node = scene.nodes[static_cast<std::size_t>(nodeIndex)];
     if (node.light < 0) return;
     const glm::dmat4& world = pose.worldFromNode[static_cast<std::size_t>(nodeIndex)];
     PlacedLight placed{state.lights[static_cast<std::size_t>(node.light)], glm::dvec3(world[3]), {0, 0, -1}};
+    if (!visible) placed.light.intensity = 0;
     const glm::dvec3 direction = -glm::dvec3(world[2]);
     const double length = glm::length(direction);
     if (length > 0) placed.direction = direction / length;
@@ -222,9 +230,21 @@ void leaveOutFaintLights(Pose& pose) {
     pose.lights = std::move(kept);
 }
 
-}  // namespace
+// Visibility of a node, which depends on its ancestors too.
+struct Visibility {
+    bool now = true;
+    bool everShown = true;  // false: hidden at all times
+};
 
-Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
+// Returns which nodes have an object in the pose.
+std::vector<bool> nodesOf(const Scene& scene, const Pose& pose) {
+    std::vector<bool> nodes(scene.nodes.size());
+    for (const Object& object : pose.objects) nodes[static_cast<std::size_t>(object.node)] = true;
+    return nodes;
+}
+
+// Returns a pose without bounds. `exposed`: pose with the same objects; null: an animation decides which are visible.
+Pose posed(const Scene& scene, double time, int clip, const Pose* exposed) {
     // Compute world matrices from parents to children: first the nodes of the drawn scene, then nodes outside it that
     // skins use as joints.
     SceneState state = stateAt(scene, time, clip);
@@ -233,12 +253,14 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
     Pose pose;
     pose.worldFromNode.assign(scene.nodes.size(), glm::dmat4(1.0));
     std::vector<double> cocScales(scene.nodes.size(), 1.0);  // blur factors: product over a node and its ancestors
-    std::vector<bool> visible(scene.nodes.size());           // whether a node and its ancestors are visible
+    std::vector<Visibility> visible(scene.nodes.size());
     std::vector<bool> visited(scene.nodes.size());
     const auto place = [&](int node, int parent) {
         const auto index = static_cast<std::size_t>(node);
         cocScales[index] = scene.nodes[index].cocScale * (parent < 0 ? 1 : cocScales[static_cast<std::size_t>(parent)]);
-        visible[index] = scene.nodes[index].visible && (parent < 0 || visible[static_cast<std::size_t>(parent)]);
+        const NodeState& own = state.nodes[index];
+        const Visibility above = parent < 0 ? Visibility{} : visible[static_cast<std::size_t>(parent)];
+        visible[index] = {above.now && own.visible, above.everShown && (own.visible || own.hides)};
         const glm::dmat4 local = scene.nodes[index].matrix ? *scene.nodes[index].matrix : matrixOf(state.nodes[index]);
         pose.worldFromNode[index] =
             parent < 0 ? metresFromUnits * local : pose.worldFromNode[static_cast<std::size_t>(parent)] * local;
@@ -249,16 +271,28 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
         if (scene.nodes[i].parent < 0) walkDown(scene, static_cast<int>(i), visited, place);
 
     // Add objects and lights in node order.
+    const std::vector<bool> shown = exposed != nullptr ? nodesOf(scene, *exposed) : std::vector<bool>();
     pose.objects.reserve(scene.nodes.size());
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (!drawn[i] || !visible[i]) continue;
-        placeObjects(scene, state, static_cast<int>(i), cocScales[i], pose);
-        placeLight(scene, state, static_cast<int>(i), pose);
+        if (!drawn[i]) continue;
+        if (exposed != nullptr ? shown[i] : visible[i].now)
+            placeObjects(scene, state, static_cast<int>(i), cocScales[i], pose);
+        if (visible[i].everShown) placeLight(scene, state, static_cast<int>(i), visible[i].now, pose);
     }
     leaveOutFaintLights(pose);
     pose.cameras = std::move(state.cameras);
     if (scene.cameraTrack) pose.tracked = scene.cameraTrack->at(time);
     return pose;
+}
+
+}  // namespace
+
+Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
+    return posed(scene, time, clip, nullptr);
+}
+
+Pose shutterPoseAt(const Scene& scene, double time, int clip, const Pose& exposed) {
+    return posed(scene, time, clip, &exposed);
 }
 
 Pose poseAt(const Scene& scene, double time, int clip) {

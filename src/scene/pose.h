@@ -38,7 +38,7 @@ inline constexpr std::size_t maxLights = 336;  // max lights; fits into a unifor
 struct Pose {
     std::vector<glm::dmat4> worldFromNode;  // one per entry of Scene::nodes
     std::vector<Object> objects;
-    std::vector<PlacedLight> lights;       // at most maxLights
+    std::vector<PlacedLight> lights;       // at most maxLights; intensity 0 while an animation hides the light
     std::size_t faintLights = 0;           // number of fainter lights that were dropped
     std::vector<Camera> cameras;           // one per entry of Scene::cameras, with animated values
     std::optional<TrackedCamera> tracked;  // state of Scene::cameraTrack
@@ -50,6 +50,9 @@ struct Pose {
 Pose poseAt(const Scene& scene, double time, int clip = 0);
 // Returns the pose of poseAt but with empty `bounds`, whose computation takes most of the time of poseAt.
 Pose unmeasuredPoseAt(const Scene& scene, double time, int clip = 0);
+// Returns the pose of a time while the shutter is open, without bounds. Its objects are those of `exposed`, the pose of
+// the exposure, in the same order, even if an animation shows or hides others at this time.
+Pose shutterPoseAt(const Scene& scene, double time, int clip, const Pose& exposed);
 
 // Returns the pose's lights with the angular diameters and radii of the lights `before`, matched by index. Returns
 // `before` if the pose has no lights.

@@ -220,10 +220,11 @@ struct Skin {
 
 enum class Interpolation { step, linear, cubicSpline };
 enum class ChannelPath {
-    translation,  // translation, rotation, scale, weights: properties of a node
+    translation,  // translation, rotation, scale, weights, visible: properties of a node
     rotation,
     scale,
     weights,
+    visible,        // KHR_node_visibility; values from 0.5 are true
     cameraYfov,   // radians; camera…: properties of a camera (KHR_animation_pointer)
     cameraZnear,  // m
     cameraLens,   // entry AnimationChannel::lensValue of Camera::lens

@@ -23,8 +23,8 @@ VertexBlock gathered(const VertexBlock& block, std::span<const std::uint32_t> or
 VertexBlock compacted(const VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
 // Returns the block with flat shading, which glTF requires for primitives without normals: each triangle gets its own
-// vertices with its face normal (+y without area). Morph targets get normal displacements that produce the face normals
-// of the displaced triangles.
+// vertices with its face normal. The normal of a triangle without area is +y. Morph targets get normal displacements
+// that produce the face normals of the displaced triangles.
 VertexBlock flatShaded(const VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
 // Appends `block` to the mesh's vertices and returns the index of its first vertex. An attribute that only the mesh or

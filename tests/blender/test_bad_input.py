@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import subprocess
 import tempfile
 import unittest
 
@@ -9,7 +10,7 @@ import bpy
 
 import scenes
 
-from defocus_engine import engine, failure, program, viewer
+from defocus_engine import engine, exr, failure, program, viewer
 
 
 def small_scene():
@@ -98,6 +99,20 @@ class BadInput(unittest.TestCase):
     def testUnknownOption(self):
         small_scene().defocus.further = "--fstops 3"
         self.assertIn("--fstops", self.message())
+
+    def testDamagedPictureIsRefused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            whole = pathlib.Path(folder) / "whole.exr"
+            fish = pathlib.Path(__file__).resolve().parents[2] / "meshes" / "fish.glb"
+            subprocess.run([os.environ["DEFOCUS_PROGRAM"], "--quiet", "render", fish, "-o", whole, "--size", "32x24", "--samples", "1"], check=True)
+            data = whole.read_bytes()
+            pixels, _ = exr.read(whole)
+            self.assertEqual({name: values.shape for name, values in pixels.items()}, dict.fromkeys("ABGR", (24, 32)))
+            cut = pathlib.Path(folder) / "cut.exr"
+            for size in range(0, len(data), max(1, len(data) // 97)):
+                cut.write_bytes(data[:size])
+                with self.subTest(size=size), self.assertRaises(failure.Failure):
+                    exr.read(cut)
 
     def testUnbalancedQuotes(self):
         small_scene().defocus.further = "--camera 'x"

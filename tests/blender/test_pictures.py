@@ -1,5 +1,6 @@
 """Pictures of the engine against Cycles with direct light, and against the thin lens."""
 
+import json
 import math
 import os
 import pathlib
@@ -12,7 +13,8 @@ import numpy
 import pictures
 import scenes
 
-# PNG file for the still life of Cycles with 1,024 samples, of Defocus, and 5 times the difference; none: no file.
+# PNG file for three pictures of the still life: by Cycles with 1,024 samples, by Defocus, and 5 times the difference.
+# No file is written if the variable is not set.
 FIGURE = os.environ.get("DEFOCUS_BLENDER_FIGURE")
 
 
@@ -156,15 +158,53 @@ class Features(unittest.TestCase):
         self.assertAlmostEqual(passes["Combined"][24, 24, 3], 1, places=4)
         self.assertAlmostEqual(passes["Combined"][24, 4, 3], 0, places=4)
 
+    def testLayersReachThePasses(self):
+        scene = scenes.empty_scene(64, 48)
+        scenes.camera(place=(0, 0, 0), pitch=0)
+        scene.camera.data.shift_x = 0.05
+        for name, size, place, colour in (("Würfel", 1, (0.6, 2, 0), (0.2, 0.5, 0.8)), ("far wall", 9, (0, 4, 0), (1, 1, 1))):
+            bpy.ops.mesh.primitive_plane_add(size=size, location=place, rotation=(math.radians(90), 0, 0))
+            bpy.context.object.name = name
+            scenes.with_material(scenes.diffuse(f"{name}'s paint", color=colour))
+        scene.camera.data.dof.focus_distance, scene.camera.data.dof.aperture_fstop = 4, 0.2
+        scene.defocus.samples, layer = 64, scene.view_layers[0]
+        layer.name = "Sicht"
+        for name in ("position", "normal", "diffuse_color", "emit", "cryptomatte_object", "cryptomatte_material"):
+            setattr(layer, f"use_pass_{name}", True)
+        scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR_MULTILAYER", "32"
+        scene.render.engine = "DEFOCUS"
+        bpy.ops.render.render()
+        passes, texts = dict(self.passes(scene)), self.texts
+        near = 24, 52
+        for name, expected in (("Position", (None, 2, None)), ("Normal", (0, -1, 0)), ("DiffCol", (0.2, 0.5, 0.8)), ("Emit", (0, 0, 0))):
+            for value, right in zip(passes[name][near], expected):
+                if right is not None:
+                    self.assertAlmostEqual(value, right, places=3, msg=name)
+        across = passes["Position"][24, :, 0]
+        self.assertTrue((numpy.diff(across[40:]) > 0).all(), "x grows to the right")
+        names = {hash_: name for text in texts.values() if text.startswith("{") for name, hash_ in json.loads(text).items()}
+        for kind, name in (("CryptoObject00", "Würfel"), ("CryptoMaterial00", "Würfel's paint")):
+            number, share = passes[kind][near][:2]
+            self.assertEqual(names[f"{numpy.float32(number).view(numpy.uint32):08x}"], name)
+            self.assertAlmostEqual(share, 1, places=4)
+        self.assertIn("Sicht.CryptoObject", texts.values())
+        share = passes["CryptoObject00"][24, :, 1]
+        self.assertGreater(((share > 0.4) & (share < 0.95)).sum(), 3, "edges are soft")
+
     def passes(self, scene):
         import OpenImageIO as oiio
         with tempfile.TemporaryDirectory() as folder:
             bpy.data.images["Render Result"].save_render(f"{folder}/all.exr", scene=scene)
             source = oiio.ImageInput.open(f"{folder}/all.exr")
-            names, pixels = source.spec().channelnames, source.read_image("float")[::-1]
+            spec = source.spec()
+            names, pixels = spec.channelnames, source.read_image("float")[::-1]
+            self.texts = {one.name: one.value for one in spec.extra_attribs if one.name.startswith("cryptomatte/")}
             source.close()
-        for name in ("Combined", "Depth"):
-            yield name, pixels[..., [i for i, channel in enumerate(names) if f".{name}." in channel]]
+        for name in dict.fromkeys(channel.split(".")[-2] for channel in names):
+            letters = "RGBA" if f"{name}.R" in " ".join(names) else "XYZ"
+            ordered = sorted((i for i, channel in enumerate(names) if channel.split(".")[-2] == name),
+                             key=lambda i: letters.index(names[i][-1]))
+            yield name, pixels[..., ordered]
 
     def testWorldLightsAsInCycles(self):
         scene = scenes.empty_scene(96, 72)

@@ -167,7 +167,7 @@ std::string furnishedScene() {
 
 std::vector<Bytes> gltfSeeds() {
     std::vector<Bytes> seeds = filesIn(std::filesystem::path(DEFOCUS_SOURCE_DIR) / "tests/data/models");
-    // files with lamps, and with lens values in the extras of a camera
+    // files with emissive materials, and with lens values in the extras of a camera
     for (const char* own : {"bokeh.gltf", "artefact-leaking.gltf"})
         seeds.push_back(fileBytes(std::filesystem::path(DEFOCUS_SOURCE_DIR) / "meshes" / own));
     seeds.push_back(bytesOf(furnishedScene()));

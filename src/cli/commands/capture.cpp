@@ -395,7 +395,7 @@ void addShot(CLI::App& command, CaptureArguments& arguments) {
         ->required()
         ->type_name("FILE");
     addParsed(command, "--range", "FIRST:LAST",
-              "First and last frame to render, or a single frame. Camera movements keep the range of the shot",
+              "First and last frame to render, or a single frame. Turntable and dolly keep the shot's full range",
               [&arguments](const std::string& text) { arguments.range = parseFrameRange(text); })
         ->group(group);
     addNumber(command, "--frame-rate", arguments.shot.frameRate, {1e-3, 1e6}, "FPS", "Frame rate in frames per second")
@@ -444,13 +444,13 @@ void addOutputs(CLI::App& command, CaptureArguments& arguments) {
     command
         .add_flag(
             "--refocus", arguments.refocus,
-            "Compute frames of a still scene in which only focus, f-number and aperture shape change from one set "
-            "of lens images")
+            "Render one set of lens images for consecutive frames of a still scene that differ only in focus, f-number "
+            "or aperture shape, and compute these frames from it")
         ->group(group);
     command
         .add_flag("--check", arguments.check,
-                  "Measure the pops of the levels of detail from frame to frame, and print the largest; takes up to "
-                  "four times as long")
+                  "Measure pops, the visible jumps when a level of detail changes between frames, and print the "
+                  "largest. Takes up to four times as long")
         ->group(group);
 }
 

@@ -123,8 +123,8 @@ void addRefocusCommand(CLI::App& program, const GlobalOptions& global) {
               "Exposure in EV for PNG and JPEG. Default: as rendered");
     CLI::Option* const fills =
         command->add_flag("--fill-gaps,!--no-fill-gaps", arguments->fillGaps,
-                          "Blur each lens image by its part of the lens, which fills the gaps "
-                          "between copies of blurred points (default). --no-fill-gaps is faster");
+                          "Blur each lens image to fill the gaps between copies of blurred points (default). "
+                          "--no-fill-gaps is faster");
     addParsed(*command, "--html", "FILE",
               fmt::format("Write one web page in which a visitor chooses focus, f-number and bokeh, with at most {} "
                           "images. Replaces --output",
@@ -153,6 +153,11 @@ void addRefocusCommand(CLI::App& program, const GlobalOptions& global) {
         ->excludes("--html")
         ->excludes(pull);
     addSettings(*command, arguments->request, ownSettings());
+    command->get_option("--fstop")->description("f-number, at least that of the lens images. Default: as rendered");
+    command->get_option("--focus-distance")
+        ->description(
+            "Distance of the focus plane along the view axis, such as 2.5 (m) or 50cm, within the focus range "
+            "of the lens images. Default: as rendered");
     command->footer(
         "Examples:\n"
         "  defocus render scene.glb --lens-images scene.lens.exr --fstop 1.4 --samples 128\n"

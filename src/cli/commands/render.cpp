@@ -61,8 +61,8 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
                  ->group(group));
     command
         .add_flag("--resume", arguments.resume,
-                  "Continue an interrupted run with the same settings and keep the parts that it has finished, in "
-                  "folder out.tiles beside the first output or in the file of --tile")
+                  "Continue an interrupted run with the same settings. Finished parts are read from folder out.tiles "
+                  "beside the first output, or from the file of --tile")
         ->group(group);
     advanced(command
                  .add_flag("--keep-partial", arguments.keepPartial,

@@ -78,8 +78,8 @@ Rows sampleRows() {
         rows::choice<Quality>("quality", "--quality",
                               {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
                               MEMBER(quality),
-                              "Quality for --samples auto: perceived difference (FLIP) from an image without noise of "
-                              "about 0.03 (draft), 0.01 (good) or 0.005 (fine)")
+                              "Quality for --samples auto, as the perceived difference (FLIP) from an image without "
+                              "noise: about 0.03 (draft), 0.01 (good) or 0.005 (fine)")
             .everyday()
             .inShot("/quality")
             .excludes({"targetError", "timeLimit"})

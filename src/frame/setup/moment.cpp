@@ -45,8 +45,7 @@ void exposeMotion(const Request& request, const PlacedCamera& camera, const Rend
     if (scene.clips.empty() && !cameraMoves && std::ranges::none_of(scene.meshes, changesBlur)) return;
     const auto momentAt = [&](double offset) {
         const double time = animationTime(request, scene, request.time + offset);
-        ShutterMoment moment{unmeasuredPoseAt(scene, time, clipOf(request, scene)), {}};
-        hideNodes(scene, request.hide, moment.pose);
+        ShutterMoment moment{shutterPoseAt(scene, time, clipOf(request, scene), world.pose), {}};
         moment.worldFromCamera = worldFromCameraIn(camera, moment.pose);
         return moment;
     };

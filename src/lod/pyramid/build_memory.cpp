@@ -20,8 +20,8 @@ constexpr std::uint64_t imageBytes = 16u << 20;
 constexpr std::uint64_t levelTriangleBytes = 300, fullTriangleBytes = 70;
 constexpr std::uint64_t vertexBytes = 60;
 
-// Pyramids that take at most this many bytes are always built. A limit that is too small for one of them is too small
-// for the program, too. The frame's memory budget then reports the sufficient limit.
+// Pyramids that take at most this many bytes are built without a check of the memory limit. If the limit is too small
+// even for them, the frame's memory budget fails later, and its message reports a sufficient limit.
 constexpr std::uint64_t smallBytes = 1u << 20;
 
 std::uint64_t attributeBytes(const Vertices& vertices) {

@@ -168,7 +168,7 @@ inline glm::vec3 mapped(const FinishMap& map, const glm::vec2& uv0, const glm::v
     return map.image ? map.at(uv0, uv1) : glm::vec3(1);
 }
 
-// A triangle that is visible in some cells.
+// A triangle that is visible in at least one cell of the picture.
 struct SeenTriangle {
     const std::uint32_t* corners = nullptr;
     const Finish* finish = nullptr;

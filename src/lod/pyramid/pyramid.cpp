@@ -209,7 +209,8 @@ void measure(FittedLevel& level, const Surface& mesh, double diagonal) {
     level.removed = {};
 }
 
-// Reorders the level's triangles into clusters. `positions` are the positions of the mesh's vertices, including twins.
+// Reorders the level's triangles into clusters. `positions` covers the mesh's vertices and the copies of vertices in
+// Simplification::twins.
 void cluster(FittedLevel& level, const WeldedPositions& positions) {
     Numbered<LevelVertexNumber, PositionNumber> places;
     places.reserve(level.numbers.size());

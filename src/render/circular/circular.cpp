@@ -16,8 +16,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int tileSize = 16;          // field pixels
-constexpr int publishedLargest = 17;  // max blur diameter in field pixels: eight taps on each side and the centre
+// Sizes in field pixels: pixels of the blurred near and far fields, which may have a lower resolution than the image.
+constexpr int tileSize = 16;
+constexpr int publishedLargest = 17;  // max blur diameter: eight taps on each side and the centre
 
 struct CircularOptions {
     int nearComponents = 2;

@@ -1,14 +1,18 @@
 #pragma once
-// Images of equal size in the layers of a texture, as half floats, and the mean of some of them, each moved by whole
-// pixels (src/refocus).
+// Images of equal size, as half floats, and the mean of some of them, each moved by whole pixels (src/refocus).
+//
+// The images are the layers of a texture. Where OpenGL runs on the CPU, they are in the program's memory, and the
+// program computes the mean in less time than a shader needs there.
 
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <span>
+#include <vector>
 
 #include "gl/fullscreen.h"
 #include "gl/target.h"
+#include "image/half_image.h"
 
 namespace defocus::engine {
 
@@ -22,23 +26,31 @@ public:
         glm::ivec2 corner{0};  // texel of the image, right and up, at the mean's lower left pixel
     };
 
-    explicit ImageStack(std::filesystem::path shaderFolder);
+    // `software`: OpenGL runs on the CPU.
+    ImageStack(std::filesystem::path shaderFolder, bool software);
 
     // Allocates the images, at most maxImages, without contents. Throws Error if the driver has too little memory.
     void allocate(int width, int height, std::uint32_t count);
-    void free() { images_ = {}; }
+    void free();
     // Stores an image of the same size, rounded to half floats.
     void store(std::uint32_t image, const GlTexture& texture);
-    // Draws the mean of at least one image, of a size in px. All its pixels must be within each image.
-    void drawMean(std::span<const Part> parts, int width, int height);
+    // Computes the mean of at least one image, of a size in px. All its pixels must be within each image.
+    void computeMean(std::span<const Part> parts, int width, int height);
 
     // Returns the latest mean, with row 0 at the bottom.
     [[nodiscard]] const GlTexture& mean() const { return mean_; }
     [[nodiscard]] bool allocated() const { return static_cast<bool>(images_); }
-    [[nodiscard]] std::size_t bytes() const { return images_.bytes(); }
+    [[nodiscard]] std::size_t bytes() const;
 
 private:
-    GlTexture images_, mean_;
+    void drawMean(std::span<const Part> parts);
+    void sumMean(std::span<const Part> parts);
+
+    bool software_;
+    GlTexture images_;               // all images; or, where OpenGL runs on the CPU, the latest one
+    std::vector<HalfImage> halves_;  // all images where OpenGL runs on the CPU, with row 0 at the bottom
+    std::vector<float> sums_;        // RGBA of the mean there
+    GlTexture mean_;
     Target meanTarget_;
     Program store_, sum_;
     Fullscreen fullscreen_;

@@ -20,7 +20,7 @@ std::optional<std::vector<double>> usdNumbers(const UsdPrim& prim, std::string_v
 double usdNumber(const UsdPrim& prim, std::string_view name, double timeCode, double otherwise,
                  const std::string& where);
 
-// Returns the first text of an attribute; empty if there is none.
+// Returns the first string in the value of an attribute; empty if the attribute is missing or has no string.
 std::string usdText(const UsdPrim& prim, std::string_view name);
 
 struct UsdTransform {

@@ -1,4 +1,4 @@
-// Source: glTF 2.0 specification, 3.7.3 (skins) and 3.11 (animations); KHR_animation_pointer.
+// Source: glTF 2.0 specification, 3.7.3 (skins) and 3.11 (animations); KHR_animation_pointer, KHR_node_visibility.
 #include "scene/gltf/animation.h"
 
 #include <algorithm>
@@ -61,6 +61,8 @@ std::optional<Target> pointedTarget(const std::string& pointer) {
     if (!index) return std::nullopt;
     std::optional<ChannelPath> path;
     if (parts.size() == 3 && parts[0] == "nodes") path = nodePathNamed(parts[2]);
+    if (parts.size() == 5 && parts[0] == "nodes" && parts[3] == "KHR_node_visibility" && parts[4] == "visible")
+        path = ChannelPath::visible;
     if (parts.size() == 3 && parts[0] == "lights") path = lightPathNamed(parts[2]);
     if (parts.size() == 4 && parts[0] == "cameras") {
         if (parts[2] == "perspective" && parts[3] == "yfov") path = ChannelPath::cameraYfov;
@@ -91,9 +93,12 @@ std::optional<Target> targetOf(Source& source, const nlohmann::json& json) {
     return std::nullopt;
 }
 
+bool ofTransform(ChannelPath path) {
+    return path == ChannelPath::translation || path == ChannelPath::rotation || path == ChannelPath::scale;
+}
+
 bool ofNode(ChannelPath path) {
-    return path == ChannelPath::translation || path == ChannelPath::rotation || path == ChannelPath::scale ||
-           path == ChannelPath::weights;
+    return ofTransform(path) || path == ChannelPath::weights || path == ChannelPath::visible;
 }
 
 Interpolation interpolationNamed(const Source& source, const std::string& name, const std::string& what) {
@@ -185,8 +190,7 @@ AnimationClip readClip(Source& source, const tinygltf::Animation& from, std::siz
         channel.target = kept;
         channel.path = target->path;
         channel.lensValue = target->lensValue;
-        if (ofNode(channel.path) && channel.path != ChannelPath::weights &&
-            hierarchy.nodes[static_cast<std::size_t>(kept)].matrix) {
+        if (ofTransform(channel.path) && hierarchy.nodes[static_cast<std::size_t>(kept)].matrix) {
             ignore(source, "animation channel", "its node has a matrix, which cannot be animated");
             continue;
         }

@@ -89,7 +89,7 @@ private:
 
     [[nodiscard]] bool fullQuality() {
         const ViewPicture& image = picture_.image();
-        return image.refocusedFully() || image.finished() ||
+        return image.refocused() || image.finished() ||
                (!image.moving() && image.samples() >= KeptImages::maxImages);
     }
 

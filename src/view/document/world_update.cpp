@@ -73,7 +73,7 @@ PlacedCamera followedCamera(const Document& document, const ViewState& state) {
     return placed;
 }
 
-// Updates the world's pose to the request. The selected object stays selected unless it is now hidden.
+// Poses the world as the options in `state` request. Clears the selection if the selected object is hidden.
 void updatePose(Document& document, ViewState& state) {
     const Scene& scene = *document.frame->scene;
     World& world = document.frame->world;

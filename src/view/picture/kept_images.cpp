@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <span>
 
 #include "core/error.h"
 #include "core/memory_limits.h"
@@ -48,8 +47,8 @@ FocusRange keptRange(const View& view, const FramePlan& plan) {
     return range;
 }
 
-KeptImages::KeptImages(const World& world, RendererOptions options)
-    : world_(&world), options_(std::move(options)), stack_(options_.shaderFolder) {
+KeptImages::KeptImages(const World& world, RendererOptions options, bool software)
+    : world_(&world), options_(std::move(options)), stack_(options_.shaderFolder, software) {
     options_.wave = 1;
 }
 
@@ -116,13 +115,12 @@ std::vector<ShiftedImage> KeptImages::imagesFor(const Lens& lens) const {
     }
 }
 
-void KeptImages::refocus(const Lens& lens, std::uint32_t count) {
-    const std::vector<ShiftedImage> images = imagesFor(lens);
-    assert(complete() && count > 0 && count <= images.size());
+void KeptImages::refocus(const Lens& lens) {
+    assert(complete());
     std::vector<ImageStack::Part> parts;
-    for (const ShiftedImage& image : std::span(images).first(count))
+    for (const ShiftedImage& image : imagesFor(lens))
         parts.push_back({static_cast<std::uint32_t>(image.image), info_.size.margin - image.move});
-    stack_.drawMean(parts, info_.size.width, info_.size.height);
+    stack_.computeMean(parts, info_.size.width, info_.size.height);
 }
 
 }  // namespace defocus::engine

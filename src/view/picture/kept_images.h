@@ -1,5 +1,5 @@
 #pragma once
-// Lens images of a still view on the GPU. The window computes pictures with another focus distance or a smaller
+// Lens images of a still view. The window computes pictures with another focus distance or a smaller
 // aperture from them in one frame, by the mathematics of refocus/refocus.h. Their levels of detail suit all focus
 // distances of a range around the view's own.
 
@@ -25,8 +25,8 @@ public:
     static constexpr std::uint32_t maxImages = ImageStack::maxImages;
     static constexpr std::uint32_t minImages = 16;  // fewer images show separate copies of blurred surfaces
 
-    // `world` must outlive this object. Needs a current GL context.
-    KeptImages(const World& world, RendererOptions options);
+    // `world` must outlive this object. `software`: OpenGL runs on the CPU. Needs a current GL context.
+    KeptImages(const World& world, RendererOptions options, bool software);
 
     // Plans the images of a view: maxImages, or as many as fit into `bytes` and into a quarter of the free memory.
     // Replaces the images of the previous view.
@@ -49,9 +49,9 @@ public:
         return static_cast<std::uint32_t>(imagesFor(lens).size());
     }
 
-    // Draws the picture for the lens's focus distance and f-number, from the first `count` of the images that are
-    // serving the lens. Needs complete images. The lens may differ from that of begin() in these two values only.
-    void refocus(const Lens& lens, std::uint32_t count);
+    // Draws the picture for the lens's focus distance and f-number, from all images that are serving the lens, at least
+    // one. Needs complete images. The lens may differ from that of begin() in these two values only.
+    void refocus(const Lens& lens);
     // Returns the latest picture of refocus(): linear, premultiplied RGBA, row 0 at the bottom.
     [[nodiscard]] const GlTexture& picture() const { return stack_.mean(); }
 

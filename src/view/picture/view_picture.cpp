@@ -117,16 +117,12 @@ void ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
     if (changed) {
         ++changes_;
         refocused_.reset();
-        if (otherScene || !drawRefocused(request, budget.milliseconds)) drawMoving(request, budget);
+        if (otherScene || !drawRefocused(request)) drawMoving(request, budget);
         growing_ = false;
         grows_ = true;
         settlesAt_ = Clock::now() + settleTime;
         presents = true;
     } else if (!growing_ && !request.fixedQuality && Clock::now() >= settlesAt_) {
-        if (refocused_ && !refocusedFully()) {
-            drawRefocused(request, std::numeric_limits<double>::infinity());
-            presents = true;
-        }
         beginGrowing(request);
     } else if (grown_ && refocused_) {
         if (minSamples() >= refocused_->images || !grows_) {
@@ -209,23 +205,18 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     notePasses();
 }
 
-// Draws the picture from the kept images. If OpenGL runs on the CPU, it adds as many images as about `milliseconds`
-// allow, at least KeptImages::minImages. Returns false if the images don't serve the request.
-bool ViewPicture::drawRefocused(const PictureRequest& request, double milliseconds) {
+// Draws the picture from the kept images. Returns false if they don't serve the request.
+bool ViewPicture::drawRefocused(const PictureRequest& request) {
     const Lens& lens = request.view.lens;
     const std::uint32_t serving = images_ && images_->complete() && !showsWork_ ? images_->serving(lens) : 0;
     if (serving == 0) return false;
     const Clock::time_point begin = Clock::now();
-    const double fitting = software_ ? milliseconds / imageMilliseconds_ : KeptImages::maxImages;
-    const std::uint32_t images = std::min(
-        serving, static_cast<std::uint32_t>(std::clamp<double>(fitting, KeptImages::minImages, KeptImages::maxImages)));
-    images_->refocus(lens, images);
+    images_->refocus(lens);
     waitForGpu();
     const double time = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-    imageMilliseconds_ = time / images;
     RenderSettings settings = settingsOf(request.settings, request.sides[0]);
-    settings.sampleCount = images;
-    refocused_ = {planFrame(*world_, request.view, settings), images, serving};
+    settings.sampleCount = serving;
+    refocused_ = {planFrame(*world_, request.view, settings), serving};
     aovsCurrent_ = workCurrent_ = workGrows_ = false;
     passTotals_.clear();
     passes_ = {{"refocus", time}};
@@ -250,7 +241,7 @@ void ViewPicture::beginGrowing(const PictureRequest& request) {
 void ViewPicture::planImages(const PictureRequest& request) {
     const bool sums = parseMethodUse(request.sides[0].method).method->sumsBlocks;
     if (request.imageBytes == 0 || request.sides.size() > 1 || !sums) return;
-    if (!images_) images_.emplace(*world_, options_);
+    if (!images_) images_.emplace(*world_, options_, software_);
     if (images_->serving(request.view.lens) > 0) return;
     images_->begin(request.view, settingsOf(request.settings, request.sides[0]), first().plan(), request.imageBytes);
 }

@@ -66,9 +66,8 @@ public:
     [[nodiscard]] bool idle() const { return finished() && !keepsMore(); }
     // Returns the lens samples in the first image, or the kept images in a refocused picture.
     [[nodiscard]] std::uint32_t samples() const;
-    // Returns whether the picture is computed from kept images, and whether it is computed from all that serve it.
+    // Returns whether the picture is computed from kept images.
     [[nodiscard]] bool refocused() const { return refocused_.has_value(); }
-    [[nodiscard]] bool refocusedFully() const { return refocused_ && refocused_->images == refocused_->serving; }
     // Returns null before the first still view.
     [[nodiscard]] const KeptImages* keptImages() const { return images_ ? &*images_ : nullptr; }
     // Returns whether the first image of a still view has reached its target error.
@@ -100,7 +99,6 @@ private:
     struct Refocused {
         FramePlan plan;
         std::uint32_t images = 0;
-        std::uint32_t serving = 0;  // KeptImages::serving
     };
 
     [[nodiscard]] const ProgressiveImage& first() const { return sides_[0]->image; }
@@ -109,7 +107,7 @@ private:
     [[nodiscard]] double growthTime(const FrameBudget& budget) const;  // ms
     bool prepareSides(const PictureRequest& request);
     void drawMoving(const PictureRequest& request, FrameBudget& budget);
-    bool drawRefocused(const PictureRequest& request, double milliseconds);
+    bool drawRefocused(const PictureRequest& request);
     void beginGrowing(const PictureRequest& request);
     void planImages(const PictureRequest& request);
     [[nodiscard]] bool keepsMore() const;
@@ -132,7 +130,6 @@ private:
     std::vector<std::unique_ptr<Side>> sides_;
     std::optional<KeptImages> images_;
     std::optional<Refocused> refocused_;
-    double imageMilliseconds_ = 10;  // time for adding one kept image to a picture, from the latest picture
     std::vector<double> lastKey_, lastFocusKey_, lastDisplayKey_;
     std::string lastSettings_;
     std::shared_ptr<const Image> lastAperture_;

@@ -161,7 +161,8 @@ TEST_F(Library, progressMayCancelAPlan) {
     EXPECT_THROW(plan(request_, [](auto...) { throw Cancelled(); }), Cancelled);
 }
 
-// A request with a value that only the API can pass, since no text gives it. The error message begins with `name`.
+// Sets an invalid value in a request directly, without the checks of the text parser. The error message begins with
+// `name`.
 struct BadValue {
     const char* name;
     std::function<void(Request&)> set;

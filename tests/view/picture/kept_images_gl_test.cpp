@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <thread>
 
 #include "frame/driver/frame_driver.h"
@@ -36,13 +37,23 @@ Request smallSchool() {
     return request;
 }
 
+// Returns the largest difference between values of two images, relative to values above 1.
+double largestDifference(const Image& expected, const Image& image) {
+    EXPECT_EQ(image.pixels.size(), expected.pixels.size());
+    double largest = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        largest = std::max(largest, std::abs(double(image.pixels[i]) - double(expected.pixels[i])) /
+                                        std::max(1.0, double(expected.pixels[i])));
+    return largest;
+}
+
 class KeptImagesOfAView : public testing::Test {
 protected:
     KeptImagesOfAView() : view_(frame_.view) { request_.view = view_; }
 
     // Returns images of the view, all of them drawn.
-    KeptImages keptImages(std::uint64_t bytes = muchMemory) {
-        KeptImages images(frame_.world, {});
+    KeptImages keptImages(std::uint64_t bytes = muchMemory, bool software = false) {
+        KeptImages images(frame_.world, {}, software);
         images.begin(view_, frame_.settings, planFrame(frame_.world, view_, frame_.settings), bytes);
         images.grow(noLimit);
         return images;
@@ -52,7 +63,7 @@ protected:
         Lens lens = view_.lens;
         lens.focusDistance = focusDistance;
         lens.fStop = fStop;
-        images.refocus(lens, images.serving(lens));
+        images.refocus(lens);
         return readBack(images.picture(), 4);
     }
 
@@ -64,36 +75,35 @@ protected:
 
 // The library draws and rounds the images on its own, and adds them on the CPU.
 TEST_F(KeptImagesOfAView, givePicturesOfTheLibrary) {
-    KeptImages images = keptImages();
-    ASSERT_TRUE(images.complete()) << images.obstacle();
-    EXPECT_EQ(images.drawn(), 64u);
-
     FrameDriver driver(frame_.world, {parseMethodUse("accumulation"), {}, {}});
     RenderSettings settings = frame_.settings;
     settings.sampleCount = 64;
-    KeptLensImages library(driver, view_, settings, images.info().range, [](double) {});
-    for (const auto& [focus, fStop] : {std::pair(2.0, 0.95), std::pair(1.2, 0.95), std::pair(2.5, 1.4)}) {
-        const Image expected = sharpSum(library, {focus, fStop});
-        const Image picture = refocused(images, focus, fStop);
-        ASSERT_EQ(picture.pixels.size(), expected.pixels.size());
-        double largest = 0;
-        for (std::size_t i = 0; i < picture.pixels.size(); ++i)
-            largest = std::max(largest, std::abs(double(picture.pixels[i]) - double(expected.pixels[i])) /
-                                            std::max(1.0, double(expected.pixels[i])));
-        EXPECT_LE(largest, std::ldexp(1, -10)) << focus << " m, f/" << fStop;  // a step of half floats near 1
+    std::optional<KeptLensImages> library;
+    for (const bool software : {false, true}) {
+        KeptImages images = keptImages(muchMemory, software);
+        ASSERT_TRUE(images.complete()) << images.obstacle();
+        EXPECT_EQ(images.drawn(), 64u);
+        if (!library) library.emplace(driver, view_, settings, images.info().range, [](double) {});
+        for (const auto& [focus, fStop] : {std::pair(2.0, 0.95), std::pair(1.2, 0.95), std::pair(2.5, 1.4)}) {
+            const double difference =
+                largestDifference(sharpSum(*library, {focus, fStop}), refocused(images, focus, fStop));
+            EXPECT_LE(difference, std::ldexp(1, -10)) << focus << " m, f/" << fStop;  // a step of half floats near 1
+        }
     }
 }
 
 TEST_F(KeptImagesOfAView, stayWithinTheirMemory) {
-    KeptImages all = keptImages();
-    const std::uint64_t each = all.bytes() / 64;
-    KeptImages some = keptImages(20 * each + each / 2);
-    EXPECT_EQ(some.drawn(), 20u);
-    EXPECT_EQ(some.bytes(), 20 * each);
-    const KeptImages none = keptImages(15 * each);
-    EXPECT_EQ(none.planned(), 0u);
-    EXPECT_EQ(none.bytes(), 0u);
-    EXPECT_NE(none.obstacle().find("16 lens images"), std::string::npos) << none.obstacle();
+    for (const bool software : {false, true}) {
+        KeptImages all = keptImages(muchMemory, software);
+        const std::uint64_t each = all.bytes() / 64;
+        KeptImages some = keptImages(20 * each + each / 2, software);
+        EXPECT_EQ(some.drawn(), 20u);
+        EXPECT_EQ(some.bytes(), 20 * each);
+        const KeptImages none = keptImages(15 * each, software);
+        EXPECT_EQ(none.planned(), 0u);
+        EXPECT_EQ(none.bytes(), 0u);
+        EXPECT_NE(none.obstacle().find("16 lens images"), std::string::npos) << none.obstacle();
+    }
 }
 
 TEST_F(KeptImagesOfAView, areNotPlannedForALensThatDoesMoreThanMoveThem) {
@@ -242,26 +252,6 @@ TEST_F(PictureAtRest, keepsNoImagesWithoutMemory) {
     request_.view.lens.focusDistance = 1.4;
     draw();
     EXPECT_FALSE(picture_.refocused());
-}
-
-// On a CPU, a drag adds as many images as its frames have time for, and all of them once it ends.
-TEST_F(PictureAtRest, addsAllImagesOnceASlowDragEnds) {
-    ViewPicture slow(frame_.world, {}, true);
-    budget_.milliseconds = 1e-6;
-    const auto frame = [&] {
-        slow.grow(budget_);
-        slow.update(request_, budget_);
-    };
-    while (frame(), !slow.idle()) {
-    }
-    request_.view.lens.focusDistance = 1.4;
-    frame();
-    EXPECT_TRUE(slow.refocused());
-    EXPECT_FALSE(slow.refocusedFully());
-    EXPECT_EQ(slow.samples(), 16u);
-    while (slow.moving()) frame();
-    EXPECT_TRUE(slow.refocusedFully());
-    EXPECT_EQ(slow.samples(), 64u);
 }
 
 }  // namespace
