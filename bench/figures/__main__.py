@@ -15,6 +15,7 @@ COMMANDS = {  # each name is a module of this package, with "-" for "_"
     "first-pictures": "render docs/first-pictures.jpg",
     "materials": "render docs/materials.jpg: Khronos' feature models beside the pictures of their authors",
     "artefacts": "render known artefacts of image-space methods for a report",
+    "lines": "compare line samples with points, in pictures and runs of bench/results/line-samples.md",
     "cycles": "compare lit, textured scenes with Blender's Cycles",
     "copies": "write a glTF scene of many copies of another, a load for the benches",
     "levels": "compare levels with full detail on copies of thin parts or of models",

@@ -30,9 +30,9 @@ def add_program(parser):
                         help="the program (default: build/release/defocus)")
 
 
-def run(*words):
-    """Runs a program in the repository root and returns its output. If it fails, exits with its error message."""
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, cwd=ROOT)
+def run(*words, cwd=ROOT):
+    """Runs a program in a folder, by default the repository root, and returns its output. If it fails, exits with its error message."""
+    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, cwd=cwd)
     if done.returncode != 0:
         sys.exit(done.stderr.strip())
     return done.stdout

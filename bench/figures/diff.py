@@ -2,7 +2,7 @@
 
     scripts/figures diff OLD NEW
 
-OLD and NEW are JSON or CSV files of bench convergence, speedup, scaling, popping or stability. Only JSON contains
+OLD and NEW are JSON or CSV files of bench convergence, speedup, scaling, popping, stability or view. Only JSON contains
 scene, size, lens and machine. A time has changed if the two spreads (10th to 90th percentile of at least three runs)
 don't overlap. An error has changed if it differs by more than 1 %, because a program renders identical images on the
 same driver. For SSIM, 1 - SSIM is compared; for PSNR, the RMSE. Results with another scene, camera, size, lens or
@@ -24,7 +24,7 @@ SSIM_ROUNDING = 1e-6  # CSV files contain six digits of SSIM
 # Columns that identify a row, and columns that are errors.
 KEYS = ("sweep", "axis", "movement", "area", "case", "errorOf", "method", "setting", "varied", "value", "samples", "fStop",
         "focusDistance", "lod", "width", "height", "preset", "frame")
-ERRORS = re.compile(r"(rmse|psnr|ssim|flip)(Full|Reference)?|biasFlip|(change|step)(Rmse|Flip)(Image)?|(diameterE|energyE|e)rror")
+ERRORS = re.compile(r"(rmse|psnr|ssim|flip)(Full|Reference)?|(moving|still)Psnr|biasFlip|(change|step)(Rmse|Flip)(Image)?|(diameterE|energyE|e)rror")
 
 Row = namedtuple("Row", "key time runs errors limit reference_samples")  # time: (median, low, high), ms; or None
 Results = namedtuple("Results", "measured_on subject rows")
@@ -66,7 +66,7 @@ def row_of(cells):
     time = [cells.get(name) for name in ("milliseconds", "low", "high")]
     errors = {name: value for name, value in cells.items() if ERRORS.fullmatch(name) and value is not None}
     if not key or (None in time and not errors):
-        raise ValueError("not a result of bench convergence, speedup, scaling, popping or stability")
+        raise ValueError("not a result of bench convergence, speedup, scaling, popping, stability or view")
     return Row(" ".join(key), None if None in time else time, int(cells.get("runs") or 0), errors, cells.get("limit"),
                cells.get("referenceSamples") or 0)
 
@@ -130,7 +130,7 @@ def time_change(old, new, unlike):
 
 def distance(column, value):
     """Converts an error metric to one that is 0 for equal images."""
-    if column.startswith("psnr"):
+    if "psnr" in column.lower():
         return 10 ** (-value / 20)
     return 1 - value if column.startswith("ssim") else value
 

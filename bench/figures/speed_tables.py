@@ -201,7 +201,19 @@ def error_times():
         f"\nCommand of the school on the H200: `{command_of('h200-school', run_of('h200-school'))}` (runs: {links}).\n")
 
 
-TABLES = {"gpu speed": gpu_speed, "gpu equal error": gpu_equal_error, "speed": speed_sentence, "demo": demo, "seeds": seeds,
+def window():
+    """Returns the table of the window's frame rate, response and error for each method."""
+    def waited(value):
+        return "–" if value is None else f"{value:.1f} s"
+
+    rows = [[f"`{row['method']}`", f"{row['framesPerSecond']:.1f}", f"{row['firstPictureMilliseconds']:.0f} ms",
+             f"{row['movingSamples']}, {100 * row['movingResolution']:.0f} %", f"{row['movingPsnr']:.1f} dB", waited(row["stillPictureSeconds"]),
+             waited(row["convergedSeconds"]), row["stillSamples"], f"{row['stillPsnr']:.1f} dB"] for row in run_of("llvmpipe-view")["rows"]]
+    return run_table("llvmpipe-view", ["method", "moving: frames per second", "first picture after an input", "samples, size", "PSNR",
+                                       "at rest: first picture after", "converged after", "samples after 10 s", "PSNR"], rows)
+
+
+TABLES = {"window": window, "gpu speed": gpu_speed, "gpu equal error": gpu_equal_error, "speed": speed_sentence, "demo": demo, "seeds": seeds,
           "speedup": lambda: speed_table(FISH), "helmets": lambda: speed_table("llvmpipe-speedup-helmets"), "measured": measured,
           "levels": levels, "pop shares": pop_shares, "error times": error_times, "published ratios": published_ratios,
           "published": published, "lenses": lenses, "popping": popping}

@@ -1,4 +1,4 @@
-"""Writes the tables of README.md, docs/results.md, docs/seeds.md and bench/results from the results in bench/results.
+"""Writes the tables of README.md, docs and bench/results from the results in bench/results.
 
     scripts/figures tables            write them
     scripts/figures tables --check    exit code 1 if a page differs
@@ -12,15 +12,16 @@ import pathlib
 import re
 import sys
 
-from figures import bench_tables, seeds, speed_tables
+from figures import bench_tables, line_rows, seeds, speed_tables
 from figures.command import ROOT, parser_of
 from figures.files import write_file
 from figures.markdown import run_source, table
 from figures.results import command_of, run_of
 from figures.rows import time_to_error
 
-TABLES = speed_tables.TABLES | bench_tables.TABLES | seeds.TABLES
+TABLES = speed_tables.TABLES | bench_tables.TABLES | line_rows.TABLES | seeds.TABLES
 PAGES = {"README.md": False, "docs/results.md": False, "docs/seeds.md": False, "bench/results/details.md": False,
+         "bench/results/line-samples.md": False, "docs/window.md": False,
          "bench/results/llvmpipe-methods.md": True}  # True: the table of methods shows all rows
 BLOCK = re.compile(rf"(<!-- ({'|'.join(['methods', 'equal error', *TABLES])})(?:: ([^>]+))? -->\n).*?(<!-- end -->)", re.DOTALL)
 LEVELS = {"lod=off": "full detail", "lod=fractional metric=measured thresholds=1": "levels",

@@ -29,7 +29,7 @@ def test_help_lists_every_command():
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_every_command_describes_itself(name):
-    if name in ("plots", "report", "first-pictures", "materials"):
+    if name in ("plots", "report", "first-pictures", "materials", "lines"):
         pytest.importorskip("matplotlib")
     outcome = figures(name, "--help")
     assert outcome.returncode == 0, outcome.stderr

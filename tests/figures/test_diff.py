@@ -163,6 +163,13 @@ def test_stability_names_errors_beyond_their_limits():
         assert ", BEYOND ITS LIMIT" in text and text.endswith("1 errors are beyond their limits in new but not in old\n")
 
 
+def test_pictures_of_the_window_are_compared_by_their_rmse():
+    _, rows = compared({"rows": [{"method": "line", "movingPsnr": 40, "stillPsnr": 50}]},
+                       {"rows": [{"method": "line", "movingPsnr": 34, "stillPsnr": 50.01}]})
+    (_, errors), = rows.values()
+    assert {name: error.verdict for name, error in errors.items()} == {"movingPsnr": "farther", "stillPsnr": "equal"}
+
+
 @pytest.mark.parametrize("file", sorted(RESULTS.glob("*.json")), ids=lambda file: file.stem)
 def test_a_committed_result_equals_itself(file):
     results = diff.read(file)

@@ -1,8 +1,7 @@
 // Tests that every option of `defocus view` affects the window's initial state: its own options, the settings of the
-// table, and those of the methods.
+// table, and those of the methods. option_cases_test.cpp checks that each option has a case or a test.
 
 #include <map>
-#include <set>
 
 #include "cli/option_cases.h"
 #include "image/image_io.h"
@@ -64,18 +63,6 @@ protected:
 private:
     std::map<Words, std::string> seen_;
 };
-
-TEST_F(OptionsOfView, haveACase) {
-    // options with their own test at the end of this file
-    const std::set<std::string> own = {"--frames", "--screenshot", "--stats"};
-    for (const CLI::Option* option : optionsOffered("view"))
-        if (const Setting* setting = settingOf(*option))
-            EXPECT_TRUE(settingCases().contains(setting->name)) << setting->name;
-        else if (const MethodSetting* ofMethod = methodSettingOf(*option))
-            EXPECT_TRUE(methodSettingCases().contains(ofMethod->name)) << ofMethod->name;
-        else
-            EXPECT_TRUE(own.contains(nameOf(*option))) << nameOf(*option);
-}
 
 // Number of settings per test, small enough that a test takes seconds. The test parameter is the index of the first
 // setting.

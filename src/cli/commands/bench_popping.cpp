@@ -68,18 +68,20 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
         writeFile(folder / "popping.csv", poppingCsv(frames));
         writeFile(folder / "popping.json", poppingJson(frames, steps, subject, options));
     };
-    bool hasHeader = false;
     PoppingVisitor visitor;
-    visitor.sampleStep = [&](const SampleStep& step) {
-        steps.push_back(step);
-        fmt::print("{}", sampleStepLine(step));
-        write();
+    visitor.firstFrames = [](std::span<const PoppingFrame> first) {
+        fmt::print("{}\n", firstFramesLine(first));
+        std::fflush(stdout);
     };
     visitor.frames = [&](std::span<const PoppingFrame> added) {
-        if (!hasHeader) fmt::print("{}{}", steps.empty() ? "" : "\n", poppingHeader());
-        hasHeader = true;
+        if (frames.empty()) fmt::print("{}", poppingHeader());
         frames.insert(frames.end(), added.begin(), added.end());
         for (const PoppingRow& row : poppingRows(added)) fmt::print("{}", poppingLine(row));
+        write();
+    };
+    visitor.sampleStep = [&](const SampleStep& step) {
+        fmt::print("{}{}", steps.empty() ? "\n" : "", sampleStepLine(step));
+        steps.push_back(step);
         write();
     };
     measurePopping(frame.world, frame.view, options, visitor, progress);

@@ -122,10 +122,11 @@ PoppingFrame frameOf(const Renderers& renderers, PoppingMode mode, const ModeSta
     return frame;
 }
 
-std::vector<PoppingFrame> measureMovement(World& world, const Renderers& renderers,
+// `step` is called after each frame, with all frames so far.
+std::vector<PoppingFrame> measureMovement(World& world, const Renderers& renderers, Movement name,
                                           const std::vector<MovementFrame>& movement, const std::vector<Image>& masks,
                                           const PoppingOptions& options, std::uint32_t samples,
-                                          const std::function<void()>& step) {
+                                          const std::function<void(std::span<const PoppingFrame>)>& step) {
     std::vector<PoppingFrame> frames;
     std::array<ModeState, poppingModes.size()> before;
     for (std::size_t t = 0; t < movement.size(); ++t) {
@@ -143,13 +144,14 @@ std::vector<PoppingFrame> measureMovement(World& world, const Renderers& rendere
             if (t > 0) {
                 const Image expected = carriedOn(before[m].image, now.reference, before[m].reference);
                 PoppingFrame frame = frameOf(renderers, mode, before[m], now, expected, masks[t]);
+                frame.movement = name;
                 frame.samples = samples;
                 frame.frame = static_cast<int>(t);
                 frames.push_back(frame);
             }
             before[m] = std::move(now);
         }
-        step();
+        step(frames);
     }
     return frames;
 }
@@ -239,24 +241,24 @@ void measurePopping(World& world, const View& view, const PoppingOptions& option
     }
     const std::uint64_t total =
         options.movements.size() * options.sampleCounts.size() * static_cast<std::size_t>(options.frames);
+    const std::uint64_t early = std::max<std::uint64_t>(static_cast<std::uint64_t>(options.frames) / 4, 2);
     std::uint64_t done = 0;
-
-    // Measure the step of one sample for a static object.
-    for (const std::uint32_t samples : options.sampleCounts)
-        if (const auto step = measureSampleStep(world, *renderers.accumulation, view, options, samples))
-            visitor.sampleStep(*step);
-
-    // Measure the popping during the movements.
+    const auto step = [&](std::span<const PoppingFrame> frames) {
+        report(progress, "frames", ++done, total);
+        if (done == early && visitor.firstFrames) visitor.firstFrames(frames);
+    };
     for (std::size_t m = 0; m < movements.size(); ++m) {
         const std::vector<Image> masks = masksOf(world, movements[m], options);
-        for (const std::uint32_t samples : options.sampleCounts) {
-            std::vector<PoppingFrame> frames = measureMovement(world, renderers, movements[m], masks, options, samples,
-                                                               [&] { report(progress, "frames", ++done, total); });
-            for (PoppingFrame& frame : frames) frame.movement = options.movements[m];
-            visitor.frames(frames);
-        }
+        for (const std::uint32_t samples : options.sampleCounts)
+            visitor.frames(
+                measureMovement(world, renderers, options.movements[m], movements[m], masks, options, samples, step));
     }
+
+    // The sample steps are of a static object and come last, because the movements are the main result.
     poseWorld(world, own);
+    for (const std::uint32_t samples : options.sampleCounts)
+        if (const auto sampleStep = measureSampleStep(world, *renderers.accumulation, view, options, samples))
+            visitor.sampleStep(*sampleStep);
 }
 
 }  // namespace defocus::engine

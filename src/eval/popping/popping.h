@@ -89,13 +89,17 @@ struct SampleStep {
 };
 
 struct PoppingVisitor {
+    // Called once with the first quarter of the first movement's frames, in all modes: a first result after seconds. May
+    // be empty.
+    std::function<void(std::span<const PoppingFrame>)> firstFrames;
     // Called once for each movement and each number of samples, with the frames of all modes.
     std::function<void(std::span<const PoppingFrame>)> frames;
     std::function<void(const SampleStep&)> sampleStep;
 };
 
-// Measures all movements and numbers of samples. Needs a current GL context. Sets the pose of `world` for each frame
-// and restores it at the end. Throws Error in the same cases as planning, rendering and framesAlong.
+// Measures all movements and numbers of samples, then the sample steps. Needs a current GL context. Sets the pose of
+// `world` for each frame and restores it at the end. Throws Error in the same cases as planning, rendering and
+// framesAlong.
 void measurePopping(World& world, const View& view, const PoppingOptions& options, const PoppingVisitor& visitor,
                     const Progress& progress = {});
 

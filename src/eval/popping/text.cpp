@@ -112,6 +112,15 @@ std::vector<PoppingRow> poppingRows(std::span<const PoppingFrame> frames) {
     return rows;
 }
 
+std::string firstFramesLine(std::span<const PoppingFrame> frames) {
+    const std::vector<PoppingRow> rows = poppingRows(frames);
+    std::string line;
+    for (const PoppingRow& row : rows)
+        line += fmt::format("{}{} {:.5f}", line.empty() ? "" : ", ", poppingModeName(row.mode), row.stepRmse.worst);
+    return fmt::format("first {} frames of {}, {} samples, largest pop (RMSE, objects' pixels): {}\n",
+                       rows.front().frames + 1, movementName(rows.front().movement), rows.front().samples, line);
+}
+
 std::string poppingHeader() {
     return fmt::format(
         "{:<10} {:>7} {:<10} {:>7}  {:^40}  {:^31}\n"

@@ -31,6 +31,8 @@ struct PoppingRow {
 // Returns a row for each movement, number of samples and mode, ordered by first appearance.
 std::vector<PoppingRow> poppingRows(std::span<const PoppingFrame> frames);
 
+// Returns one line: the largest pop of each mode in the first frames of a movement.
+std::string firstFramesLine(std::span<const PoppingFrame> frames);
 std::string poppingHeader();                         // two lines
 std::string poppingLine(const PoppingRow& row);      // one line
 std::string sampleStepLine(const SampleStep& step);  // one line, labels included

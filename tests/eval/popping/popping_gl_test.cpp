@@ -27,13 +27,17 @@ protected:
         visitor.frames = [&](std::span<const PoppingFrame> added) {
             frames_.insert(frames_.end(), added.begin(), added.end());
         };
+        visitor.firstFrames = [&](std::span<const PoppingFrame> first) {
+            EXPECT_TRUE(first_.empty() && frames_.empty());
+            first_.assign(first.begin(), first.end());
+        };
         visitor.sampleStep = [&](const SampleStep& step) { steps_.push_back(step); };
         measurePopping(small_->world, small_->view, options_, visitor);
     }
 
     std::unique_ptr<SmallWorld> small_;
     PoppingOptions options_;
-    std::vector<PoppingFrame> frames_;
+    std::vector<PoppingFrame> first_, frames_;
     std::vector<SampleStep> steps_;
 };
 std::unique_ptr<GlContext> Popping::context_;
@@ -71,6 +75,18 @@ TEST_F(Popping, isMeasuredForEachModeAtEachChange) {
     }
     EXPECT_GT(fastest, 0);
     EXPECT_GT(worst, 0);
+}
+
+TEST_F(Popping, firstResultIsAQuarterOfTheFirstMovement) {
+    options_.movements = {Movement::turntable, Movement::dolly};
+    options_.frames = 12;
+    measure();
+    ASSERT_EQ(first_.size(), 2u * poppingModes.size()) << "changes between three frames";
+    for (std::size_t i = 0; i < first_.size(); ++i) {
+        EXPECT_EQ(first_[i].movement, Movement::turntable);
+        EXPECT_EQ(first_[i].frame, frames_[i].frame);
+        EXPECT_EQ(first_[i].step.objects.rmse, frames_[i].step.objects.rmse);
+    }
 }
 
 // A pop is the change of the image when all N samples change their level at once. The change by one sample is a small
