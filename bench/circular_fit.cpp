@@ -307,9 +307,9 @@ void printTables(const std::vector<Kernel>& kernels) {
             fmt::print("   in its own units extent {:.3f}, disk radius {:.3f}\n", suited.extent, suited.diskRadius);
         }
     }
-    printHead("Published, as circular_kernel.cpp has them: at the extent of the fitted ones");
+    printHead("Published, rescaled to the disk as circular_kernel.cpp has them");
     for (int n = 1; n <= publishedKernelLimit; ++n) {
-        const auto kernel = publishedCircularKernel(n);
+        const auto kernel = rescaledCircularKernel(n);
         printRow(inRadii({kernel.begin(), kernel.end()}, {0, extent, 1}), extent);
     }
 }

@@ -3,7 +3,8 @@
 //   complete square;
 // - the time that a single pass for near and far field could save;
 // - the flatness of the disks depending on the number of components;
-// - the error of storage formats.
+// - the error of storage formats;
+// - the times of the forms on the slide on performance.
 //
 // Held constant within a table: image, process, kernel. Variants run alternately; the median time counts. Checks that
 // the separable and the direct blur agree.
@@ -14,7 +15,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <numbers>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -193,39 +197,97 @@ void disks() {
     fmt::print("\n");
 }
 
-// Prints the error of an image for each storage format of the data between the passes, relative to 32-bit floats.
-void storages() {
+struct Measured {
+    std::string method;
+    Image image;
+    double milliseconds = 0;  // median
+    double megabytes = 0;     // peak of graphics memory
+};
+
+// Draws `frame` `repeats` times with each method. The methods run alternately.
+std::vector<Measured> measured(const PreparedFrame& frame, const std::vector<std::string>& methods, int repeats = runs) {
+    const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
+    std::vector<Measured> all;
+    std::vector<std::unique_ptr<Renderer>> renderers;
+    for (const std::string& method : methods) {
+        const MethodUse use = parseMethodUse(method);
+        RendererOptions options;
+        options.settings = use.settings;
+        renderers.push_back(use.method->make(frame.world, options));
+        all.emplace_back().method = use.text();
+    }
+    std::vector<std::vector<double>> times(methods.size());
+    for (int i = 0; i < repeats; ++i)
+        for (std::size_t k = 0; k < renderers.size(); ++k) {
+            renderers[k]->start(plan);
+            while (renderers[k]->advance()) {
+            }
+            times[k].push_back(renderers[k]->stats().renderMilliseconds);
+        }
+    for (std::size_t k = 0; k < renderers.size(); ++k) {
+        all[k].image = renderers[k]->image();
+        all[k].milliseconds = spreadOf(times[k]).median;
+        all[k].megabytes = static_cast<double>(renderers[k]->stats().peakBytes) * 1e-6;
+    }
+    return all;
+}
+
+void printDifferences(const Image& reference, const std::vector<Measured>& all) {
+    for (const Measured& one : all) {
+        const Difference difference = compareImages(reference, one.image);
+        fmt::print("{:<132} {:>9.2f} {:>9.5f} {:>9.5f} {:>8.1f} {:>9.1f}\n", one.method, difference.psnr, difference.flip,
+                   difference.maxError, one.megabytes, one.milliseconds);
+    }
+}
+
+void printHead() {
+    fmt::print("{:<132} {:>9} {:>9} {:>9} {:>8} {:>9}\n", "method", "PSNR dB", "FLIP", "largest", "GPU MB", "frame ms");
+}
+
+PreparedFrame school(std::optional<double> fStop) {
     Request scene;
     scene.size.width = 512;
     scene.size.height = 384;
-    scene.lens.fStop = 0.95;
-    const PreparedFrame frame = prepareFrame(scene);
-    const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
-    fmt::print("Storage of the complex sums, school of fish at {} x {} px, f/{}, against 32-bit floats\n",
-               scene.size.width, scene.size.height, *scene.lens.fStop);
-    fmt::print("{:<66} {:>9} {:>9} {:>9} {:>11} {:>9}\n", "method", "PSNR dB", "FLIP", "largest", "GPU MB", "frame ms");
+    scene.lens.fStop = fStop;
+    return prepareFrame(scene);
+}
+
+// Prints the error of an image for each storage format, relative to 32-bit floats.
+void storages() {
+    const PreparedFrame frame = school(0.95);
+    fmt::print("Storage, school of fish at {} x {} px, f/{}, against 32-bit floats\n", frame.view.width,
+               frame.view.height, frame.view.lens.fStop);
+    printHead();
     for (const char* components : {"near-components=1,far-components=2", "near-components=5,far-components=5"}) {
-        Image exact;
-        for (const char* storage : {"float", "half", "r10g10b10a2"}) {
-            const MethodUse use = parseMethodUse(fmt::format("circular:{},storage={}", components, storage));
-            RendererOptions options;
-            options.settings = use.settings;
-            const auto renderer = use.method->make(frame.world, options);
-            std::vector<double> times;
-            for (int i = 0; i < runs; ++i) {
-                renderer->start(plan);
-                while (renderer->advance()) {
-                }
-                times.push_back(renderer->stats().renderMilliseconds);
-            }
-            const Image image = renderer->image();
-            if (exact.empty()) exact = image;
-            const Difference difference = compareImages(exact, image);
-            fmt::print("{:<66} {:>9.2f} {:>9.5f} {:>9.5f} {:>11.1f} {:>9.1f}\n", use.text(), difference.psnr,
-                       difference.flip, difference.maxError, static_cast<double>(renderer->stats().peakBytes) * 1e-6,
-                       spreadOf(times).median);
-        }
+        std::vector<std::string> methods;
+        for (const char* storage : {"float", "half", "r10g10b10a2"})
+            methods.push_back(fmt::format("circular:{},storage={}", components, storage));
+        const std::vector<Measured> all = measured(frame, methods);
+        printDifferences(all.front().image, all);
     }
+    fmt::print("\n");
+}
+
+// Repeats the comparison of the slide on performance: fields of half the width with one component, fields of a quarter
+// with two, and as the baseline a gather over the square at both sizes and at full size, where its blur has no limit.
+void slideOfPerformance() {
+    PreparedFrame frame = school({});
+    constexpr std::uint32_t samples = 1024;
+    fmt::print("As on the slide on performance, school of fish at {} x {} px, f/{}, against accumulation with {} samples\n",
+               frame.view.width, frame.view.height, frame.view.lens.fStop, samples);
+    printHead();
+    const std::string common =
+        "circular:near-components=1,far-components={},resolution={},kernel=published,max-coc=published,"
+        "transparency-buckets=0,pinholes=1,{}";
+    const std::string published = "kernel-taps=eight,storage=r10g10b10a2";
+    const std::vector<Measured> all =
+        measured(frame, {fmt::format(fmt::runtime(common), 1, "half", published),
+                         fmt::format(fmt::runtime(common), 2, "quarter", published),
+                         fmt::format(fmt::runtime(common), 1, "half", "convolution=direct"),
+                         fmt::format(fmt::runtime(common), 2, "quarter", "convolution=direct"),
+                         "circular:near-components=1,kernel=published,transparency-buckets=0,pinholes=1,convolution=direct"});
+    frame.settings.sampleCount = samples;
+    printDifferences(measured(frame, {"accumulation"}, 1).front().image, all);
 }
 
 int run() {
@@ -235,6 +297,7 @@ int run() {
     savedByOnePass();
     disks();
     storages();
+    slideOfPerformance();
     return 0;
 }
 

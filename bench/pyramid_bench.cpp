@@ -260,7 +260,7 @@ void distanceRow(const std::string& name, const Mesh& mesh, DistanceRatios& all)
 struct Stage {
     World world;
     View view;
-    double depth = 0;  // m, of the mesh's centre
+    double depth = 0;  // m, depth of the mesh's centre
 };
 
 void furnish(Stage& stage, const Scene& source, const Mesh& mesh) {

@@ -22,9 +22,11 @@ from figures.files import write_file
 sys.path.insert(0, str(ROOT / "meshes"))
 import hairball  # noqa: E402
 import make_meshes  # noqa: E402
+import radial_blur  # noqa: E402
 
 FOLDER = ROOT / "bench" / "results" / "lens"
-MADE = {"meshes/hairball.py": hairball.hairball, "on a finer board": lambda: make_meshes.chess(200)}  # large scenes
+MADE = {"meshes/hairball.py": hairball.hairball, "meshes/radial_blur.py": radial_blur.radial_blur,
+        "on lamps without `_COC_SCALE`": lambda: radial_blur.radial_blur(scaled=False), "on a finer board": lambda: make_meshes.chess(200)}  # scenes that are not in the repository
 
 
 def commands_of(page):

@@ -27,10 +27,10 @@ class Scene(NamedTuple):
     name: str
     subject: tuple  # options of the scene, and its path
     size: str
-    focus: str  # m, of the lens images
+    focus: str  # m, focus of the lens images
     near: str  # m, focus range
     far: str
-    distances: tuple  # m, of the pictures
+    distances: tuple  # m, focus of the pictures
 
     def words(self):
         return [*self.subject, "--size", self.size, "--lod", "off"]

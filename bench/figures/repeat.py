@@ -11,6 +11,7 @@ import re
 import shlex
 import subprocess
 import sys
+import tempfile
 
 from figures.command import ROOT, add_program, parser_of, path, run
 from figures.files import write_file
@@ -26,7 +27,10 @@ def output_of(program, command):
     words = shlex.split(command)
     folder = program.parent if words[0] == "defocus" else program.parent / "bench"
     name = program.name if words[0] == "defocus" else words[0]
-    done = subprocess.run([folder / name, *words[1:]], stdout=subprocess.PIPE, text=True, cwd=ROOT)
+    with tempfile.TemporaryDirectory() as scratch:
+        # bench convergence resumes what its folder holds, so each command has a folder of its own
+        output = ["--output", scratch] if words[1:3] == ["bench", "convergence"] else []
+        done = subprocess.run([folder / name, *words[1:], *output], stdout=subprocess.PIPE, text=True, cwd=ROOT)
     if done.returncode != 0:
         sys.exit(f"{command}: exit code {done.returncode}")
     return done.stdout.strip()

@@ -117,6 +117,9 @@ def munkberg():
         ["C is given at both ends of the shutter time, and linear between them: C(t) = (1 − t)·c₀ + t·c₁",
          "glTF attributes `_COC`, `_COC_OFFSET`, `_COC_0` and `_COC_1`, `_COC_SCALE`, `--node-blur` ([lens](lens.md#controls-of-the-blur))",
          "`VertexBlurs.*`, `CocControls.scaleOfAnObjectIsItsOwn`", "pictures", "pictures"],
+        ["Example of a radial blur: C = (a + b·w)·(1 + x² + y²) in clip space", "`_COC_SCALE` as printed; `--radial-blur-gain` is our form, "
+         "which depends on the position in the image only", "`VertexBlurs.drawTheRadialExampleAsPrinted`", "–",
+         "[pictures](../bench/results/lens/README.md#the-radial-example-of-the-text)"],
         ["A limited foreground saves work (Figures 4 and 7)", "`defocus_foreground_bench --stochastic`",
          "[the run](../bench/results/lens/figure-7.md)", "4 to 9 times; 3 times with motion",
          f"thicket: {thicket[2]} times as fast, {thicket[3]} times fewer tests; chess board with motion: {chess[2]} times as fast, {chess[3]} "
@@ -172,11 +175,13 @@ def scheuermann():
          f"the diameter of a point's disk differs from the lens equation by up to {worst:.0f} px; within half a pixel in {right} of {cases} cases"],
         ["A small pre-blurred copy hides the gaps between the taps",
          "[preblur.frag](../shaders/scheuermann/preblur.frag). The printed code reads the tap of the copy from the full-size image, which we "
-         "take for a slip", "`PostProcesses.aPointOfLightBecomesADiskOfTheCircleOfConfusion` (with `coc=thin-lens`: widening by the copy, in closed form)",
-         "a quarter of the width and height", "the same"],
+         "take for a slip", "`ScheuermannImage.asPublishedReadsTheSmallImageAtItsOwnRadius` (in closed form)",
+         "a quarter of the width and height; radius 0.4 of the sharp image's", "the same"],
         ["Sharp foreground doesn't leak into the blurred background", "[gather.frag](../shaders/scheuermann/gather.frag)", LEAK, "–", "–"],
         ["Blended surfaces write their depth in a second pass", "[pinhole_pass.h](../src/render/post_process/pinhole_pass.h)",
          "`PostProcesses.whatLiesBehindABlendedSurfaceIsBlurredAsThatSurface`", "–", "–"],
+        ["A multisampled back buffer smooths edges", "`multisampling=4`: colour and blurriness are the means of four samples; the number is ours",
+         "`ScheuermannImage.multisamplingSmoothsEdgesBeforeTheBlur`", "–", "–"],
         ["Bytes hold colour and blurriness", "`bits=8`", "`ScheuermannImage.inBytesRoundsEncodedColours`", "8 bits",
          "8 bits as published, half floats by default"],
     ]
@@ -188,19 +193,26 @@ def scheuermann():
 def kernel_errors():
     """Returns (error, lowest value) of the kernels with one and two components: ours, and Niemitalo's."""
     rows = {}
+    wanted = False
     for line in lines_of("llvmpipe-post-process"):
-        if re.match(r" \d  1\.000", line):
+        if re.match(r"[A-Z]", line):
+            wanted = line.startswith(("With the corners' guard", "Published, rescaled"))
+        if wanted and re.match(r" \d  1\.000", line):
             values = numbers(line)
             rows.setdefault(int(values[0]), []).append((values[2], values[8]))
     return rows
 
 
 def garcia():
-    times = {int(values[0]): values[1:] for values in map(numbers, lines_of("llvmpipe-post-process")[4:9])}
+    lines = lines_of("llvmpipe-post-process")
+    head = lines.index(" radius px    separable       direct")
+    times = {int(values[0]): values[1:] for values in map(numbers, lines[head + 1:head + 6])}
     separable, direct = numbers_after(lines_of("llvmpipe-post-process"), "  exponent")
     kernels = kernel_errors()
     (ours1, theirs1), (ours2, theirs2) = kernels[1], kernels[2]
     ten_bits = lines_with("llvmpipe-post-process", "circular:near-components=1,storage=r10g10b10a2")[0][0]
+    full_gather = lines_with("llvmpipe-post-process", "circular:near-components=1,kernel=published,convolution=direct")[0][-1]
+    slide = [numbers(line)[-1] for line in lines_of("llvmpipe-post-process") if "max-coc=published" in line]
     one_pass = {(size, radius): share for size, _, radius, _, _, share in
                 (numbers(line) for line in lines_of("llvmpipe-post-process") if line.endswith(" %"))}
     fish, chess = (flips(scene, "circular (published)", "circular, standard", "circular (best)") for scene in ("fish school", "chess.glb"))
@@ -224,10 +236,15 @@ def garcia():
         ["Time grows with the radius, not with its square", "[complex_blur.h](../src/render/circular/complex_blur.h)",
          "`defocus_post_process_bench`", "–",
          f"exponent {separable:.2f}, and {direct:.2f} for the gather over the square; {times[64][1] / times[64][0]:.0f} times as fast at 64 px"],
+        ["Performance: half size with one component, quarter size with two, and a brute-force baseline",
+         "the two forms, and a gather over the square at the same sizes and at full size",
+         "`defocus_post_process_bench` ([the run](../bench/results/llvmpipe-post-process.txt))", "times of game consoles",
+         f"half {slide[0]:.0f} ms, quarter {slide[1]:.0f} ms; gathers {slide[2]:.0f} and {slide[3]:.0f} ms, at full size {full_gather:.0f} ms"],
         ["Sums of weights G are stored as (G − O) / S, with S = Σ(G − O), which lie in [0, 1]", "`bracketOf` in [complex_blur.h](../src/render/circular/complex_blur.h)",
          "`Brackets.ofEightTapsAreGarcias`, `Brackets.ofEightTapsStoreAWhiteFieldAsOne`, `ComplexBlurs.publishedBracketsLoseLessThanRanges`",
          "offset −0.0387, scale 0.943 (real part, first of two components)",
-         f"−0.0387 and 0.943; with ten bits, a picture is {ten_bits:.1f} dB from one with 32-bit floats"],
+         f"−0.0387 and 0.943; with ten bits from the sharp image to the result (`PostProcessesAlone.tenBitsHoldTheWholeImage`), a "
+         f"picture is {ten_bits:.1f} dB from one with 32-bit floats"],
         ["Eight taps on each side, quarter size, one near and two far components", "preset", "`bench convergence`", "–",
          f"FLIP {fish[0]} as published, {fish[1]} by default, {fish[2]} at its best ([fish](../bench/results/llvmpipe-circular.txt)); "
          f"{chess[0]}, {chess[1]}, {chess[2]} (chess)"],
@@ -254,13 +271,13 @@ def buckets():
     """Returns the table of FLIP by number of transparency buckets."""
     names = {"artefact-panes.gltf": "panes", "AlphaBlendModeTest.glb": "test of alpha modes", "FlightHelmet.gltf": "helmet with goggles",
              "GlassVaseFlowers.glb": "flowers in a vase"}
-    counts = ["circular, transparency-buckets=0", "circular, transparency-buckets=1", "circular, transparency-buckets=2", "circular, standard"]
+    counts = ["circular, transparency-buckets=0", "circular, standard", "circular, transparency-buckets=2"]
     rows = []
     for scene, name in names.items():
         found = {method: values for (method, _), values in method_rows("llvmpipe-circular")[scene].items()}
         first = found[counts[0]]
-        rows.append([name] + [f"{found[count][2]:.4f} ({found[count][0] / first[0]:.1f})" for count in counts if count in found])
-    return table(["scene: FLIP (time relative to no buckets)", "without buckets", "one (default)", "two", "four"], rows)
+        rows.append([name] + [f"{found[count][2]:.4f} ({found[count][0] / first[0]:.1f})" for count in counts])
+    return table(["scene: FLIP (time relative to no buckets)", "without buckets", "one (default)", "two"], rows)
 
 
 # ---- Tzeng and others -----------------------------------------------------------------------------------------------

@@ -21,7 +21,7 @@ constexpr std::uint32_t edgeSamples = 4096;
 // A half plane whose edge crosses the image, in front of a wall. Both have a uniform colour.
 struct Edge {
     View view;
-    double depth = 3;   // m, of the half plane
+    double depth = 3;   // m, depth of the half plane
     double wall = 1e7;  // m, depth of the wall
 };
 

@@ -12,7 +12,7 @@
 namespace defocus::engine {
 
 // A method follows the lens equation if the blur disk of a point of light has at most these errors.
-inline constexpr double honestDiameter = 0.5;  // of the diameter, px
+inline constexpr double honestDiameter = 0.5;  // max error of the diameter, px
 // Error of the energy, relative to the energy of the light without blur. Noise alone gives 0.02 for methods with 256
 // independent samples per pixel.
 inline constexpr double honestEnergy = 0.05;

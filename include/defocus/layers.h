@@ -1,6 +1,6 @@
 #pragma once
-// Layers of a picture beside its colours, drawn through the lens: each is the mean over the picture's lens samples,
-// with the same filter, premultiplied by the coverage of the surfaces.
+// Layers: data images beside the colours of a picture. Each layer is the mean over the picture's lens samples, with the
+// same pixel filter, premultiplied by the coverage of the surfaces.
 
 #include <cstdint>
 #include <string>

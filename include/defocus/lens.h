@@ -26,9 +26,9 @@ struct LensSettings {
     std::optional<double> anamorphicRatio;           // aperture height / width; > 1: tall ovals
     std::optional<double> obstruction;               // mirror lens: inner / outer diameter, [0, 1)
     std::optional<double> sphericalAberration;       // [−1, 1]; > 0: bokeh has a brighter rim; < 0: brighter centre
-    std::optional<double> catEye;                    // [0, 1]; part of the aperture's radius hidden in image corners
+    std::optional<double> catEye;                    // [0, 1]; fraction of the aperture radius hidden in the corners
     std::optional<double> axialChromaticAberration;  // dioptres; > 0: red focuses farther away than blue
-    std::optional<double> astigmatism;               // mm on the sensor; length of a focused point at the side edges
+    std::optional<double> astigmatism;               // mm on the sensor; a focused point's image length at the edges
     std::optional<double> coma;                      // mm on the sensor; comet tail at the side edges; > 0: outwards
     std::filesystem::path apertureImage;             // replaces blades, obstruction, spherical aberration; empty: none
 

@@ -25,11 +25,11 @@
 
 namespace defocus {
 
-// Choices after rendering. refocusSettings() lists the values that may be set; others throw UsageError.
+// Settings that can be chosen after rendering. refocusSettings() lists them; any other setting throws UsageError.
 struct RefocusSettings {
     Focus focus = {};        // FocusDistance or FocusPixel; CameraFocus: as rendered
     LensSettings lens = {};  // f-number and shape of the aperture; values without a setting: as rendered
-    bool fillGaps = true;    // fill the gaps between the lens images: blur each by its part of the lens
+    bool fillGaps = true;    // true: fills gaps between the lens images by blurring each over its part of the lens
 };
 
 // Description of the lens images of a file.
@@ -37,7 +37,7 @@ struct LightFieldInfo {
     int width = 0;                  // px
     int height = 0;                 // px
     double focusDistance = 1;       // m, of the rendered images
-    double fStop = 1;               // of the rendered aperture; the widest one that can be chosen
+    double fStop = 1;               // f-number of the rendered aperture; the widest one that can be chosen
     double focalLength = 0;         // mm; 0: unknown
     double horizontalAperture = 0;  // mm, sensor width; 0: unknown
     FocusRange focusRange;          // focus distances that can be chosen
@@ -56,13 +56,13 @@ struct FocalStack {
 
 class DEFOCUS_API LightField {
 public:
-    // Opens a file of lens images. Throws Error if the file cannot be read, is no such file, or lacks an image.
+    // Opens a file of lens images. Throws Error if the file cannot be read, contains no lens images, or lacks an image.
     explicit LightField(const std::filesystem::path& path);
     // Render the lens images of a request to a file with the extension .exr, and open it. `range`: focus distances to
     // choose from later, in addition to the request's own; none: from the nearest to the farthest visible surface.
-    // Throw UsageError if the request's method, samples or target error don't suit lens images, and Error if a change
-    // of focus would do more to an image of this lens than move it, and under the conditions of SceneRenderer. A
-    // failure leaves no file.
+    // Throw UsageError if the request's method, samples or target error don't suit lens images. Throw Error if
+    // refocusing would not just shift the images of this lens, and under the conditions of SceneRenderer. A failure
+    // leaves no file.
     static LightField render(const Request& request, const std::filesystem::path& path,
                              std::optional<FocusRange> range = {}, const Progress& progress = {});
     static LightField render(const Scene& scene, const Request& request, const std::filesystem::path& path,

@@ -108,8 +108,7 @@ struct Request {
     std::map<std::string, std::string> methodSettings;  // name → value; missing: default
     LayerFormat layerFormat = LayerFormat::automatic;
 
-    // Layers in EXR files beside the picture. They need a method that sums lens samples; method "auto" then
-    // accumulates.
+    // Data layers to add to EXR files. They need a method that sums lens samples; method "auto" then accumulates.
     std::vector<Layer> layers;
     ExrNames exrNames = ExrNames::nuke;
 

@@ -115,8 +115,8 @@ class LightFieldInfo(NamedTuple):
 
     width: int  # px
     height: int  # px
-    focus_distance: float  # m, of the rendered images
-    f_stop: float  # of the rendered aperture; the widest one that can be chosen
+    focus_distance: float  # m, focus of the rendered images
+    f_stop: float  # f-number of the rendered aperture; the widest one that can be chosen
     focal_length: float  # mm
     horizontal_aperture: float  # mm, sensor width
     focus_range: Tuple[float, float]  # m; focus distances that can be chosen

@@ -46,6 +46,19 @@ class Keywords(TypedDict, total=False):
     camera_target: Optional[Union[Point, str]]  # m
     camera_up: Optional[Union[Point, str]]
     size: Optional[Union[Tuple[int, int], str]]  # px
+    preset: Optional[Literal["jeong2011", "tzeng2012", "scheuermann2004", "garcia2018", "lee2010", "munkberg2012"]]
+    samples: Optional[Union[int, Literal["auto"]]]
+    quality: Optional[Literal["draft", "good", "fine"]]
+    target_error: Optional[float]
+    time_limit: Optional[Union[float, str]]  # s
+    sequence: Optional[Literal["sobol", "halton", "scrambled-halton", "r2"]]
+    seed: Optional[int]
+    lod: Optional[Literal["fractional", "continuous", "nearest", "off"]]
+    blur_threshold: Optional[float]
+    size_threshold: Optional[float]  # px
+    light_threshold: Optional[float]  # px
+    cache_folder: Optional[Path]
+    no_cache: Optional[bool]
     focal_length: Optional[float]  # mm
     f_stop: Optional[float]
     focus_distance: Optional[float]  # m
@@ -80,19 +93,6 @@ class Keywords(TypedDict, total=False):
     radial_blur_gain: Optional[float]
     aperture_image: Optional[Path]
     node_blur: Optional[Union[Mapping[str, float], str]]
-    preset: Optional[Literal["jeong2011", "tzeng2012", "scheuermann2004", "garcia2018", "lee2010", "munkberg2012"]]
-    samples: Optional[Union[int, Literal["auto"]]]
-    quality: Optional[Literal["draft", "good", "fine"]]
-    target_error: Optional[float]
-    time_limit: Optional[Union[float, str]]  # s
-    sequence: Optional[Literal["sobol", "halton", "scrambled-halton", "r2"]]
-    seed: Optional[int]
-    lod: Optional[Literal["fractional", "continuous", "nearest", "off"]]
-    blur_threshold: Optional[float]
-    size_threshold: Optional[float]  # px
-    light_threshold: Optional[float]  # px
-    cache_folder: Optional[Path]
-    no_cache: Optional[bool]
     method: Optional[str]
     layer_format: Optional[Literal["automatic", "rgba16f", "rgba32f"]]
     exr_layers: Optional[str]
@@ -110,6 +110,7 @@ class Keywords(TypedDict, total=False):
     taps: Optional[int]
     max_coc: Optional[Literal["published", "unlimited"]]
     bits: Optional[Literal["16", "8"]]
+    multisampling: Optional[Literal["1", "4"]]
     near_blur_depth: Optional[float]
     focal_plane_depth: Optional[float]
     far_blur_depth: Optional[float]

@@ -19,7 +19,8 @@ layout(location = 2) uniform ivec2 firstPixel;
 
 #ifdef WEIGHS_SAMPLES
 layout(std140, binding = 4) uniform SampleBlock {
-    // rgb: weights of the sample's wavelength; a: what the wavelength adds to b in the circle of confusion a + b·depth.
+    // rgb: weights of the sample's wavelength; a: change of b by the wavelength, in the circle of confusion a +
+    // b·depth.
     vec4 sampleBands[blockSamples];
     // xy: lens point (u, v), relative to the lens radius.
     vec4 sampleLenses[blockSamples];

@@ -1,6 +1,6 @@
-// Shades a surface for one lens sample, and writes it with its data to the sample's layer and the layers beside it.
-// …_SLOT is the number of the colour attachment of a layer; an undefined layer is not drawn. Data are premultiplied by
-// the surface's alpha, like its light, so that blending treats all layers alike.
+// Shades a surface for one lens sample. Writes its light to the sample's layer, and its data (depth, normal, …) to the
+// data layers. …_SLOT is the number of a data layer's colour attachment; a layer without it is not drawn. Data are
+// premultiplied by the surface's alpha, like its light, so that blending treats all layers alike.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -36,7 +36,7 @@ vec4 covering(vec3 data, float alpha) {
 }
 
 #ifdef DEPTH_SLOT
-// Returns the signed CoC in px of the surface at its place in the pinhole's image.
+// Returns the signed CoC in px of the surface at its position in the pinhole image.
 float pinholeCoc() {
     vec3 place = transpose(mat3(frame.worldFromView)) * surface.position;
     return circleOfConfusion(gl_FragCoord.z, place.xy * frame.projection.xy / -place.z, surface.ownBlur);
@@ -51,8 +51,8 @@ vec2 movement() {
 #endif
 
 #ifdef NUMBER_SLOT
-// Returns 1 in the lens samples that count the surface, and 0 in the others. The share of samples is alpha. Thresholds
-// are the van der Corput sequence, shifted for each object and pixel.
+// Returns 1 in the lens samples that count the surface, and 0 in the others. The fraction of counting samples is alpha.
+// Thresholds are the van der Corput sequence, shifted for each object and pixel.
 float counted(float alpha) {
     uint offset = pixelPattern(pixelOfImage(), uint(object.values.z) + 1u);
     return alpha > fractionOf(bitfieldReverse(uint(surface.sampleNumber)) + offset) ? 1.0 : 0.0;
@@ -63,7 +63,7 @@ void main() {
     readSurface();
     layerOut = surfaceLight();
 #ifdef TRANSMISSIVE
-    float alpha = 1.0;   // replaces what is behind, like its light
+    float alpha = 1.0;   // opaque: its data replace the data behind, as its light does
 #else
     float alpha = alphaBlended ? surfaceBase.a : 1.0;
 #endif

@@ -1,5 +1,5 @@
-// Adds a layer beside the picture, for the samples of a wave, to its compensated sum. Weighs the samples as the picture
-// does, except by colour.
+// Adds a data layer (depth, normal, …) of a wave's samples to the layer's compensated sum. The samples have the same
+// weights as in the picture, but without the colours of their wavelengths.
 #include "accumulation/layer_light.glsl"
 
 layout(rgba32f, binding = 0) uniform restrict image2D sumImage;

@@ -3,8 +3,8 @@
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"
+#include "circular/clear_image.glsl"
 
-layout(binding = 0) uniform sampler2D pinholeColor;
 layout(binding = 2) uniform sampler2D farBlurred;    // with combinedFields, both fields in one image
 layout(binding = 3) uniform sampler2D nearBlurred;
 layout(binding = 4) uniform sampler2D nearRadii;     // radii at which the near field was gathered, in field px
@@ -46,8 +46,8 @@ float biasOf(float coverage, vec3 before, vec3 behind) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float diameter = pinholeCircleOfConfusion(pixel);
-    vec3 sharp = texelFetch(pinholeColor, pixel, 0).rgb;
+    float diameter = pinholeCircleOfConfusion(pixel, 0);
+    vec3 sharp = clearColor(pixel);
     vec2 place = gl_FragCoord.xy / (float(reduction) * vec2(textureSize(farBlurred, 0)));
     vec4 behind = textureLod(farBlurred, place, 0.0);
     float own = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
@@ -67,4 +67,5 @@ void main() {
         }
     }
     image = vec4(color, 1.0);
+    if (bracketed) image = inTenBits(image);
 }

@@ -4,8 +4,8 @@
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"
+#include "circular/clear_image.glsl"
 
-layout(binding = 0) uniform sampler2D pinholeColor;
 layout(location = 0) uniform float largestRadius;   // image px
 layout(location = 1) uniform float perFarDiameter;  // 1 / max diameter behind the focus plane (px)
 layout(location = 2) uniform float perNearDiameter; // 1 / max diameter in front of the focus plane (px)
@@ -24,8 +24,8 @@ void main() {
     nearRadius = 0.0;
     for (int y = first.y; y <= last.y; ++y)
         for (int x = first.x; x <= last.x; ++x) {
-            float diameter = pinholeCircleOfConfusion(ivec2(x, y));
-            vec4 color = vec4(texelFetch(pinholeColor, ivec2(x, y), 0).rgb, 1.0);
+            float diameter = pinholeCircleOfConfusion(ivec2(x, y), 0);
+            vec4 color = vec4(clearColor(ivec2(x, y)), 1.0);
             // Pixels with a diameter below one pixel belong partly to the sharp image. Behind the focus plane, the
             // weight is proportional to the diameter (Garcia's premultiplied far field). Nearly sharp surfaces
             // therefore leak little into the wide disks behind them.
@@ -43,4 +43,8 @@ void main() {
     nearRadius /= float(reduction);
     farField = (combinedFields ? farSum + nearSum : farSum) * perPixel;
     if (!combinedFields) nearField = nearSum * perPixel;
+    if (bracketed) {
+        farField = inTenBits(farField);
+        if (!combinedFields) nearField = inTenBits(nearField);
+    }
 }

@@ -6,7 +6,7 @@
 #include "include/alpha_choice.glsl"
 
 #ifdef CHOOSES_BY_ALPHA
-// Returns 0 if a texture lookup reads only mip level 0, 1 if it reads none of level 0, and between the weight of level 1.
+// Returns the weight of mip levels ≥ 1 in a texture lookup: 0 if it reads only level 0, 1 if it does not read level 0.
 float minification(int unit, int slot, float mipBias) {
     // x: mip level that is read without the bias
     vec2 levels = textureQueryLod(materialTextures[unit], uvOf(slot, surface.uv));

@@ -7,7 +7,7 @@
 // the difference of two adjacent layers. RGB is radiance, and alpha counts samples.
 
 const int cellClasses = cellsInFront + cellsBehind;
-// Number of the blur classes whose sums fit into a render target beside the sum of all samples.
+// Number of the blur classes whose sums fit into a render target together with the sum of all samples.
 const int drawnClasses = min(cellClasses, 7);
 
 // Side in px of the tiles for which a bit mask of the contained classes is recorded. Most tiles contain few classes.

@@ -1,12 +1,27 @@
 // Blur of a pixel in the pinhole image, computed from its depth and its surface's blur modifiers.
 
-layout(binding = 1) uniform sampler2D pinholeDepth;
-layout(binding = 6) uniform sampler2D pinholeOwnBlur;   // only with usesOwnBlur
+#ifdef MULTISAMPLED
+#define PinholeTexture sampler2DMS
+#else
+#define PinholeTexture sampler2D
+#endif
 
-// Returns the signed diameter of the circle of confusion in px.
-float pinholeCircleOfConfusion(ivec2 pixel) {
+layout(binding = 1) uniform PinholeTexture pinholeDepth;
+layout(binding = 6) uniform PinholeTexture pinholeOwnBlur;   // only with usesOwnBlur
+
+// Returns the size of the pinhole image in px.
+ivec2 pinholeSize() {
+#ifdef MULTISAMPLED
+    return textureSize(pinholeDepth);
+#else
+    return textureSize(pinholeDepth, 0);
+#endif
+}
+
+// Returns the signed diameter of the circle of confusion in px, for sample `index` of the pixel.
+float pinholeCircleOfConfusion(ivec2 pixel, int index) {
     vec2 own = vec2(1.0, 0.0);
-    if (usesOwnBlur) own = texelFetch(pinholeOwnBlur, pixel, 0).rg;
-    vec2 ndc = ndcOfPixel(vec2(pixel) + 0.5, textureSize(pinholeDepth, 0));
-    return circleOfConfusion(texelFetch(pinholeDepth, pixel, 0).r, ndc, own);
+    if (usesOwnBlur) own = texelFetch(pinholeOwnBlur, pixel, index).rg;
+    vec2 ndc = ndcOfPixel(vec2(pixel) + 0.5, pinholeSize());
+    return circleOfConfusion(texelFetch(pinholeDepth, pixel, index).r, ndc, own);
 }

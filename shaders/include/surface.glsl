@@ -18,5 +18,5 @@ struct Surface {
     float sampleNumber;   // number in the frame of the lens sample
     float layer;
     vec3 opening;         // clip-space (x, y, w) through a pinhole when the shutter opens; only with MOTION_SLOT
-    vec3 closing;         // the same when it closes
+    vec3 closing;         // clip-space (x, y, w) through a pinhole when the shutter closes
 };

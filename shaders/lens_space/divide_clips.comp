@@ -15,7 +15,7 @@ layout(std430, binding = 2) readonly buffer OwnBlock { vec2 ownBlurs[]; };   // 
 layout(location = 0) uniform uint firstBase;     // undivided triangles [firstBase, firstBase + baseCount)
 layout(location = 1) uniform uint baseCount;
 layout(location = 2) uniform uint parts;
-layout(location = 3) uniform uint firstVertex;   // of the division, in the frame
+layout(location = 3) uniform uint firstVertex;   // index in the frame of the division's first vertex
 
 void main() {
     uint i = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;

@@ -1,8 +1,8 @@
 // Decides for the records (ray hits) of one cut-out or blended material whether the ray stops at the surface. A ray that
 // goes on gets a negative weight, and behind.comp finds its next hit.
 //
-// A cut-out stops a ray where alpha reaches the cutoff; see alpha_mask.glsl for small images of it. A blended surface
-// of opacity α stops the fraction α of all rays, so that the mean over the rays is the blended colour (Enderton, Sintorn,
+// A cut-out stops a ray where alpha reaches the cutoff; see alpha_mask.glsl for minified cut-outs. A blended surface of
+// opacity α stops the fraction α of all rays, so that the mean over the rays is the blended colour (Enderton, Sintorn,
 // Shirley and Luebke 2010, Stochastic Transparency).
 
 #include "include/frame.glsl"

@@ -27,7 +27,7 @@ struct Segment {
     vec3 color;       // light in the middle of the segment, each in [0, 1]; only with light of vertices
 };
 
-const float minLength = 1.0 / 512.0;         // of the line's length
+const float minLength = 1.0 / 512.0;         // fraction of the line's length
 const float sameColor = 1.0 / 16.0;          // max difference of a colour channel
 const float sameDepth = 0.02;                // max relative difference of 1/w where two segments join
 const float sameSlope = 0.02;                // max relative difference of 1/w by the slopes, over the joined segment

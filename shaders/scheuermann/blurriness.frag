@@ -1,20 +1,21 @@
 // Stores the signed blurriness of the pinhole image, which also orders surfaces by depth, in alpha. Blurriness is −1 at
 // max blur in front of the focus plane, 0 in focus and 1 at max blur behind the focus plane; [−1, 1] is stored as [0,
-// 1].
+// 1]. With several samples per pixel, writes their mean, as a multisampled back buffer with blurriness in its alpha is
+// resolved.
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"
 #include "include/tone_map.glsl"
 
-layout(binding = 0) uniform sampler2D pinholeColor;
+layout(binding = 0) uniform PinholeTexture pinholeColor;
 layout(location = 0) uniform float perLargest;   // 1 / max CoC diameter (px)
 layout(location = 1) uniform vec4 planes;        // focus (m); 1/(focus − near); 1/(far − focus); max blurriness behind
 
 layout(location = 0) out vec4 colorAndBlurriness;
 
 // Returns the blurriness as published: linear in depth, −1 at the near plane, 0 at the focus plane, 1 at the far plane.
-float blurrinessByPlanes(ivec2 pixel) {
-    float depth = texelFetch(pinholeDepth, pixel, 0).r;
+float blurrinessByPlanes(ivec2 pixel, int index) {
+    float depth = texelFetch(pinholeDepth, pixel, index).r;
     // Infinite depth counts as 3e38 m behind the focus plane.
     float beyondFocus = depth > 0.0 ? frame.projection.z / depth - planes.x : 3.0e38;
     float blurriness = beyondFocus < 0.0 ? beyondFocus * planes.y : min(beyondFocus * planes.z, planes.w);
@@ -23,8 +24,11 @@ float blurrinessByPlanes(ivec2 pixel) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float blurriness = thinLens ? pinholeCircleOfConfusion(pixel) * perLargest : blurrinessByPlanes(pixel);
-    vec3 color = texelFetch(pinholeColor, pixel, 0).rgb;
-    if (encodedColor) color = srgbEncoded(color);
-    colorAndBlurriness = vec4(color, clamp(blurriness, -1.0, 1.0) * 0.5 + 0.5);
+    colorAndBlurriness = vec4(0.0);
+    for (int i = 0; i < pinholeSamples; ++i) {
+        float blurriness = thinLens ? pinholeCircleOfConfusion(pixel, i) * perLargest : blurrinessByPlanes(pixel, i);
+        vec3 color = texelFetch(pinholeColor, pixel, i).rgb;
+        if (encodedColor) color = srgbEncoded(color);
+        colorAndBlurriness += vec4(color, clamp(blurriness, -1.0, 1.0) * 0.5 + 0.5) / float(pinholeSamples);
+    }
 }

@@ -56,7 +56,7 @@ struct FilmFigures {
     int tiles = 1;  // number of tiles of the latest frame
     int finishedBefore = 0;
     int refocused = 0;              // frames computed from lens images; they count as rendered, too
-    std::uint64_t lensImages = 0;   // rendered for them
+    std::uint64_t lensImages = 0;   // lens images that were rendered for these frames
     double renderMilliseconds = 0;  // sum over all frames: time from the plan to the image
     double totalMilliseconds = 0;   // wall-clock time until the last file is written
     std::uint64_t triangles = 0;

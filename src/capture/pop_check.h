@@ -25,8 +25,8 @@ public:
     PopCheck(const World& world, const MethodUse& method, RendererOptions options);
 
     // Compares the plan with that of the preceding frame, and draws the frame with its own and with the preceding
-    // levels if they differ. `world` has the pose of the frame. A frame whose predecessor was not noted is only kept
-    // for the next one. Needs a current GL context.
+    // levels if they differ. `world` has the pose of the frame. If the preceding frame was not noted, only keeps the
+    // plan for the next call. Needs a current GL context.
     void note(int frame, const FramePlan& plan);
 
     [[nodiscard]] const std::optional<FramePop>& largest() const { return largest_; }

@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double tolerance = 1e-9;  // relative, of f-numbers and focus distances
+constexpr double tolerance = 1e-9;  // relative tolerance of f-numbers and focus distances
 
 bool isShapeField(const LensField& field) {
     return field.feature == LensFeature::shape || field.name == std::string_view("anamorphicRatio");
@@ -80,7 +80,7 @@ std::optional<RefocusRun> runOver(const std::vector<StillFrame>& stills, std::si
     return run;
 }
 
-// Returns the run from frame `first` on that saves most lens samples; none if none saves any.
+// Returns the run beginning with frame `first` that saves the most lens samples; none if no run saves any.
 std::optional<RefocusRun> bestRun(const std::vector<StillFrame>& stills, std::size_t first, int number,
                                   std::uint32_t samples) {
     std::optional<RefocusRun> best;

@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 struct RefocusRun {
     FrameRange frames;
-    Lens lens;                  // of the lens images: the run's widest aperture, and the middle of its focus range
+    Lens lens;                  // lens of the lens images: the run's widest aperture, and the middle of its focus range
     FocusRange range;           // focus distances of the frames, m
     std::uint32_t samples = 0;  // number of lens images; each frame uses at least the samples of a rendered frame
 
@@ -25,18 +25,19 @@ struct RefocusRun {
 };
 
 struct RefocusRuns {
-    std::vector<RefocusRun> runs;       // in the order of their frames
+    std::vector<RefocusRun> runs;       // in frame order
     std::vector<std::string> rendered;  // why frames are rendered one by one although they could form a run
 };
 
-// Returns the runs within `frames`, each as long as it saves most lens samples. `samples`: lens samples of each frame.
+// Returns the runs within `frames`, each with the length that saves the most lens samples. `samples`: lens samples of
+// each frame.
 RefocusRuns refocusRuns(const Shot& shot, const SequenceBase& base, const FilmSettings& settings,
                         const FrameRange& frames, std::uint32_t samples);
 
 // Returns the run that contains a frame; null if there is none.
 const RefocusRun* runOf(const std::vector<RefocusRun>& runs, int frame);
 
-// Returns the memory in bytes of a run's lens images. `view`: of one of its frames.
+// Returns the memory in bytes of a run's lens images. `view`: the view of one of its frames.
 std::uint64_t memoryOf(const RefocusRun& run, const View& view);
 
 // Computes the pictures of runs. Keeps the lens images of one run.
@@ -45,7 +46,7 @@ public:
     struct Picture {
         Image image;
         std::uint32_t samples = 0;  // lens images that the picture combines
-        FramePlan plan;             // of the lens images, with the picture's view
+        FramePlan plan;             // plan of the lens images, with the picture's view
         bool rendered = false;      // whether the lens images were rendered for this picture
     };
     // Returns the picture of a frame of `run`. Renders the run's lens images if the previous picture was of another
@@ -54,7 +55,7 @@ public:
                     const std::function<void(double)>& step);
 
 private:
-    const RefocusRun* run_ = nullptr;  // run of images_
+    const RefocusRun* run_ = nullptr;  // run that images_ belongs to
     std::optional<KeptLensImages> images_;
     FramePlan plan_;
 };

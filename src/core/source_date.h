@@ -12,7 +12,7 @@ namespace defocus::engine {
 // number from 0 to 253402300799 (the year 9999).
 std::optional<std::time_t> sourceDate();
 
-// Throws Error if SOURCE_DATE_EPOCH is set to another text than such a number.
+// Throws Error if SOURCE_DATE_EPOCH is set but is not such a number.
 void checkSourceDate();
 
 // Formats a time in UTC; `format` is a format string of strftime.

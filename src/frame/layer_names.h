@@ -1,5 +1,5 @@
 #pragma once
-// Names of the layers beside a picture (defocus/layers.h): in --exr-layers, and in EXR files.
+// Names of data layers (defocus/layers.h): in --exr-layers, and in EXR files.
 
 #include <array>
 #include <span>

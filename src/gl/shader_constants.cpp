@@ -36,8 +36,8 @@ constexpr ShaderConstant constants[] = {
     {"float", "catEye", "0.0"},
     {"float", "layerLargest", "0.0"},  // colours in a layer are clamped to this value; 0: no clamping
     {"bool", "startsBlock", "false"},
-    {"bool", "keepsNearest", "false"},  // the layer beside the picture is the depth
-    {"int", "tableEntries", "1"},       // max numbers that a pixel counts
+    {"bool", "keepsNearest", "false"},  // the data layer is the depth
+    {"int", "tableEntries", "1"},       // max different numbers that a pixel counts
 
     // Surfaces
     {"bool", "lit", "false", "LIT"},
@@ -127,6 +127,7 @@ constexpr ShaderConstant constants[] = {
     {"bool", "biasByLuminance", "false"},
 
     // Scheuermann
+    {"int", "pinholeSamples", "1", "MULTISAMPLED"},  // samples per pixel of the pinhole image
     {"bool", "thinLens", "false"},
     {"bool", "encodedColor", "false"},
     {"int", "diskTaps", "1"},

@@ -81,10 +81,14 @@ void Target::addColor(const GlTexture& color, std::optional<std::uint32_t> layer
     height_ = std::max(color.info().height >> level, 1);
 }
 
-void Target::finish(const GlTexture* depth) {
+void Target::drawAllColors() const {
     std::array<GLenum, 8> drawBuffers{};
     std::iota(drawBuffers.begin(), drawBuffers.end(), GL_COLOR_ATTACHMENT0);
     glNamedFramebufferDrawBuffers(name(), colors_, drawBuffers.data());
+}
+
+void Target::finish(const GlTexture* depth) {
+    drawAllColors();
     if (depth != nullptr) {
         glNamedFramebufferTexture(name(), GL_DEPTH_ATTACHMENT, depth->name(), 0);
         width_ = depth->info().width;
@@ -93,6 +97,20 @@ void Target::finish(const GlTexture* depth) {
     const GLenum status = glCheckNamedFramebufferStatus(name(), GL_DRAW_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
         fail("cannot create a render target of {} x {} px: {}", width_, height_, inWords(status));
+}
+
+void Target::resolve(const Target& to, bool depth) const {
+    for (GLsizei color = 0; color < colors_; ++color) {
+        const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(color);
+        glNamedFramebufferReadBuffer(name(), attachment);
+        std::array<GLenum, 8> drawn{};  // all GL_NONE except the attachment to copy to
+        drawn[static_cast<std::size_t>(color)] = attachment;
+        glNamedFramebufferDrawBuffers(to.name(), color + 1, drawn.data());
+        const GLbitfield depthBit = depth && color == 0 ? GL_DEPTH_BUFFER_BIT : 0;
+        glBlitNamedFramebuffer(name(), to.name(), 0, 0, width_, height_, 0, 0, width_, height_,
+                               GL_COLOR_BUFFER_BIT | depthBit, GL_NEAREST);
+    }
+    to.drawAllColors();
 }
 
 void Target::bind() const {

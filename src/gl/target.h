@@ -26,6 +26,9 @@ public:
     // Attaches only layer `layer` of each array texture; `depth` is a 2D texture.
     Target(const std::vector<const GlTexture*>& colors, const GlTexture& depth, std::uint32_t layer);
 
+    // Copies all colour attachments and, if `depth`, the depth to `to`, which has the same size and formats. Of a
+    // multisampled target, each pixel's colour is the mean of its samples, and its depth that of one sample.
+    void resolve(const Target& to, bool depth) const;
     // Binds the framebuffer and sets the viewport to its full size.
     void bind() const;
     [[nodiscard]] GLuint name() const { return handle_.name(); }
@@ -35,6 +38,7 @@ private:
     void create();
     void addColor(const GlTexture& color, std::optional<std::uint32_t> layer, int level = 0);
     void finish(const GlTexture* depth);
+    void drawAllColors() const;  // makes drawing write all colour attachments
 
     GlHandle<destroyFramebuffer> handle_;
     GLsizei colors_ = 0;

@@ -53,13 +53,16 @@ GlTexture::GlTexture(const TextureInfo& info) : info_(info) {
         fail("{} layers exceed this driver's maximum of {} layers per texture; choose a smaller wave", info.layers,
              maxLayers);
     GLuint name = 0;
-    glCreateTextures(info.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, &name);
+    const GLenum oneImage = info.samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+    glCreateTextures(info.layers > 0 ? GL_TEXTURE_2D_ARRAY : oneImage, 1, &name);
     handle_ = GlHandle<destroyTexture>(name);
     while (glGetError() != GL_NO_ERROR) {
     }
     const GLenum format = row(info.format).internal;
     if (info.layers > 0)
         glTextureStorage3D(name, info.levels, format, info.width, info.height, info.layers);
+    else if (info.samples > 1)
+        glTextureStorage2DMultisample(name, info.samples, format, info.width, info.height, GL_TRUE);
     else
         glTextureStorage2D(name, info.levels, format, info.width, info.height);
     if (glGetError() != GL_NO_ERROR)
@@ -67,7 +70,7 @@ GlTexture::GlTexture(const TextureInfo& info) : info_(info) {
             "out of graphics memory: cannot allocate a texture of {} x {} px and {} layers; choose a smaller size or "
             "wave",
             info.width, info.height, std::max(info.layers, 1));
-    sampling(GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+    if (info.samples == 1) sampling(GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
 }
 
 void GlTexture::upload(int level, int width, int height, const void* pixels) {
@@ -110,7 +113,7 @@ std::size_t GlTexture::bytes() const {
     for (int level = 0; level < info_.levels; ++level)
         pixels += static_cast<std::size_t>(std::max(info_.width >> level, 1)) *
                   static_cast<std::size_t>(std::max(info_.height >> level, 1));
-    return pixels * static_cast<std::size_t>(std::max(info_.layers, 1)) * pixelBytes(info_.format);
+    return pixels * static_cast<std::size_t>(std::max(info_.layers, info_.samples)) * pixelBytes(info_.format);
 }
 
 int mipmapLevels(int width, int height) {

@@ -1,5 +1,5 @@
 #pragma once
-// Move-only owner of an OpenGL texture with immutable storage: 2D, or a 2D array.
+// Move-only owner of an OpenGL texture with immutable storage: 2D, 2D array, or multisampled 2D.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +26,7 @@ struct TextureInfo {
     int height = 1;
     int layers = 0;  // 0: 2D texture; ≥ 1: 2D array
     int levels = 1;  // number of mip levels
+    int samples = 1;  // samples per pixel; above 1: a multisampled 2D texture, without layers, levels and filtering
 };
 
 struct TexelRectangle {  // in texels; origin at the lower left corner

@@ -255,7 +255,7 @@ public:
     }
 
 private:
-    float largest_;  // max difference: that between green and blue
+    float largest_;  // max difference, between green and blue
 };
 
 // Computes LDR-FLIP of the images mapped by `toDisplay`. Raises each pixel of `map` to the result if the result is

@@ -20,7 +20,7 @@ namespace {
 
 const std::vector<std::string> channelNames = {"R", "G", "B", "A", "Z"};
 constexpr int depthChannel = 4;
-constexpr std::uint64_t maxPixels = 1ull << 28;          // of one part
+constexpr std::uint64_t maxPixels = 1ull << 28;          // pixels of one part
 constexpr std::size_t headBytes = std::size_t{8} << 20;  // enough for the headers of 1024 parts
 
 OIIO::ImageSpec partSpec(const PartSize& size, const Metadata& metadata, std::size_t part) {
@@ -129,7 +129,7 @@ ImagePartReader::ImagePartReader(const std::filesystem::path& path) : state_(std
     for (int part = 0; part == 0 || s.input->seek_subimage(part, 0); ++part) {
         const OIIO::ImageSpec& own = s.input->spec();
         if (own.channelnames != channelNames || own.deep || own.tile_width > 0)
-            fail("{}: image {} has not the channels R, G, B, A and Z; give a file from 'defocus render --lens-images'",
+            fail("{}: image {} lacks the channels R, G, B, A and Z; give a file from 'defocus render --lens-images'",
                  s.name, part);
         if (own.x != -s.size.margin || own.y != own.x || own.width != s.size.fullWidth() ||
             own.height != s.size.fullHeight())
@@ -138,7 +138,7 @@ ImagePartReader::ImagePartReader(const std::filesystem::path& path) : state_(std
             fail("cannot read {}: it has more than {} images", s.name, maxImageParts);
         s.metadata.push_back(metadataOf(own));
     }
-    static_cast<void>(s.input->geterror());  // clears the message about the missing part behind the last one
+    static_cast<void>(s.input->geterror());  // clears the error about a part after the last one
 }
 
 ImagePartReader::~ImagePartReader() = default;

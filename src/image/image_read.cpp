@@ -86,7 +86,7 @@ struct OpenImage {
     std::unique_ptr<CheckedMemory> memory;
     std::unique_ptr<OIIO::ImageInput> input;
     OIIO::ImageSpec spec;
-    bool unchecked = false;  // the pixels must be checked before they are read
+    bool unchecked = false;  // true: the pixels must be checked before they are read
 };
 
 OpenImage openImage(std::span<const std::byte> encoded, std::string_view format, const std::string& name) {

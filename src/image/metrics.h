@@ -40,8 +40,8 @@ struct ImageStrips {
 
 inline constexpr std::uint64_t defaultCompareBytes = std::uint64_t{512} << 20;
 
-// Same as compareImages below, bit for bit, but with only about `maxBytes` of memory beside the strips, or more if 30
-// rows need more. Both images must have the same size.
+// Same as compareImages below, bit for bit, but with only about `maxBytes` of memory in addition to the strips, or more
+// if 30 rows need more. Both images must have the same size.
 Difference compareStrips(const ImageStrips& reference, const ImageStrips& test, const CompareOptions& options,
                          std::uint64_t maxBytes = defaultCompareBytes);
 

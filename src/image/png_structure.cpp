@@ -103,7 +103,7 @@ public:
     PixelStream(const PixelStream&) = delete;
     PixelStream& operator=(const PixelStream&) = delete;
 
-    // Decompresses bytes into `target`. Throws Error if the stream is damaged or ends before.
+    // Decompresses bytes into `target`. Throws Error if the stream is damaged or ends early.
     void read(std::span<unsigned char> target) {
         stream_.next_out = target.data();
         stream_.avail_out = static_cast<uInt>(target.size());

@@ -106,7 +106,8 @@ double selectedLevel(const Pyramid& pyramid, const ObjectPlan& object, const Fra
     LevelQuery query;
     const double centre = -object.viewBox.centre().z;
     const double depth = plan.settings.metric == LodMetric::score ? centre : object.nearestDepth;
-    const double pixelsAtUnitDepth = plan.view.width / (2 * plan.tanHalfHorizontal);  // size of 1 m at 1 m
+    // px; size in the image of 1 m at a depth of 1 m
+    const double pixelsAtUnitDepth = plan.view.width / (2 * plan.tanHalfHorizontal);
     query.pixelsPerUnit = largestScale(object.pose) * pixelsAtUnitDepth / depth;
     const glm::dvec3 box = object.viewBox.size();
     query.boxSize = std::max(box.x, box.y) * pixelsAtUnitDepth / centre;

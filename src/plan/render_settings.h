@@ -37,7 +37,7 @@ struct RenderSettings {
     // over this range, and the lens samples are kept even if nothing is blurred at the frame's own focus. Needs a lens
     // with C(w) = a + b·w (circle_of_confusion.h).
     std::optional<FocusRange> refocus = {};
-    std::vector<Layer> layers = {};  // layers to sum beside the picture
+    std::vector<Layer> layers = {};  // data layers to sum, such as depth and normals
 };
 
 // Multiplies the thresholds by `factor`; unset thresholds first get the defaults for frames of `sampleCount` samples.

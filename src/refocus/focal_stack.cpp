@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns 1/depth; 0 for +∞, and for values that are no depth.
+// Returns 1/depth; 0 for +∞, NaN and depths ≤ 0.
 double inverse(float depth) {
     return depth > 0 ? 1 / static_cast<double>(depth) : 0;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Focal stacks, and the sharp picture, depths and blur of the scene from its lens images, for data sets of depth from
-// defocus.
+// Computes focal stacks, all-in-focus pictures, depths and circles of confusion from lens images, for
+// depth-from-defocus data sets.
 
 #include <vector>
 

@@ -10,7 +10,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t channels = 5;  // of a sum
+constexpr std::size_t channels = 5;  // RGBA and weight
 // Standard deviation of a cell's blur, as a fraction of c/√N. A disk has 1/4. Cells around the points of a sequence
 // differ in size and shape; twice the blur of a disk has the smallest error (docs/refocus.md).
 constexpr double cellBlur = 0.5;
@@ -40,7 +40,8 @@ std::vector<float> blurred(const std::vector<float>& image, const PartSize& size
     const std::size_t rowFloats = width * depth;
     std::vector<float> result(image.size());
     parallelFor(static_cast<std::size_t>(size.height), [&](std::size_t row) {
-        std::vector<float> line(rowFloats + 2 * static_cast<std::size_t>(reach) * depth);  // with a margin on each side
+        // one row with a margin on each side
+        std::vector<float> line(rowFloats + 2 * static_cast<std::size_t>(reach) * depth);
         float* const inner = line.data() + static_cast<std::size_t>(reach) * depth;
         for (int i = -reach; i <= reach; ++i) {
             const int y = std::clamp(static_cast<int>(row) + i, 0, size.height - 1);
@@ -132,7 +133,7 @@ Image GapFilling::mean() const {
     const auto addWeights = [&](const Sum& sum, float sign, std::vector<float>& weights) {
         for (std::size_t p = 0; p < pixels; ++p) weights[p] += sign * sum[channels * p + 4];
     };
-    // Behind the focus plane, from much to little blur.
+    // Composite the classes behind the focus plane, from much to little blur.
     std::vector<float> nearer(pixels);
     for (const Sum& sum : front_) addWeights(sum, 1, nearer);
     const std::vector<float> inFront = nearer;
@@ -142,7 +143,8 @@ Image GapFilling::mean() const {
         if (!isEmpty(behind_[k])) layOver(image, behind_[k], nearer, classVariance(k));
         if (k > 0) addWeights(behind_[k - 1], -1, nearer);
     }
-    // Sharp samples. Where samples in front hide everything else, their own mean replaces the unknown background.
+    // Composite the sharp samples. Where samples in front hide everything else, their own mean replaces the unknown
+    // background.
     for (std::size_t p = 0; p < pixels; ++p) {
         const float open = total - inFront[p];
         float* const pixel = image.pixels.data() + 4 * p;
@@ -157,7 +159,7 @@ Image GapFilling::mean() const {
             pixel[c] = sum / std::max(inFront[p], 1e-6f);
         }
     }
-    // In front of the focus plane, from little to much blur.
+    // Composite the classes in front of the focus plane, from little to much blur.
     nearer = inFront;
     for (std::size_t k = 0; k < classes; ++k) {
         addWeights(front_[k], -1, nearer);

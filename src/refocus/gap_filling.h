@@ -20,8 +20,8 @@ namespace defocus::engine {
 
 // A lens image that is moved by whole pixels, with its depths in m.
 struct DeepMovedImage {
-    const HalfImage* colour = nullptr;  // of the full size
-    const Image* depth = nullptr;       // of the full size
+    const HalfImage* colour = nullptr;  // image with its margin
+    const Image* depth = nullptr;       // depths with the same margin
     glm::ivec2 move{0};                 // px, right and up
     float weight = 1;                   // > 0
 };

@@ -28,7 +28,7 @@ constexpr const char* pointNames[2] = {"defocus:lensU", "defocus:lensV"};
 constexpr const char* pixelNames[2] = {"defocus:sampleRight", "defocus:sampleUp"};
 constexpr const char* shiftNames[2] = {"defocus:pixelsRightPerDioptre", "defocus:pixelsUpPerDioptre"};
 
-// Lens fields with which refocusing changes more than b of C(w) = a + b·w, or the light that a lens point passes.
+// Lens fields for which refocusing would change more than b of C(w) = a + b·w, or the light that passes a lens point.
 constexpr std::array unsuited = {
     "focusBreathing",  "catEye",          "axialChromaticAberration", "astigmatism", "coma",       "foregroundLimit",
     "backgroundLimit", "focusRangeFront", "focusRangeBehind",         "focusTilt",   "focusSwing", "fieldCurvature",
@@ -68,8 +68,8 @@ std::optional<double> numberIn(const Metadata& metadata, const char* name) {
 double needed(const Metadata& metadata, const char* attribute, const std::string& name, double min, double max) {
     const std::optional<double> value = numberIn(metadata, attribute);
     if (!value)
-        fail("{}: no file of lens images, because '{}' is missing; give a file from 'defocus render --lens-images'",
-             name, attribute);
+        fail("{}: not a file of lens images: '{}' is missing; give a file from 'defocus render --lens-images'", name,
+             attribute);
     if (*value < min || *value > max)
         fail("{}: its value {} of '{}' is outside {} to {}; render the file again", name, *value, attribute, min, max);
     return *value;

@@ -31,7 +31,7 @@ struct LightFieldInfo {
     bool disk = true;                // the rendered aperture is a uniform disk
     std::vector<glm::dvec2> points;  // lens point (u, v) of each image
     std::vector<glm::dvec2> pixels;  // position of each image's samples in px from the pixel's centre, right and up
-    Metadata metadata;               // of the frame, without the values above
+    Metadata metadata;               // metadata of the frame, without the values above
 
     // Returns the move in px, right and up, of the image of lens point (1, 1) for another focus distance.
     [[nodiscard]] double shift(double otherFocus) const {
@@ -42,8 +42,8 @@ struct LightFieldInfo {
 };
 
 // Returns the information about the lens images of a view, without lens points and metadata. The margin suffices for
-// all focus distances in `range`, which must contain the view's focus distance. Throws Error if a change of focus would
-// do more to an image of this lens than move it, and if the margin exceeds the image's longer side.
+// all focus distances in `range`, which must contain the view's focus distance. Throws Error if refocusing would not
+// just shift the images of this lens, and if the margin exceeds the image's longer side.
 LightFieldInfo lightFieldInfo(const View& view, const FocusRange& range);
 
 // Adds lens points and positions in the pixel of a plan's samples. Throws Error if the plan has objects or vertices
@@ -65,7 +65,7 @@ public:
 
 class LightField : public LensImages {
 public:
-    // Throws Error, with the path in its message, if the file cannot be read, is no file of lens images, or lacks an
+    // Throws Error, with the path in its message, if the file cannot be read, is not a file of lens images, or lacks an
     // image.
     explicit LightField(const std::filesystem::path& path);
 

@@ -27,7 +27,7 @@ public:
     // Throws UsageError unless the file's name ends with .exr.
     static void checkPath(const std::filesystem::path& path);
     // Returns the request with the method and the number of samples that lens images need. Throws UsageError if the
-    // request has other ones, or a target error or a time limit.
+    // request sets another method, an unsuitable number of samples, a target error or a time limit.
     static Request suited(Request request);
 
     // Begins the frame of the driver's request, which must come from suited(). Throws Error if the lens or the focus

@@ -15,8 +15,8 @@
 
 namespace defocus::engine {
 
-// Maximum number of images in a page. Of more lens images, the page has the first: any number of the first points is
-// spread evenly over the lens.
+// Maximum number of images in a page. If there are more lens images, the page has the first ones, because every prefix
+// of the lens points is spread evenly over the lens.
 inline constexpr std::size_t maxPageImages = 64;
 // Maximum size in bytes of a page at 1024 × 768 px; pages of other sizes are limited in proportion. WebP's quality is
 // lowered until the page fits.

@@ -1,5 +1,5 @@
 #pragma once
-// Settings of a refocused picture: from the public API and the command line to a Refocusing.
+// Converts the settings of a refocused picture from the public API and the command line to a Refocusing.
 
 #include <optional>
 #include <string>

@@ -31,7 +31,7 @@ void addRow(const std::uint16_t* __restrict values, float weight, std::size_t co
     for (std::size_t i = 0; i < count; ++i) addCompensated(sums[i], compensations[i], weight * fromHalf(values[i]));
 }
 
-// Adds `count` compensated sums to others.
+// Adds `count` compensated sums to other compensated sums.
 void addSums(const float* __restrict values, const float* __restrict parts, std::size_t count, float* __restrict sums,
              float* __restrict compensations) {
     for (std::size_t i = 0; i < count; ++i) {

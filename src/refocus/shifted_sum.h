@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 // An image that is moved and weighted.
 struct MovedImage {
-    const HalfImage* image = nullptr;  // of the full size
+    const HalfImage* image = nullptr;  // image with its margin
     glm::ivec2 move{0};                // px, right and up; each component at most the margin
     float weight = 1;                  // ≥ 0
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Layers of a frame beside its picture (defocus/layers.h), as a renderer returns them.
+// Data layers of a frame (defocus/layers.h), as a renderer returns them.
 
 #include <cstdint>
 #include <map>

@@ -1,5 +1,5 @@
 #pragma once
-// Camera that comes from a file of its own instead of the scene's file, as a function of time.
+// Camera from a separate file instead of the scene file, as a function of time.
 
 #include <functional>
 #include <glm/mat4x4.hpp>
@@ -15,7 +15,7 @@ struct TrackedCamera {
     Camera camera;                    // lengths in m
     glm::dmat4 worldFromCamera{1.0};  // in m, y up; the camera looks along its −z axis
     // true: the image shows the complete sensor of Camera::physical, and more along one side if the aspect ratios
-    // differ (USD's conform policy "expandAperture"). false: Camera::yfov holds.
+    // differ (USD's conform policy "expandAperture"). false: Camera::yfov applies.
     bool showsSensor = false;
 };
 

@@ -42,7 +42,7 @@ struct Pose {
     std::size_t faintLights = 0;           // number of fainter lights that were dropped
     std::vector<Camera> cameras;           // one per entry of Scene::cameras, with animated values
     std::optional<TrackedCamera> tracked;  // state of Scene::cameraTrack
-    Bounds bounds;                         // of all objects except the ground, in world space
+    Bounds bounds;                         // bounding box of all objects except the ground, in world space
 };
 
 // Returns the scene in metres at `time` seconds of clip `clip` (index; −1: no animation). Times outside the clip give

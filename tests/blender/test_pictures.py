@@ -108,7 +108,7 @@ class Features(unittest.TestCase):
         camera.data.dof.aperture_ratio, camera.data.dof.aperture_fstop = 1.5, 1
         scene.cycles.samples = 512
         one, other = (pictures.rendered(engine, scene)[..., 0] for engine in ("CYCLES", "DEFOCUS"))
-        # means of 3 x 3 px, without most of Cycles' noise
+        # means of 3 x 3 px, to suppress the noise of Cycles
         one, other = (light.reshape(24, 3, 32, 3).sum((1, 3)) for light in (one, other))
         overlap = numpy.minimum(one / one.sum(), other / other.sum()).sum()
         turned = numpy.minimum(one / one.sum(), other[::-1] / other.sum()).sum()
@@ -282,7 +282,7 @@ class Features(unittest.TestCase):
             export.export_gltf = function
         for frame, across in ((0, -0.1), (2, 0.1)):
             (x, y), _ = pictures.disk(first[frame])
-            pixels = 50 / 36 * 48  # per metre at a distance of 1 m
+            pixels = 50 / 36 * 48  # pixels per metre at a distance of 1 m
             self.assertAlmostEqual(x, 23.5 - across * pixels, delta=0.1)
             self.assertAlmostEqual(y, 17.5 + 0.5 * across * pixels, delta=0.1)
         self.assertAlmostEqual(second[0].max(), 0.25, places=3)

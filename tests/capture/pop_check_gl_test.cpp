@@ -56,7 +56,7 @@ TEST_F(PopChecks, fullDetailHasNone) {
     EXPECT_FALSE(popOf(LodMode::off));
 }
 
-// Without the frame before, there is nothing to compare.
+// Without the preceding frame, there is nothing to compare.
 TEST_F(PopChecks, aGapInTheFramesIsNoPop) {
     PopCheck check(frame_.world, parseMethodUse("accumulation"), {});
     check.note(1, planAt(2, LodMode::nearest));

@@ -455,7 +455,7 @@ TEST_F(BadInput, trianglesWithoutPlaceAreAWarning) {
     }
 }
 
-// Cameras of other files.
+// Files of --camera-from that are damaged or lack the camera.
 TEST_F(BadInput, camerasOfOtherFiles) {
     const auto refuse = [&](const std::string& name, const std::string& text, const std::string& part) {
         writeFile(folder() / name, std::string_view(text));

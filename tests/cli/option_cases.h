@@ -273,6 +273,7 @@ inline const std::map<std::string, OptionCase>& methodSettingCases() {
         {"coc-interpolation", {{"--coc-interpolation", "linear"}, joined(only("line"), {"--field-curvature", "2"})}},
         {"coc", {{"--coc", "thin-lens"}, only("scheuermann")}},
         {"taps", {{"--taps", "24"}, only("scheuermann")}},
+        {"multisampling", {{"--multisampling", "4"}, only("scheuermann")}},
         {"bits", {{"--bits", "8"}, only("scheuermann")}},
         {"near-blur-depth", {{"--near-blur-depth", "0.1"}, only("scheuermann")}},
         {"focal-plane-depth", {{"--focal-plane-depth", "1"}, only("scheuermann")}},

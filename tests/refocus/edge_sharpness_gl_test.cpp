@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr double slant = 7 * std::numbers::pi / 180;  // of the edge against the vertical
+constexpr double slant = 7 * std::numbers::pi / 180;  // angle between the edge and the vertical
 constexpr int imageSide = 96;
 constexpr double away = 3;  // m
 

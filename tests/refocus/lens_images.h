@@ -44,7 +44,7 @@ protected:
         return path;
     }
 
-    // Returns the message with which a request is refused; empty if it isn't.
+    // Returns the message with which a request is rejected; empty if it is accepted.
     std::string refusalOf(const Request& request, FocusRange range = {1.5, 3}) const {
         try {
             lensImages(request, range);

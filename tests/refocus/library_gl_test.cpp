@@ -1,4 +1,4 @@
-// Tests the public LightField: it gives the pictures of the program, and refuses what was not rendered.
+// Tests the public LightField: it gives the pictures of the program, and rejects settings outside the rendered range.
 
 #include <cmath>
 #include <limits>

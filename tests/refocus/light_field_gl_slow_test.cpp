@@ -10,9 +10,9 @@ namespace {
 
 class RefocusedError : public LightFieldTest {
 protected:
-    // Compares refocused pictures with renders of as many samples, both against a converged picture at full detail.
-    // `distances` begin with the nearest and end with the farthest focus of the range, in m. The loss varies by 1 dB
-    // with the sample points, so that it is the mean of three seeds.
+    // Compares refocused pictures with renders with the same number of samples, both against a converged picture at
+    // full detail. `distances` begin with the nearest and end with the farthest focus of the range, in m. The loss is
+    // the mean of three seeds, because it varies by 1 dB with the sample points.
     void expectSmallLoss(const Request& request, const std::vector<double>& distances) const {
         std::vector<double> losses(distances.size());
         std::vector<Image> truths;

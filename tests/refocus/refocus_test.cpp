@@ -52,9 +52,9 @@ TEST(Refocus, asRenderedMovesNothing) {
     }
 }
 
-// A point at distance z has the CoC c = A·|1/s − 1/z|·W/(2·tan(θx/2)). The image of lens point (u, v) shows it at
-// c/2·(u, v) from its pinhole position, before it in the opposite direction. Refocused at z, the samples of all images
-// that were one distance from the point lie in one pixel.
+// A point at distance z has the CoC c = A·|1/s − 1/z|·W/(2·tan(θx/2)). The image of lens point (u, v) shows the point
+// displaced by c/2·(u, v) from its pinhole position; in front of the focus plane, the direction is reversed. Refocused
+// at z, the samples of all images with the same offset from the point lie in one pixel.
 TEST(Refocus, bringsThePointInFocusTogether) {
     const LightFieldInfo info = describedImages();
     const double radius = 0.025 * (1 / 2.0 - 1 / 3.0) * 1000 / (2 * 0.36) / 2;
@@ -89,7 +89,7 @@ TEST(Refocus, weighsByTheApertureShape) {
     }
 }
 
-// An object that any focus of the range shows sharply is as fine as one that is in focus.
+// An object that is sharp at any focus distance of the range has levels as fine as those of an object in focus.
 TEST(Refocus, levelsSuitTheSharpestFocusOfTheRange) {
     const auto small = fiveSpheres();
     const auto lambdaOfFarSphere = [&](double focus, std::optional<FocusRange> range) {
@@ -129,7 +129,7 @@ TEST(Refocus, refusesWhatWasNotRendered) {
               "again without blades and other shapes");
 }
 
-// Returns the message with which lens images of a lens, focused at 2 m, are refused; empty if they are not.
+// Returns the message with which lens images of a lens, focused at 2 m, are rejected; empty if they are accepted.
 std::string refusalOf(const Lens& lens, double nearest = 1.5) {
     View view;
     view.lens = lens;

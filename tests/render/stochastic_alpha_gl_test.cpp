@@ -1,5 +1,5 @@
-// Tests of stochastic transparency: where blended surfaces have no common order, the mean over the lens samples is the
-// light of surfaces blended in the order of their depth at each pixel.
+// Tests of stochastic transparency: where blended surfaces have no common order, the mean over the lens samples equals
+// blending in depth order at each pixel.
 
 #include <gtest/gtest.h>
 
@@ -45,8 +45,8 @@ glm::dvec4 over(const glm::vec4& front, const glm::dvec4& behind) {
 }
 
 struct Comparison {
-    glm::dvec4 mean{0};  // of the image, over the compared pixels
-    double rms = 0;      // of the differences from the expected colour
+    glm::dvec4 mean{0};  // mean of the image, over the compared pixels
+    double rms = 0;      // RMS of the differences from the expected colour
 };
 
 Comparison compareColumns(const Image& image, int left, int right, const glm::dvec4& expected) {

@@ -61,7 +61,7 @@ void expectNoStructure(const std::string& name, const TruthScene& baked, const I
     EXPECT_GE(compareImages(planned, image).psnr, 70) << name;
     EXPECT_LE(blocks.largest, 1.5e-4) << name;
     EXPECT_LE(std::abs(blocks.mean), 2e-6) << name;
-    EXPECT_NEAR(widened, 0, 5e-4) << name;      // as a fraction of the blur's width
+    EXPECT_NEAR(widened, 0, 5e-4) << name;      // difference as a fraction of the blur's width
     EXPECT_NEAR(moved.right, 0, 1e-3) << name;  // px
     EXPECT_NEAR(moved.down, 0, 1e-3) << name;
     EXPECT_NEAR(moved.growth * baked.view.width, 0, 2e-3) << name;  // change of size over the image's width, px

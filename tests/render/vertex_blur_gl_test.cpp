@@ -35,6 +35,25 @@ TEST_F(VertexBlurs, keepsToLimitsAndToItsObject) {
     expectVariance(*small, sharpVariance, "accumulation");
 }
 
+// C(p) = (a + b·w)·(1 + x² + y²) for the clip position p = (x, y, w) of the square, in m.
+TEST_F(VertexBlurs, drawTheRadialExampleAsPrinted) {
+    constexpr double depth = 5;
+    const glm::dvec2 position(0.8, -0.5);  // m
+    const View view = bokehView(120, 90);
+    const glm::dvec2 tangents = tanHalf(view) * glm::dvec2(1, double(view.height) / view.width);
+    const double factor = 1 + glm::dot(position / tangents, position / tangents);
+    const auto small = blurredSquare(depth, {static_cast<float>(factor), 0, 0});
+    glm::dmat4& placed = small->world.pose.objects[0].worldFromObject;
+    placed = glm::translate(glm::dmat4(1), glm::dvec3(position, 0)) * placed;
+    small->view.lens.fStop = 8;
+    const double diameter = factor * blurDiameter(small->view, depth);
+    ASSERT_GT(factor, 3);
+    const Moments moments = momentsOf(renderedBlur(*small, "stochastic:coc-interpolation=linear", 4 * blurSamples));
+    const double expected = varianceOf(diameter * diameter);
+    EXPECT_NEAR(moments.variance.x, expected, 0.03 * expected);
+    EXPECT_NEAR(moments.variance.y, expected, 0.03 * expected);
+}
+
 // Without vertex blur, post-process methods draw sharp edges. With vertex blur, edges are as wide as under the same
 // blur of the lens.
 TEST_F(VertexBlurs, postProcessMethodsFollow) {

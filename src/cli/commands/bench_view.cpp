@@ -15,6 +15,7 @@
 #include "core/file.h"
 #include "eval/json_number.h"
 #include "gl/context.h"
+#include "view/bench/refocus_bench.h"
 #include "view/bench/view_bench.h"
 
 namespace defocus::engine {
@@ -24,6 +25,7 @@ namespace {
 struct ViewBenchArguments {
     Request request = measuredRequest();
     ViewBenchOptions options;
+    bool refocus = false;          // measure changes of focus and f-number
     std::filesystem::path folder;  // folder of the results; empty: print the table only
     bool allowChanged = false;
 };
@@ -61,6 +63,34 @@ nlohmann::ordered_json rowJson(const ViewBenchRow& row) {
             {"stillPsnr", jsonNumber(row.stillPsnr)}};
 }
 
+std::string refocusHeaderText() {
+    return fmt::format(
+        "{:24} {:12} {:>8}   {:>8} {:>8} {:>8} {:>8}   {:>9} {:>8} {:>8}\n{:24} {:12} {:>8}   {:>8} {:>8} {:>8} {:>8}  "
+        " "
+        "{:>9} {:>8} {:>8}\n",
+        "dragged at rest", "method", "kept", "frame", "size", "lens", "PSNR", "full qua-", "lens", "PSNR", "", "",
+        "images", "ms", "", "samples", "dB", "lity, ms", "samples", "dB");
+}
+
+std::string refocusLineText(const RefocusBenchRow& row) {
+    return fmt::format("{:24} {:12} {:8}   {:8.1f} {:>8} {:8} {:8.1f}   {:9.1f} {:8} {:8.1f}\n", row.change, row.method,
+                       row.keptImages, row.dragMilliseconds, fmt::format("{:.0f} %", 100 * row.dragQuality.resolution),
+                       row.dragQuality.samples, row.dragPsnr, row.fullMilliseconds, row.fullSamples, row.fullPsnr);
+}
+
+nlohmann::ordered_json refocusRowJson(const RefocusBenchRow& row) {
+    return {{"change", row.change},
+            {"method", row.method},
+            {"keptImages", row.keptImages},
+            {"dragMilliseconds", row.dragMilliseconds},
+            {"dragResolution", row.dragQuality.resolution},
+            {"dragSamples", row.dragQuality.samples},
+            {"dragPsnr", jsonNumber(row.dragPsnr)},
+            {"fullMilliseconds", row.fullMilliseconds},
+            {"fullSamples", row.fullSamples},
+            {"fullPsnr", jsonNumber(row.fullPsnr)}};
+}
+
 void runViewBench(const ViewBenchArguments& arguments, const GlobalOptions& global) {
     refuseChangedSources(arguments.folder, arguments.allowChanged);
     makeOutputFolder(arguments.folder, {"view.json"});
@@ -79,22 +109,29 @@ void runViewBench(const ViewBenchArguments& arguments, const GlobalOptions& glob
     state.area.size = state.pictureSize;
     openForBench(document, state);
     const BenchSubject subject = benchSubject(*context, global, *document.frame, 1);
-    fmt::print("{}, {} x {} px, an orbit of {} frames, on {}\n\n{}", subject.scene, subject.width, subject.height,
-               options.frames, subject.device, headerText());
+    fmt::print("{}, {} x {} px, {}, on {}\n\n{}", subject.scene, subject.width, subject.height,
+               arguments.refocus ? "changes of focus and f-number at rest"
+                                 : fmt::format("an orbit of {} frames", options.frames),
+               subject.device, arguments.refocus ? refocusHeaderText() : headerText());
     std::fflush(stdout);
     nlohmann::ordered_json json = subjectJson("view", subject);
     json["heldEqual"] = "scene, camera path, lens, image size, reference, process; the methods follow one another";
-    json["frames"] = options.frames;
     json["referenceSamples"] = options.referenceSamples;
+    const auto take = [&](const std::string& line, const nlohmann::ordered_json& row) {
+        fmt::print("{}", line);
+        std::fflush(stdout);
+        json["rows"].push_back(row);
+        if (!arguments.folder.empty()) writeFile(arguments.folder / "view.json", json.dump(2) + "\n");
+    };
+    if (arguments.refocus) {
+        measureRefocus(
+            document, state, options,
+            [&](const RefocusBenchRow& row) { take(refocusLineText(row), refocusRowJson(row)); }, progress);
+        return;
+    }
+    json["frames"] = options.frames;
     measureView(
-        document, state, options,
-        [&](const ViewBenchRow& row) {
-            fmt::print("{}", lineText(row));
-            std::fflush(stdout);
-            json["rows"].push_back(rowJson(row));
-            if (!arguments.folder.empty()) writeFile(arguments.folder / "view.json", json.dump(2) + "\n");
-        },
-        progress);
+        document, state, options, [&](const ViewBenchRow& row) { take(lineText(row), rowJson(row)); }, progress);
 }
 
 }  // namespace
@@ -118,6 +155,11 @@ void addBenchViewCommand(CLI::App& bench, const GlobalOptions& global) {
     addInteger(*command, "--reference-samples", options.referenceSamples, 2, maxSamples,
                "Lens samples of the references at full detail")
         ->group(group);
+    command
+        ->add_flag("--refocus", arguments->refocus,
+                   "Measure changes of focus and f-number while the camera stands still, without and with kept lens "
+                   "images, instead of the orbit")
+        ->group(group);
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"samples", "quality", "timeLimit", "method", "exposureTime", "iso"}));
     command->add_option("-o,--output", arguments->folder, "Folder for the result view.json")
@@ -128,7 +170,8 @@ void addBenchViewCommand(CLI::App& bench, const GlobalOptions& global) {
     command->footer(
         "Examples:\n"
         "  defocus bench view\n"
-        "  defocus bench view scene.glb --methods accumulation,circular --frames 120 -o view");
+        "  defocus bench view scene.glb --methods accumulation,circular --frames 120 -o view\n"
+        "  defocus bench view --refocus --methods auto");
     command->callback([arguments, &global] {
         arguments->options.convergedError = arguments->request.targetError.value_or(arguments->options.convergedError);
         runViewBench(*arguments, global);

@@ -1,5 +1,5 @@
 #pragma once
-// Runs of frames of `defocus capture --refocus`, and what they save.
+// Chooses the runs of frames that `defocus capture --refocus` computes from lens images, and reports the saved work.
 
 #include <string>
 #include <vector>
@@ -12,10 +12,11 @@ namespace defocus::engine {
 // lens images of a run don't fit into half of the memory.
 RefocusRuns chosenRuns(const Shot& shot, const SequenceBase& base, const FilmSettings& settings);
 
-// Returns a line about what the lens images saved.
+// Returns a line with the saving due to lens images.
 std::string savedText(const FilmSettings& settings, const FilmFigures& figures);
 
-// Returns a line about what --refocus would save in frames that were rendered one by one; empty if nothing.
+// Returns a line with the saving that --refocus would give for frames that were rendered one by one; empty if there is
+// none.
 std::string possibleSaving(const Shot& shot, const SequenceBase& base, const FilmSettings& settings,
                            const std::vector<FilmFrame>& film);
 

@@ -41,7 +41,7 @@ TextOf writerFor(const std::filesystem::path& output) {
         fmt::format("--output: {}: give a file name that ends with .usda, .gltf or .json", output.string()));
 }
 
-// Returns the lens values that are always written, and those that differ from their defaults.
+// Returns the lens values to write: some of them always, the others only if they differ from their defaults.
 std::map<std::string, double, std::less<>> lensOf(const Lens& lens) {
     constexpr double farthest = 1e12;  // m, for a focus at infinity
     const Lens defaults;
@@ -77,7 +77,7 @@ void runExportCamera(const ExportArguments& arguments, const GlobalOptions& glob
         for (int frame = arguments.range->first; frame <= arguments.range->last; ++frame) {
             Request request = arguments.request;
             request.time = frame / arguments.frameRate;
-            // The shutter does not move the camera's samples.
+            // Samples show the camera at the time of their frame, not at the middle of an exposure.
             request.shutter = 0;
             take.samples.push_back(sampleOf(placeFrame(first.scene, request, &first.world.environment), request.time));
         }
@@ -104,7 +104,7 @@ void addExportCameraCommand(CLI::App& program, const GlobalOptions& global) {
         ->type_name("FILE")
         ->capture_default_str();
     addParsed(*command, "--range", "FIRST:LAST",
-              "Frames to write as an animation; frame 0 is the animation's begin. Default: the camera at --time",
+              "Frames to write as an animation; frame 0 is the start of the animation. Default: the camera at --time",
               [arguments](const std::string& text) { arguments->range = parseFrameRange(text); });
     addNumber(*command, "--frame-rate", arguments->frameRate, {1e-3, 1e6}, "FPS",
               "Frame rate in frames per second, for --range and the time codes of .usda");

@@ -210,8 +210,8 @@ std::string writePartial(const std::vector<std::filesystem::path>& outputs, cons
 }
 
 // Keeps a copy of the image of the samples so far, which is written if a signal arrives within a long draw. The copy is
-// renewed twice a second at most, because reading an image takes time; between short draws, the program stops by
-// itself.
+// renewed twice a second at most, because reading an image takes time; between short draws, the main thread handles the
+// signal itself.
 class PartialCopies {
 public:
     PartialCopies(FrameOutput& output, SceneDriver& driver, const std::vector<std::filesystem::path>& outputs)
@@ -231,7 +231,7 @@ private:
     FrameOutput& output_;
     SceneDriver& driver_;
     const std::vector<std::filesystem::path>& outputs_;
-    std::uint32_t samples_ = 0;  // of the latest copy
+    std::uint32_t samples_ = 0;  // samples in the latest copy
     Clock::time_point copied_;
 };
 

@@ -23,7 +23,8 @@ constexpr int stopped = 1;  // exit code
 volatile std::sig_atomic_t asked = 0;
 sem_t wake;  // posted by the signal handler, in which sem_post is safe
 
-// What the second thread does before it ends the process. Never destroyed: the thread may outlive static objects.
+// Message or action of the second thread before it ends the process. Never destroyed: the thread may outlive static
+// objects.
 struct End {
     std::mutex mutex;
     std::function<std::string()> save = [] { return std::string("stopped"); };

@@ -14,8 +14,8 @@ void stopWhenAsked();
 bool stopAsked();
 // Sets the line that is printed if the second thread ends the process, such as "stopped: 3 of 9 rows are kept".
 void setStopMessage(std::string message);
-// Sets a function that the second thread calls instead before it ends the process, to save what is finished. The
-// function returns the line to print. It runs while the main thread may be inside a draw.
+// Sets a function that the second thread calls before it ends the process, to save what is finished. It replaces the
+// line of setStopMessage(): the function returns the line to print. It runs while the main thread may be inside a draw.
 void setStopAction(std::function<std::string()> save);
 // Leaves the end of the process to the calling thread, which saves what is finished by itself. Doesn't return if the
 // second thread has begun to end the process.

@@ -96,7 +96,8 @@ void setTimes(ScalingRow& row, const ScalingTimes& times);
 
 struct ScalingVisitor {
     std::function<void(const ScalingRow&)> row;
-    std::function<void(const ScalingPoint&, const std::string& reason)> leftOut;  // points that exceed the memory
+    // called with points that do not fit into memory
+    std::function<void(const ScalingPoint&, const std::string& reason)> leftOut;
 };
 
 // Measures all points of the requested axes. Needs a current GL context.

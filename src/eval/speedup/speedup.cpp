@@ -119,7 +119,8 @@ std::deque<SpeedupSubject> subjectsOf(std::span<const SpeedupForm> forms, const 
     for (const SpeedupForm& form : forms) {
         const std::size_t first = subjects.size();
         for (const LodMode mode : modes) add(form, accumulation, mode, LodCause::blurAndSize);
-        if (form.plan.metric != LodMetric::proportional)  // its levels follow the blur alone
+        // with the metric `proportional`, levels depend on the blur alone
+        if (form.plan.metric != LodMetric::proportional)
             for (const LodCause one : {LodCause::size, LodCause::blur})
                 add(form, accumulation, LodMode::fractional, one);
         for (std::size_t i = first; i < subjects.size(); ++i) subjects[i].fullDetail = &subjects[first];

@@ -50,7 +50,7 @@ struct FrameOrder {
     std::optional<SampleRange> samples = {};         // draw only these lens samples, for sums(); none: all samples
     std::optional<std::vector<RowRange>> rows = {};  // draw only these rows, in tiles; none: all rows
     RowSink takeRows = {};                           // receives finished rows of tiles; empty: image() returns them
-    SampleSink takeSample = {};                      // receives the image of each lens sample; the driver sums none
+    SampleSink takeSample = {};                      // receives each lens sample's image; the driver then sums none
     std::string untiledReason = {};                  // reason why tiles are forbidden; empty: tiles are allowed
     bool shortDraws = false;                         // advance() draws few samples; implied by a time limit
 };

@@ -20,7 +20,7 @@
 
 namespace defocus::engine {
 
-// Images of the single lens samples, from which pictures with another focus are computed later (src/refocus).
+// Images of the individual lens samples, from which pictures with another focus are computed later (src/refocus).
 struct LensImageOrder {
     FocusRange range;  // focus distances of these pictures; see RenderSettings::refocus
     int margin = 0;    // px that the images extend beyond the request's size, on each side

@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t ranksPerPixel = 6;  // the customary number; two per image
+constexpr std::size_t ranksPerPixel = 6;  // customary number of ranks; an image holds two
 
 // Returns the ids and sample counts of a pixel, sorted by count, then by id. Equal ids are merged.
 void ranksOf(const std::uint32_t* entries, int count, const std::vector<float>& ids,

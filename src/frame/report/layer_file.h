@@ -1,5 +1,5 @@
 #pragma once
-// Multi-layer EXR files: a picture with the layers beside it.
+// Multi-layer EXR files: a picture with its data layers.
 
 #include <filesystem>
 #include <string>

@@ -26,7 +26,8 @@ std::span<const Preset> presets() {
         // nor the size of a bin nor the number of lines per position: these are this program's choice.
         {"tzeng2012",
          "line samples with a buffer of fixed size (Tzeng et al. 2012)",
-         {{"method",
+         {{"focusBreathing", "true"},
+          {"method",
            "line:resolve=published,shading-step=0,interval-bits=16,lines-per-position=4,bin-size=65536,"
            "shading=vertices,coc-interpolation=linear,wheel=shared"},
           {"lod", "nearest"},
@@ -36,7 +37,7 @@ std::span<const Preset> presets() {
           {"levelVertices", "quarters"}}},
         {"scheuermann2004",
          "Poisson disk over one pinhole image (Scheuermann 2004)",
-         {{"method", "scheuermann:bits=8,pinholes=1"}, {"lod", "off"}}},
+         {{"method", "scheuermann:bits=8,multisampling=4,pinholes=1"}, {"lod", "off"}}},
         {"garcia2018",
          "separable circular kernels over one pinhole image (Garcia 2018)",
          {{"method",

@@ -38,8 +38,8 @@ std::vector<Setting>& table() {
         };
         add(SettingGroup::scene, sceneRows());
         add(SettingGroup::camera, cameraRows());
+        add(SettingGroup::samples, sampleRows());  // begins with the preset, which may set what follows
         add(SettingGroup::lens, lensRows());
-        add(SettingGroup::samples, sampleRows());
         add(SettingGroup::method, methodRows());
         add(SettingGroup::display, displayRows());
         add(SettingGroup::developer, developerRows());

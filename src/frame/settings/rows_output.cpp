@@ -35,9 +35,9 @@ Rows displayRows() {
     return {
         rows::other(
             "exrLayers", "--exr-layers", "LAYER,…", setLayers, layersText,
-            "Layers beside the picture in .exr files, drawn through the lens with the picture's samples and "
-            "premultiplied by the coverage: depth (mean and nearest, m), position, normal, albedo, emission, "
-            "motion (px while the shutter is open), coc (px), and the Cryptomattes objects and materials; or all")
+            "Data layers to add to .exr files, blurred by the lens with the picture's samples and premultiplied by "
+            "the coverage: depth (mean and nearest, m), position, normal, albedo, emission, motion (px while the "
+            "shutter is open), coc (px), and the Cryptomattes objects and materials; or all")
             .clears(MEMBER(layers))
             .example("depth,normal,albedo"),
         rows::choice<ExrNames>("exrNames", "--exr-names", {{"nuke", ExrNames::nuke}, {"blender", ExrNames::blender}},

@@ -138,7 +138,7 @@ double sumOfProducts(const Change& first, const Change& second, int count, float
     return double{sums[0]} + double{sums[1]} + double{sums[2]} + double{sums[3]} + double{rest};
 }
 
-// Returns the radiance minus that of a grey background, so that the background becomes black.
+// Returns the radiance minus the radiance of a grey background, so that the background becomes black.
 LargeVector<glm::vec3> before(float background, LargeVector<glm::vec3> light) {
     if (background != 0)
         for (glm::vec3& value : light)

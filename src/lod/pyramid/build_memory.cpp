@@ -20,8 +20,8 @@ constexpr std::uint64_t imageBytes = 16u << 20;
 constexpr std::uint64_t levelTriangleBytes = 300, fullTriangleBytes = 70;
 constexpr std::uint64_t vertexBytes = 60;
 
-// Pyramids that take at most this many bytes are always built. A limit that has no room for one of them has no room
-// for the program either, and the frame's memory budget then names the limit that is enough for everything.
+// Pyramids that take at most this many bytes are always built. A limit that is too small for one of them is too small
+// for the program, too. The frame's memory budget then reports the sufficient limit.
 constexpr std::uint64_t smallBytes = 1u << 20;
 
 std::uint64_t attributeBytes(const Vertices& vertices) {
@@ -41,8 +41,8 @@ std::uint64_t keptBytes(const Mesh& mesh) {
     return 2 * fullDetailBytes(mesh);
 }
 
-// Returns whether all pyramids may be built on all cores: the largest meshes at the same time, beside the finished
-// pyramids of the others. `order`: mesh indices, the largest mesh first.
+// Returns whether all pyramids may be built on all cores: the largest meshes at the same time, together with the
+// finished pyramids of the others. `order`: mesh indices, the largest mesh first.
 bool fitsInParallel(const std::vector<Mesh>& meshes, const std::vector<std::size_t>& order,
                     const PyramidOptions& options) {
     if (options.memoryLimit == 0) return true;

@@ -20,7 +20,7 @@ namespace {
 
 constexpr float coneWeight = 0.75f;     // weight of similar normals against a compact shape, 0 … 1
 constexpr float minTurn = 1e-3f;        // lower bound of the cost factor for a differing normal
-constexpr std::size_t seedsAhead = 64;  // max triangles beside earlier clusters that are tested as seeds
+constexpr std::size_t seedsAhead = 64;  // max neighbours of earlier clusters that are tested as seeds
 // Max number of triangles around a vertex that one cluster considers. Files may have millions of triangles at one
 // vertex.
 constexpr std::size_t maxNeighbours = 1024;

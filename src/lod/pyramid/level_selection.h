@@ -64,8 +64,8 @@ inline constexpr double proportionalLevels = 10;
 //
 // Metric `measured`: `light` is 6.7 · expectedSampleError(N)². The error of one sample at a random lens position is the
 // standard deviation of the radiance within the blur. The error of N samples is expectedSampleError(N) times that
-// deviation. The levels' error is small beside the sampling error and hardly raises the RMS of both together. The
-// levels' error must be smaller, because it appears as large soft spots on objects. FLIP, like the eye, weighs such
+// deviation. The levels' error is small compared with the sampling error and hardly raises the RMS of both together.
+// The levels' error must be smaller, because it appears as large soft spots on objects. FLIP, like the eye, weighs such
 // spots more than the outlines and fine ghosts caused by sampling.
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double largestRatio = 1.2;  // max ratio of sizes that count as equal in the order of removal
 constexpr double maxEnlargement =
-    4;                              // max size of the neighbour that stands in for a removed component, relative to it
+    4;                              // max size of the neighbour that replaces a component, relative to the component
 constexpr double manyShare = 0.25;  // min fraction of faces for manyAreSmallest()
 constexpr std::uint32_t fewestFaces = 4;  // min faces of a component after collapses: a tetrahedron
 

@@ -13,9 +13,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t maxConvexTriangles = 1000;  // of a primitive that isConvex() tests
-constexpr std::size_t maxParts = 5000;            // of all primitives, because all pairs that overlap are compared
-constexpr double tolerance = 1e-4;                // of the primitive's size; rounding of flat and round shapes
+constexpr std::size_t maxConvexTriangles = 1000;  // max triangles of a primitive that isConvex() tests
+constexpr std::size_t maxParts = 5000;            // max parts in all primitives: all overlapping pairs are compared
+constexpr double tolerance = 1e-4;                // relative to the primitive's size; for rounded flat and round shapes
 
 // A blended or transmissive primitive of an object.
 struct Candidate {
@@ -34,9 +34,9 @@ struct BlendNode {
 
 // Nodes that are related to an earlier node.
 struct Relations {
-    std::vector<std::size_t> before;     // must be drawn before the node
-    std::vector<std::size_t> after;      // must be drawn after the node
-    std::vector<std::size_t> unordered;  // have no order with the node
+    std::vector<std::size_t> before;     // nodes that must be drawn before the node
+    std::vector<std::size_t> after;      // nodes that must be drawn after the node
+    std::vector<std::size_t> unordered;  // nodes that have no order with the node
 };
 
 class BlendSorter {
@@ -57,9 +57,9 @@ private:
 
     FramePlan* plan_;
     const World* world_;
-    std::vector<Candidate> candidates_;  // those of the nearest objects first
+    std::vector<Candidate> candidates_;  // candidates of the nearest objects first
     std::vector<BlendNode> nodes_;
-    std::vector<Relations> relations_;  // of each node to the nodes before it in nodes_
+    std::vector<Relations> relations_;  // relations of each node to the nodes before it in nodes_
 };
 
 void BlendSorter::findCandidates() {
@@ -147,7 +147,7 @@ Relations BlendSorter::relationsOf(std::size_t node) const {
     return relations;
 }
 
-// Finds the relations of all nodes, and makes each node stochastic that has no order with an earlier sorted node.
+// Finds the relations of all nodes. A node that has no order with an earlier sorted node becomes stochastic.
 void BlendSorter::relate() {
     relations_.resize(nodes_.size());
     parallelFor(nodes_.size(), [&](std::size_t i) { relations_[i] = relationsOf(i); });
@@ -162,7 +162,7 @@ void BlendSorter::relate() {
 std::vector<std::size_t> BlendSorter::backToFront() {
     const std::size_t count = nodes_.size();
     std::vector<std::vector<std::size_t>> later(count);
-    std::vector<std::size_t> earlier(count);  // number of nodes left that must be drawn before
+    std::vector<std::size_t> earlier(count);  // number of remaining nodes that must be drawn before the node
     const auto constrain = [&](std::size_t first, std::size_t then) {
         const bool free = nodes_[first].run.stochastic || nodes_[then].run.stochastic;
         if (free && !transmits(first) && !transmits(then)) return;

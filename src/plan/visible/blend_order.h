@@ -1,8 +1,8 @@
 #pragma once
 // Chooses how alpha-blended primitives are drawn: back to front, or by stochastic transparency, where each lens sample
 // shows or skips a fragment according to its alpha (Enderton et al. 2010, Stochastic Transparency). Sorting adds no
-// noise, but it is right only where surfaces have one order in depth for the whole lens. Stochastic transparency needs
-// no order.
+// noise, but it is correct only where surfaces have the same depth order for all lens points. Stochastic transparency
+// needs no order.
 //
 // A convex primitive is one part; of other primitives, each triangle is a part. A part may be drawn before another if a
 // plane separates it from the other part and the lens, because it then never hides the other part (Newell, Newell and

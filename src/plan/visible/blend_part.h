@@ -1,5 +1,5 @@
 #pragma once
-// Parts of blended primitives, and which of them may hide each other.
+// Parts of blended primitives, and tests of which parts may hide each other.
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -20,14 +20,14 @@ struct Plane {
 // with outward normals.
 struct PosedPart {
     std::vector<glm::dvec3> corners;
-    std::vector<Plane> planes;  // of all triangles that are not degenerate
+    std::vector<Plane> planes;  // planes of all triangles that are not degenerate
     double nearest = 0;         // depth, m
     double farthest = 0;        // depth, m
     double rounding = 0;        // m, bound of the corners' rounding errors
 };
 
 struct BlendPart {
-    std::vector<PosedPart> poses;  // one, or one for each shutter time
+    std::vector<PosedPart> poses;  // one pose, or one for each shutter time
     bool flat = false;             // a single triangle
     // Rectangle of the image in px, relative to its centre, that contains all lens samples' images of the part.
     glm::dvec2 low{0}, high{0};

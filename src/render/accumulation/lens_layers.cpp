@@ -219,7 +219,8 @@ LayerImages LensLayers::images(const glm::dvec3& camera) const {
     for (const auto& [slot, attachment] : attachments_)
         if (slot != numberSlot && slot != depthSlot) sums[slot] = total(attachment.sum, attachment.compensation);
 
-    // The depth's third component and its compensation have a meaning of their own; see sum_layer.frag.
+    // In the depth layer, the third component is the nearest depth, and its compensation is the number of samples
+    // (sum_layer.frag).
     result.samples = Image(info_.width, info_.height, 1);
     std::ranges::fill(result.samples.pixels, static_cast<float>(samples_));
     if (const auto depth = attachments_.find(depthSlot); depth != attachments_.end()) {

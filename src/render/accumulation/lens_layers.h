@@ -1,6 +1,6 @@
 #pragma once
-// Draws and sums the layers of a frame beside its picture (defocus/layers.h) in the same lens samples as the picture:
-// the picture's pass writes them as further colour attachments.
+// Draws and sums the data layers of a frame (defocus/layers.h) in the same lens samples as the picture. The picture's
+// pass writes them as further colour attachments.
 
 #include <map>
 #include <string>
@@ -62,10 +62,10 @@ private:
 
     std::vector<Layer> layers_;
     LayerSumInfo info_;
-    std::map<std::string, Attachment> attachments_;  // by the name of the slot in shaders/accumulation/layers.frag
+    std::map<std::string, Attachment> attachments_;  // key: name of the slot in shaders/accumulation/layers.frag
     std::map<Layer, Table> tables_;
     Target target_;
-    Target sums_;  // without a colour that is written
+    Target sums_;  // framebuffer for the sums; its colour is never written
     GlTexture unused_;
     std::map<std::string, Program> programs_;
     Fullscreen fullscreen_;

@@ -152,6 +152,7 @@ private:
             ShaderDefines defines = frame.defines();
             defines.emplace_back("reduction", std::to_string(options_.reduction));
             defines.emplace_back("tileSize", std::to_string(tileSize));
+            if (options_.storage == ComplexStorage::rgb10A2) defines.emplace_back("bracketed", "true");
             if (options_.combined) defines.emplace_back("combinedFields", "true");
             if (options_.nearPremultiplied && !options_.combined) defines.emplace_back("nearPremultiplied", "true");
             if (options_.biasByLuminance) defines.emplace_back("biasByLuminance", "true");
@@ -176,7 +177,7 @@ private:
             return made;
         };
         const TextureFormat colors =
-            options_.storage == ComplexStorage::float32 ? TextureFormat::rgba32f : TextureFormat::rgba16f;
+            options_.storage == ComplexStorage::half ? TextureFormat::rgba16f : TextureFormat::rgba32f;
         farField_ = texture(colors, fieldWidth, fieldHeight);
         farRadius_ = texture(TextureFormat::r32f, fieldWidth, fieldHeight);
         ownNearRadius_ = texture(TextureFormat::r32f, fieldWidth, fieldHeight);
@@ -288,7 +289,9 @@ std::vector<MethodSetting> circularSettings() {
          .choices = {"exact", "eight", "sets"}},
         {.name = "storage",
          .defaultValue = "half",
-         .description = "Pixel format of the sums between the horizontal and the vertical pass",
+         .description = "Pixel format of the sums between the horizontal and the vertical pass. With r10g10b10a2, as "
+                        "in the slides, the sharp and the blurred images have ten bits per channel, too, and radiance "
+                        "above 1 is clipped",
          .choices = {"float", "half", "r10g10b10a2"}},
         {.name = "fields",
          .defaultValue = "separate",

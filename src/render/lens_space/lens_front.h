@@ -37,7 +37,7 @@ struct BinStatistics {
     std::uint32_t tiles = 0;
     std::uint64_t entries = 0;          // list entries of all tiles
     std::uint32_t largestTile = 0;      // max list entries of a tile
-    std::uint64_t bytes = 0;            // of the lists of one band
+    std::uint64_t bytes = 0;            // bytes of the lists of one band
     std::vector<std::uint32_t> counts;  // list entries of each tile
     // Returns the number of entries beyond the first `size` of each tile; 0 for size 0.
     [[nodiscard]] std::uint64_t entriesBeyond(std::uint32_t size) const;
@@ -77,7 +77,7 @@ public:
     [[nodiscard]] const std::vector<TileBand>& bands() const { return bands_; }
     // Returns the groups. Shaders number them from 1: number i is groups()[i − 1], and 0 is the sky.
     [[nodiscard]] const std::vector<ShadedGroup>& groups() const { return groups_; }
-    [[nodiscard]] const ShaderDefines& defines() const { return defines_; }  // for programs that read triangles
+    [[nodiscard]] const ShaderDefines& defines() const { return defines_; }  // defines for programs that read triangles
     [[nodiscard]] bool lightsVertices() const { return lightsVertices_; }
     [[nodiscard]] std::uint32_t vertexCount() const { return vertexCount_; }
     [[nodiscard]] std::uint32_t triangleCount() const { return triangleCount_; }
@@ -92,7 +92,7 @@ private:
         std::uint32_t triangles = 0;
         std::uint32_t firstVertex = 0;
         std::uint32_t draw = 0;
-        std::uint32_t parts = 1;  // of each edge
+        std::uint32_t parts = 1;  // parts per edge
     };
     struct Vertices {  // the vertices of an object at one level of detail
         std::uint32_t object = 0;

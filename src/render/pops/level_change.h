@@ -1,5 +1,5 @@
 #pragma once
-// The change of an image that a change of levels of detail alone makes: two plans of one view and pose that differ only
+// Image changes that are caused only by a change of levels of detail: two plans of one view and pose that differ only
 // in levels, and the pixels that show the difference.
 
 #include <optional>

@@ -2,12 +2,13 @@
 
 namespace defocus::engine {
 
-PinholeImage::PinholeImage(int width, int height, LayerFormat format, TextureFormat depthFormat, bool keepsOwnBlur) {
+PinholeImage::PinholeImage(int width, int height, LayerFormat format, TextureFormat depthFormat, bool keepsOwnBlur,
+                           int samples) {
     const auto textureOf = [&](TextureFormat of) {
-        return GlTexture({.format = of, .width = width, .height = height});
+        return GlTexture({.format = of, .width = width, .height = height, .samples = samples});
     };
     color = textureOf(layerTextureFormat(format));
-    color.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+    if (samples == 1) color.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
     depth = textureOf(depthFormat);
     if (keepsOwnBlur) ownBlur = textureOf(TextureFormat::rg32f);
 }
@@ -20,7 +21,9 @@ void PinholeImage::attachForBlur() const {
 void PinholeImage::readAsCoverage(bool on) {
     constexpr GLint radiance[4] = {GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA};
     constexpr GLint coverage[4] = {GL_ALPHA, GL_ALPHA, GL_ALPHA, GL_ALPHA};
-    glTextureParameteriv(color.name(), GL_TEXTURE_SWIZZLE_RGBA, on ? coverage : radiance);
+    for (const PinholeImage* image : {static_cast<const PinholeImage*>(this), multisampled})
+        if (image != nullptr)
+            glTextureParameteriv(image->color.name(), GL_TEXTURE_SWIZZLE_RGBA, on ? coverage : radiance);
 }
 
 }  // namespace defocus::engine

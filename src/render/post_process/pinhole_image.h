@@ -12,8 +12,9 @@ namespace defocus::engine {
 struct PinholeImage {
     PinholeImage() = default;
     // `format` must have alpha (rgba16f, rgba32f). `depthFormat` is depth32f, or r32f if a fragment shader writes the
-    // depth. If `keepsOwnBlur`, the blur controls of surfaces are stored too.
-    PinholeImage(int width, int height, LayerFormat format, TextureFormat depthFormat, bool keepsOwnBlur);
+    // depth. If `keepsOwnBlur`, the blur controls of surfaces are stored too. `samples` per pixel: above 1, multisampled.
+    PinholeImage(int width, int height, LayerFormat format, TextureFormat depthFormat, bool keepsOwnBlur,
+                 int samples = 1);
 
     // Binds depth and blur controls for shaders/include/pinhole.glsl.
     void attachForBlur() const;
@@ -27,6 +28,7 @@ struct PinholeImage {
     GlTexture ownBlur;  // blur controls of surfaces: factor and offset; empty if no surface has blur controls
     // Rectangle outside which the blurred image is black with zero coverage and need not be drawn. nullopt: full image.
     std::optional<TexelRectangle> part;
+    const PinholeImage* multisampled = nullptr;  // the same image before its samples were averaged; null: none
 };
 
 }  // namespace defocus::engine

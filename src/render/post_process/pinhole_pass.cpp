@@ -17,6 +17,10 @@ void writeOwnBlur(bool on) {
     glColorMaski(1, mask, mask, mask, mask);
 }
 
+Target targetOf(const PinholeImage& image) {
+    return image.ownBlur ? Target({&image.color, &image.ownBlur}, &image.depth) : Target({&image.color}, &image.depth);
+}
+
 }  // namespace
 
 FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t count) {
@@ -49,18 +53,23 @@ FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t c
 }
 
 PinholePass::PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool ownBlur,
-                         const std::filesystem::path& shaderFolder)
+                         int samples, const std::filesystem::path& shaderFolder)
     : format_(format),
       shaderFolder_(shaderFolder),
       image_(width, height, format, TextureFormat::depth32f, ownBlur),
-      target_(ownBlur ? Target({&image_.color, &image_.ownBlur}, &image_.depth)
-                      : Target({&image_.color}, &image_.depth)),
+      target_(targetOf(image_)),
       shadows_(scene, vertexShaderMayPickLayer(), shaderFolder),
       surfaces_(scene, {.fragmentShader = "accumulation/object.frag",
                         .defines = layerFormatDefines(format),
                         .readsOwnBlur = true,
                         .vertexShaderLayers = vertexShaderMayPickLayer(),
-                        .shaderFolder = shaderFolder}) {}
+                        .shaderFolder = shaderFolder}) {
+    if (samples == 1) return;
+    multisampled_ = PinholeImage(width, height, format, TextureFormat::depth32f, ownBlur, samples);
+    image_.multisampled = &multisampled_;
+    resolvedTarget_ = std::move(target_);
+    target_ = targetOf(multisampled_);
+}
 
 void PinholePass::prepare(const FramePlan& pinholes, const FrameUniforms& frame,
                           const std::vector<TransparencyBucket>& buckets) {
@@ -94,9 +103,11 @@ void PinholePass::draw(std::uint32_t index) {
     surfaces_.drawOpaque(index, 1);
     if (ownBlur) writeOwnBlur(false);
     if (!transparent_) surfaces_.drawSky(index, 1);
+    if (multisampled_.color) target_.resolve(resolvedTarget_, false);
     surfaces_.drawTranslucent(index, 1, image_.color, inNoBucket_);
     if (ownBlur) writeOwnBlur(true);
     surfaces_.drawTranslucentDepth(index, 1, inNoBucket_);
+    if (multisampled_.color) target_.resolve(resolvedTarget_, true);
 }
 
 PinholeImage& PinholePass::drawBucket(std::uint32_t index, std::size_t bucket) {

@@ -23,9 +23,9 @@ FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t c
 
 class PinholePass {
 public:
-    // `format` must have alpha (rgba16f, rgba32f). If `ownBlur`, the blur controls of surfaces are stored too. Needs a
-    // current OpenGL context.
-    PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool ownBlur,
+    // `format` must have alpha (rgba16f, rgba32f). If `ownBlur`, the blur controls of surfaces are stored too. With
+    // `samples` > 1 per pixel, the image is multisampled. Needs a current OpenGL context.
+    PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool ownBlur, int samples,
                 const std::filesystem::path& shaderFolder);
 
     // Prepares drawing of `pinholes`. `frame` must have been uploaded for `pinholes` with one layer, and must exist
@@ -35,7 +35,7 @@ public:
     // the background visible through them is blurred by their depth (Scheuermann 2004).
     void draw(std::uint32_t index);
     // Returns the image of the latest draw(): linear radiance with coverage as alpha (1 for an opaque background), and
-    // depth.
+    // depth. Transmitting surfaces of a multisampled image refract the opaque surfaces behind them, but not each other.
     [[nodiscard]] PinholeImage& image() { return image_; }
 
     [[nodiscard]] std::size_t buckets() const { return buckets_.size(); }
@@ -45,14 +45,15 @@ public:
 
     [[nodiscard]] bool hasOwnBlur() const { return static_cast<bool>(image_.ownBlur); }
     [[nodiscard]] std::size_t bytes() const {
-        return image_.bytes() + shadows_.bytes() + surfaces_.bytes() + (bucketPass_ ? bucketPass_->bytes() : 0);
+        return image_.bytes() + multisampled_.bytes() + shadows_.bytes() + surfaces_.bytes() + (bucketPass_ ? bucketPass_->bytes() : 0);
     }
 
 private:
     LayerFormat format_;
     std::filesystem::path shaderFolder_;
     PinholeImage image_;
-    Target target_;
+    PinholeImage multisampled_;         // empty without multisampling
+    Target target_, resolvedTarget_;    // of the image that is drawn, and of image_ with multisampling
     bool transparent_ = false;  // true if the background is transparent
     ShadowMaps shadows_;
     SurfacePass surfaces_;

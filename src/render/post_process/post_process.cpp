@@ -125,7 +125,8 @@ private:
         if (!same) {
             sum_.reset();  // free the old sum first, because memory may not suffice for both
             sum_.emplace(LayerSumInfo{view.width, view.height, 1, format, options_.shaderFolder});
-            pinhole_.emplace(scene_, view.width, view.height, format, plan_.usesOwnBlur, options_.shaderFolder);
+            pinhole_.emplace(scene_, view.width, view.height, format, plan_.usesOwnBlur,
+                             process_->samplesPerPixel(), options_.shaderFolder);
         }
         sum_->reset();
         if (plan_.needsAlpha) prepareProgram(coverageToAlpha_, "post_process/coverage_to_alpha.frag");

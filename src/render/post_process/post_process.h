@@ -22,6 +22,8 @@ public:
     virtual void draw(const PinholeImage& pinhole, const FrameUniforms& frame, const Target& output) = 0;
     // Returns whether the blur is nowhere larger than the lens blur in the plan.
     [[nodiscard]] virtual bool blursAsTheLens() const { return true; }
+    // Returns the samples per pixel of the pinhole image that draw() takes. Above 1, the image is multisampled.
+    [[nodiscard]] virtual int samplesPerPixel() const { return 1; }
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 

@@ -25,12 +25,12 @@ std::uint32_t firstSamples(const FramePlan& plan, Quality quality);
 // apart.
 std::uint32_t samplesForBlur(const FramePlan& plan, Quality quality);
 
-// Returns the blur diameter in px from which on a blurred point covers maxAutomaticSamples images, so that less than
-// one of that many samples has the point in the image.
+// Returns the blur diameter in px at which the blur disk has maxAutomaticSamples times the area of the image. In wider
+// disks, fewer than one of that many samples shows the blurred point.
 double largestSampledBlur(const FramePlan& plan);
 
-// Returns whether the bounded blur of some object exceeds largestSampledBlur(). Further samples then do not make the
-// image better soon, because single samples show the object sharply.
+// Returns whether the bounded blur of some object exceeds largestSampledBlur(). Further samples then hardly improve the
+// image, because single samples show the object sharply.
 bool blursBeyondSamples(const FramePlan& plan);
 
 // Returns the largest blur diameter in px of the plan's objects with bounded blur; 0 without such objects. Blur above

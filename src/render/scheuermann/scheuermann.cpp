@@ -48,8 +48,12 @@ public:
           thinLens_(options.settings.at("coc") == "thin-lens"),
           unlimited_(options.settings.at("max-coc") == "unlimited"),
           bytes_(options.settings.at("bits") == "8"),
+          samples_(std::stoi(options.settings.at("multisampling"))),
           settings_(options.settings),
-          points_(poissonDisk(taps_)) {}
+          points_(poissonDisk(taps_)) {
+        if (samples_ > 1 && options.settings.at("transparency-buckets") != "0")
+            fail("method scheuermann: multisampling has no effect on transparency-buckets; leave one of them out");
+    }
 
     void start(const FramePlan& plan, const FrameUniforms& frame) override {
         if (plan.usesCocControls && !thinLens_)
@@ -78,8 +82,9 @@ public:
         frame.bind(0);
         // Draw colour with blurriness, and a small pre-blurred copy.
         sharpTarget_.bind();
-        pinhole.color.attach(0);
-        pinhole.attachForBlur();
+        const PinholeImage& drawn = samples_ > 1 ? *pinhole.multisampled : pinhole;
+        drawn.color.attach(0);
+        drawn.attachForBlur();
         fullscreen_.draw(blurriness_);
         reducedTarget_.bind();
         sharp_.attach(0);
@@ -98,6 +103,7 @@ public:
     }
 
     [[nodiscard]] bool blursAsTheLens() const override { return thinLens_; }
+    [[nodiscard]] int samplesPerPixel() const override { return samples_; }
 
     [[nodiscard]] std::size_t bytes() const override { return sharp_.bytes() + reduced_.bytes() + small_.bytes(); }
 
@@ -139,6 +145,7 @@ private:
         ShaderDefines blurriness = frame.defines();
         if (thinLens_) blurriness.emplace_back("thinLens", "true");
         if (bytes_) blurriness.emplace_back("encodedColor", "true");
+        blurriness.emplace_back("pinholeSamples", std::to_string(samples_));
         blurriness_ = pass("scheuermann/blurriness.frag", std::move(blurriness));
         reduce_ = pass("scheuermann/reduce.frag", {{"reduction", std::to_string(smallReduction)}});
         preblur_ = pass("scheuermann/preblur.frag", {});
@@ -171,7 +178,8 @@ private:
     std::uint32_t taps_;
     bool thinLens_;
     bool unlimited_;
-    bool bytes_;  // true: 8-bit encoded colour, as published; false: half floats
+    bool bytes_;   // true: 8-bit encoded colour, as published; false: half floats
+    int samples_;  // per pixel of the pinhole image
     MethodSettings settings_;
     std::vector<glm::vec2> points_;  // taps in the unit disk
     bool shaped_ = false;            // true if the aperture is not a disk
@@ -280,6 +288,11 @@ Method scheuermannMethod() {
          .description =
              "Bits per channel of the stored images: 16 for half floats, 8 for display-encoded bytes, as in the slides",
          .choices = {"16", "8"}},
+        {.name = "multisampling",
+         .defaultValue = "1",
+         .description = "Samples per pixel of a multisampled sharp image. Its colour and blurriness are averaged "
+                        "before the blur; the slides use a multisampled image. 1: no multisampling",
+         .choices = {"1", "4"}},
         byHand("near-blur-depth", "Depth in m in front of which the blur is at its maximum; 0: computed from the lens",
                1e9),
         byHand("focal-plane-depth", "Depth in m that is in focus; 0: the focus distance", 1e9),

@@ -14,9 +14,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::uint64_t programBytes = 80u << 20;     // of the compiled programs of a software driver
-constexpr std::uint64_t outputBytes = 16u << 20;      // of the libraries that write the image, measured
-constexpr std::uint64_t occlusionTriangleBytes = 12;  // of Occlusion, measured
+constexpr std::uint64_t programBytes = 80u << 20;     // bytes of a software driver's compiled programs
+constexpr std::uint64_t outputBytes = 16u << 20;      // bytes of the libraries that write the image, measured
+constexpr std::uint64_t occlusionTriangleBytes = 12;  // bytes per triangle of Occlusion, measured
 
 std::uint64_t threeQuarters(std::uint64_t bytes) {
     return bytes / 4 * 3;

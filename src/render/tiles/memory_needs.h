@@ -28,8 +28,8 @@ std::uint64_t waveBytesWithin(std::uint64_t limit);
 // Returns RendererOptions::pendingBytes for a frame: the default, or a twelfth of `limit` if this is less.
 std::uint64_t pendingBytesWithin(std::uint64_t limit);
 
-// Returns the number of layers per wave: TilingNeeds::askedWave, or as many as fit beside sums and images into at most
-// a quarter of the memory. `needs` is the result of needsBeforeUpload().
+// Returns the number of layers per wave: TilingNeeds::askedWave, or as many as fit together with sums and images into
+// at most a quarter of the memory. `needs` is the result of needsBeforeUpload().
 std::uint32_t waveWithin(const TilingNeeds& needs);
 
 // Returns the needs of the full frame before its scene is uploaded. With software drivers, they include meshes and

@@ -26,7 +26,7 @@ double yfovOf(const CameraTake& take, const CameraSample& sample) {
     return 2 * std::atan(tanHalfHorizontal(sample) / take.aspect);
 }
 
-// Lens values of the extras. The field of view gives the focal length.
+// Returns the names of the lens values that the extras store. The focal length follows from the field of view.
 std::vector<std::string> extraNames(const CameraTake& take) {
     std::vector<std::string> names = lensNames(take);
     std::erase(names, "focalLength");

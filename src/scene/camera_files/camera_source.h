@@ -1,5 +1,5 @@
 #pragma once
-// Opens a camera that a file of its own holds.
+// Opens a camera that is stored in a separate file.
 
 #include <filesystem>
 #include <string>

@@ -27,7 +27,7 @@ struct CameraTake {
     std::optional<ShutterInterval> shutter;
 };
 
-// Value of a sample's lens, or `otherwise`.
+// Returns a lens value of a sample, or `otherwise` if the sample lacks the value.
 double lensValueOf(const CameraSample& sample, std::string_view name, double otherwise);
 
 // Returns the tangent of half the horizontal field of view.

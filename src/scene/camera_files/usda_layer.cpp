@@ -176,7 +176,7 @@ private:
             const char last = first == '(' ? ')' : ']';
             for (++at_; !accept(last);) {
                 value(into, keep, depth + 1);
-                if (next() == '(' && first == '[') skipBlock();  // layer offset of a reference
+                if (next() == '(' && first == '[') skipBlock();  // skips the layer offset of a reference
                 if (!accept(',') && next() != last) refuse(fmt::format("expected ',' or '{}'", last));
             }
         } else if (first == '{') {

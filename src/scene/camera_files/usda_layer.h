@@ -26,7 +26,7 @@ struct UsdPrim {
     std::string specifier;  // "def", "over" or "class"
     std::string type;       // "Camera", "Xform", …; empty: none
     std::string name;
-    std::map<std::string, UsdAttribute, std::less<>> attributes;  // of transforms and of cameras only
+    std::map<std::string, UsdAttribute, std::less<>> attributes;  // attributes of transforms and of cameras only
     std::vector<std::string> arcs;                                // "references", "payload", "variantSets", …
     std::vector<UsdPrim> children;
 };

@@ -286,8 +286,8 @@ constexpr Property rootProperties[] = {
 // JSON numbers represent all integers exactly only up to 2^53.
 constexpr std::uint64_t largestSize = 1ull << 53;
 
-// Place in the document, such as "nodes[3].mesh". It becomes text only for an error, because a file may have millions
-// of properties.
+// Position in the document, such as "nodes[3].mesh". It becomes text only for an error, because a file may have
+// millions of properties.
 class Place {
 public:
     Place() = default;  // the document's root

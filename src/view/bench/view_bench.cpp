@@ -11,10 +11,8 @@
 
 #include "core/error.h"
 #include "core/stopwatch.h"
-#include "frame/driver/reference_image.h"
-#include "gl/timer.h"
 #include "image/metrics.h"
-#include "view/picture/live_picture.h"
+#include "view/bench/bench_picture.h"
 
 namespace defocus::engine {
 
@@ -35,32 +33,6 @@ struct ShownFrame {
 
 using References = std::map<std::uint32_t, Image>;  // by frame; all methods have the same camera path
 
-// Returns the image at another size, bilinearly interpolated between pixel centres as the window's texture is.
-Image enlarged(const Image& image, int width, int height) {
-    if (image.width == width && image.height == height) return image;
-    Image result(width, height, image.channels);
-    const auto place = [](int to, int sizeTo, int sizeFrom) {
-        const double from = (to + 0.5) * sizeFrom / sizeTo - 0.5;
-        const double clamped = std::clamp(from, 0.0, sizeFrom - 1.0);
-        const int low = std::min(static_cast<int>(clamped), std::max(0, sizeFrom - 2));
-        return std::pair(low, static_cast<float>(clamped - low));
-    };
-    for (int y = 0; y < height; ++y) {
-        const auto [y0, v] = place(y, height, image.height);
-        const int y1 = std::min(y0 + 1, image.height - 1);
-        for (int x = 0; x < width; ++x) {
-            const auto [x0, u] = place(x, width, image.width);
-            const int x1 = std::min(x0 + 1, image.width - 1);
-            for (int c = 0; c < image.channels; ++c) {
-                const float top = std::lerp(image.at(x0, y0)[c], image.at(x1, y0)[c], u);
-                const float bottom = std::lerp(image.at(x0, y1)[c], image.at(x1, y1)[c], u);
-                result.at(x, y)[c] = std::lerp(top, bottom, v);
-            }
-        }
-    }
-    return result;
-}
-
 double percentile95(std::vector<double> values) {
     const auto place = values.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(values.size() - 1));
     std::ranges::nth_element(values, place);
@@ -70,7 +42,11 @@ double percentile95(std::vector<double> values) {
 class MethodRun {
 public:
     MethodRun(Document& document, ViewState& state, const ViewBenchOptions& options, References& references)
-        : document_(document), state_(state), options_(options), references_(references) {}
+        : document_(document),
+          state_(state),
+          options_(options),
+          references_(references),
+          picture_(document, state, options.software) {}
 
     ViewBenchRow measure(const MethodUse& method, const Progress& progress) {
         row_.method = method.text();
@@ -79,37 +55,23 @@ public:
         rest(settledSeconds);
         move(progress);
         rest(options_.restSeconds);
-        row_.samples = picture_.image->samples();
-        const ShownFrame still{options_.frames, currentView(document_, state_), picture_.image->image()};
+        row_.samples = picture_.image().samples();
+        const ShownFrame still{options_.frames, currentView(document_, state_), picture_.image().image()};
         row_.movingPsnr = psnrOf(moving_, progress);
         row_.stillPsnr = psnrOf({&still, 1}, progress);
         return row_;
     }
 
 private:
-    // Draws the picture for the state as the window does, and waits for the GPU.
-    void draw() {
-        const std::string faultBefore = std::exchange(state_.fault, {});
-        updateWorld(document_, state_, false);
-        updatePicture(picture_, document_, state_, options_.software, 0, false);
-        waitForGpu();
-        if (!state_.fault.empty()) throw Error(row_.method + ": " + state_.fault);
-        state_.fault = faultBefore;
-    }
-
     // Draws until the picture has converged, or for `seconds`. Notes the times of the first and the converged picture.
     void rest(double seconds) {
         const Clock::time_point begin = Clock::now();
         const auto elapsed = [&] { return 1e-3 * millisecondsSince(begin); };
         row_.stillPicture = row_.converged = std::numeric_limits<double>::infinity();
         while (elapsed() < seconds) {
-            growPicture(picture_, document_, state_);
-            draw();
-            const ViewPicture& image = *picture_.image;
-            if (image.moving()) {
-                std::this_thread::sleep_for(1ms);
-                continue;
-            }
+            picture_.grow();
+            const ViewPicture& image = picture_.image();
+            if (image.moving()) continue;
             if (image.samples() >= minStillSamples) row_.stillPicture = std::min(row_.stillPicture, elapsed());
             if (!image.finished()) continue;
             row_.converged = elapsed();
@@ -125,11 +87,11 @@ private:
             state_.camera = orbited(start, frame * step, 0);
             state_.followsCamera = false;
             const Clock::time_point begin = Clock::now();
-            draw();
+            picture_.draw();
             times.push_back(millisecondsSince(begin));
             for (const double share : comparedShares)
                 if (frame == std::lround(share * options_.frames))
-                    moving_.push_back({frame, currentView(document_, state_), picture_.image->image()});
+                    moving_.push_back({frame, currentView(document_, state_), picture_.image().image()});
         }
         row_.firstPicture = times.front();
         double sum = 0;
@@ -142,11 +104,7 @@ private:
     const Image& referenceOf(const ShownFrame& frame, const Progress& progress) {
         Image& image = references_[frame.frame];
         if (!image.empty()) return image;
-        ReferenceOptions reference;
-        reference.samples = options_.referenceSamples;
-        reference.renderer.shaderFolder = options_.shaderFolder;
-        reference.shadows = state_.options.shadows;
-        image = renderedReference(document_.frame->world, frame.view, reference, progress).image;
+        image = benchReference(document_, state_, frame.view, options_, progress);
         return image;
     }
 
@@ -164,7 +122,7 @@ private:
     ViewState& state_;
     const ViewBenchOptions& options_;
     References& references_;
-    LivePicture picture_;
+    BenchPicture picture_;
     std::vector<ShownFrame> moving_;
     ViewBenchRow row_;
 };

@@ -98,7 +98,7 @@ void updatePose(Document& document, ViewState& state) {
 void updateNodeBlur(Document& document, ViewState& state) {
     Scene& scene = *document.frame->scene;
     const std::size_t count =
-        std::min(scene.nodes.size(), document.ownBlurs.size());  // one of both may lack the ground's node
+        std::min(scene.nodes.size(), document.ownBlurs.size());  // one of the two lists may lack the ground's node
     for (std::size_t i = 0; i < count; ++i) scene.nodes[i].cocScale = document.ownBlurs[i];
     setNodeBlur(state.options, scene);
     updatePose(document, state);

@@ -123,6 +123,7 @@ std::string lensLabel(const Lens& lens) {
 
 std::string samplesLabel(const ViewPicture& picture) {
     const std::uint32_t samples = picture.samples();
+    if (picture.refocused()) return fmt::format("refocused from {} lens images", samples);
     std::string text =
         fmt::format("{} {}{}", samples, samples == 1 ? "sample" : "samples", picture.finished() ? " ✓" : "");
     if (const std::optional<double> error = picture.estimatedError())

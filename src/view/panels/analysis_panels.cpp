@@ -75,7 +75,7 @@ void performancePanel(const Ui& ui) {
     rowLabel("Max samples", "Maximum number of samples while the view does not change");
     if (slider("##samples", state.maxSamples, 64, 16384, ImGuiSliderFlags_Logarithmic))
         state.maxSamples = (state.maxSamples + 63) / 64 * 64;
-    settingRow(state.options, "targetError", "0.003");
+    settingRow(state.options, "targetError");
     if (ui.picture.image) {
         std::vector<PassTime> parts = ui.picture.image->passes();
         parts.push_back({"interface", ui.times.interface});

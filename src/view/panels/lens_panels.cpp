@@ -53,6 +53,19 @@ void nodeBlurRow(const Ui& ui) {
     ImGui::EndDisabled();
 }
 
+// Draws how many lens images the window keeps for changes of focus and f-number. The tooltip says why it keeps none.
+void lensImagesRow(const Ui& ui) {
+    const KeptImages* const kept = ui.picture.image ? ui.picture.image->keptImages() : nullptr;
+    std::string about =
+        "Images of single lens samples of the still view. While you change the focus or stop down, the window computes "
+        "the picture from these images";
+    if (kept == nullptr || kept->planned() == 0) {
+        if (kept != nullptr && !kept->obstacle().empty()) about += ". There are none: " + kept->obstacle();
+        return textRow("Lens images", "none", about.c_str());
+    }
+    textRow("Lens images", fmt::format("{} of {}", kept->drawn(), kept->planned()), about.c_str());
+}
+
 }  // namespace
 
 void focusPanel(const Ui& ui) {
@@ -60,6 +73,7 @@ void focusPanel(const Ui& ui) {
     fieldRows(ui.state, LensSection::focus);
     focusPointsRow(ui.state);
     nodeBlurRow(ui);
+    lensImagesRow(ui);
     ImGui::Checkbox("Peaking", &ui.state.display.focusPeaking);
     tooltip("Mark sharp edges in focus (P)");
     ImGui::SameLine();

@@ -73,8 +73,8 @@ void surroundingsPanel(const Ui& ui) {
     settingRow(options, "shadows");
     const Shadows shadows = options.shadows;
     if (shadows == Shadows::on || (shadows == Shadows::automatic && options.ground)) {
-        settingRow(options, "lightAngle", "5");
-        settingRow(options, "lightRadius", "0.1");
+        settingRow(options, "lightAngle");
+        settingRow(options, "lightRadius");
     }
     ImGui::EndDisabled();
 }
@@ -87,7 +87,7 @@ void settingsPanel(const Ui& ui) {
         const SettingContext context{request, *chosenMethod(request).method, ui.scene(), ui.state.lens};
         const std::string reason = setting.unused ? setting.unused(context) : "";
         ImGui::BeginDisabled(!reason.empty());
-        settingRow(request, setting.name, setting.example);
+        settingRow(request, setting.name);
         ImGui::EndDisabled();
     }
 }

@@ -69,6 +69,7 @@ PictureRequest pictureRequest(const Document& document, const ViewState& state, 
     result.display.exposure = shownExposure(state);
     result.display.toneMap = state.options.toneMap;
     result.maxSamples = state.maxSamples;
+    result.imageBytes = state.imageBytes;
     result.targetError = state.options.targetError;
     if (state.poppingSince) {
         result.view.lens.focusDistance = poppingFocus(plan, result.view.nearPlane, state.now - *state.poppingSince);

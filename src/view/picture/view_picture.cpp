@@ -20,8 +20,8 @@ constexpr double visibleGrowth = 1.08;        // relative growth of the sample c
 constexpr double softwareGrowthTime = 60;     // min time per frame for adding samples if OpenGL runs on the CPU, ms
 constexpr auto psnrInterval = 700ms;
 
-// Returns the numbers of a request that affect its images, in addition to settings, sides and aperture image. Exposure
-// time and ISO only affect the display.
+// Returns the numbers of a request that affect its images, in addition to settings, sides, aperture image and
+// focusKey(). Exposure time and ISO only affect the display.
 std::vector<double> imageKey(const PictureRequest& request) {
     const View& view = request.view;
     std::vector<double> key = {static_cast<double>(view.width), static_cast<double>(view.height), view.nearPlane,
@@ -30,9 +30,14 @@ std::vector<double> imageKey(const PictureRequest& request) {
     const double* const matrix = glm::value_ptr(view.worldFromCamera);
     key.insert(key.end(), matrix, matrix + 16);
     Lens lens = view.lens;
-    lens.exposureTime = lens.iso = 1;
+    lens.exposureTime = lens.iso = lens.focusDistance = lens.fStop = 1;
     for (const LensField& field : lensFields()) key.push_back(lensFieldValue(lens, field));
     return key;
+}
+
+// Returns the values that pictures from kept images may change.
+std::vector<double> focusKey(const Lens& lens) {
+    return {lens.focusDistance, lens.fStop};
 }
 
 std::vector<double> displayKey(const DisplaySettings& display) {
@@ -79,15 +84,28 @@ ViewPicture::ViewPicture(const World& world, RendererOptions options, bool softw
 
 const FramePlan& ViewPicture::plan() const {
     static const FramePlan empty;
+    if (refocused_) return refocused_->plan;
     return sides_.empty() ? empty : first().plan();
+}
+
+std::uint32_t ViewPicture::samples() const {
+    if (refocused_) return refocused_->images;
+    return sides_.empty() ? 0 : first().samples();
+}
+
+const GlTexture& ViewPicture::firstTexture() {
+    return refocused_ ? images_->picture() : *sides_[0]->image.texture();
 }
 
 void ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
     const std::vector<double> key = imageKey(request);
     const std::shared_ptr<const Image>& aperture = request.view.lens.apertureImage;
     const bool otherSettings = request.settingsKey != lastSettings_;
-    const bool changed = prepareSides(request) || key != lastKey_ || otherSettings || aperture != lastAperture_;
+    const std::vector<double> focus = focusKey(request.view.lens);
+    const bool otherScene = prepareSides(request) || key != lastKey_ || otherSettings || aperture != lastAperture_;
+    const bool changed = otherScene || focus != lastFocusKey_;
     lastKey_ = key;
+    lastFocusKey_ = focus;
     lastSettings_ = request.settingsKey;
     lastAperture_ = aperture;
     const std::vector<double> shown = displayKey(request.display);
@@ -95,15 +113,27 @@ void ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
     lastDisplayKey_ = shown;
 
     showsWork_ = request.display.overlay == DisplayOverlay::work;
+    if (otherScene && images_) images_->discard();
     if (changed) {
         ++changes_;
-        drawMoving(request, budget);
+        refocused_.reset();
+        if (otherScene || !drawRefocused(request, budget.milliseconds)) drawMoving(request, budget);
         growing_ = false;
         grows_ = true;
         settlesAt_ = Clock::now() + settleTime;
         presents = true;
     } else if (!growing_ && !request.fixedQuality && Clock::now() >= settlesAt_) {
+        if (refocused_ && !refocusedFully()) {
+            drawRefocused(request, std::numeric_limits<double>::infinity());
+            presents = true;
+        }
         beginGrowing(request);
+    } else if (grown_ && refocused_) {
+        if (minSamples() >= refocused_->images || !grows_) {
+            refocused_.reset();
+            aovsCurrent_ = false;
+            presents = true;
+        }
     } else if (grown_) {
         presents = presents || minSamples() >= static_cast<std::uint32_t>(visibleGrowth * presentedSamples_) || !grows_;
     }
@@ -112,7 +142,7 @@ void ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
         growWork(growthTime(budget));
         presents = true;
     }
-    const bool tooFew = growing_ && grows_ && minSamples() < minShownSamples;
+    const bool tooFew = growing_ && grows_ && !refocused_ && minSamples() < minShownSamples;
     if (!presents || tooFew) return;
     presentedSamples_ = minSamples();
     present(request);
@@ -179,6 +209,29 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     notePasses();
 }
 
+// Draws the picture from the kept images. If OpenGL runs on the CPU, it adds as many images as about `milliseconds`
+// allow, at least KeptImages::minImages. Returns false if the images don't serve the request.
+bool ViewPicture::drawRefocused(const PictureRequest& request, double milliseconds) {
+    const Lens& lens = request.view.lens;
+    const std::uint32_t serving = images_ && images_->complete() && !showsWork_ ? images_->serving(lens) : 0;
+    if (serving == 0) return false;
+    const Clock::time_point begin = Clock::now();
+    const double fitting = software_ ? milliseconds / imageMilliseconds_ : KeptImages::maxImages;
+    const std::uint32_t images = std::min(
+        serving, static_cast<std::uint32_t>(std::clamp<double>(fitting, KeptImages::minImages, KeptImages::maxImages)));
+    images_->refocus(lens, images);
+    waitForGpu();
+    const double time = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    imageMilliseconds_ = time / images;
+    RenderSettings settings = settingsOf(request.settings, request.sides[0]);
+    settings.sampleCount = images;
+    refocused_ = {planFrame(*world_, request.view, settings), images, serving};
+    aovsCurrent_ = workCurrent_ = workGrows_ = false;
+    passTotals_.clear();
+    passes_ = {{"refocus", time}};
+    return true;
+}
+
 void ViewPicture::beginGrowing(const PictureRequest& request) {
     growing_ = true;
     grows_ = true;
@@ -190,9 +243,29 @@ void ViewPicture::beginGrowing(const PictureRequest& request) {
                           request.targetError);
     nextPsnr_ = Clock::now() + psnrInterval;
     aovsCurrent_ = workCurrent_ = workGrows_ = false;
+    planImages(request);
+}
+
+// Plans lens images of a still view, unless there are images that serve it.
+void ViewPicture::planImages(const PictureRequest& request) {
+    const bool sums = parseMethodUse(request.sides[0].method).method->sumsBlocks;
+    if (request.imageBytes == 0 || request.sides.size() > 1 || !sums) return;
+    if (!images_) images_.emplace(*world_, options_);
+    if (images_->serving(request.view.lens) > 0) return;
+    images_->begin(request.view, settingsOf(request.settings, request.sides[0]), first().plan(), request.imageBytes);
+}
+
+// Returns whether grow() draws kept images next.
+bool ViewPicture::keepsMore() const {
+    if (!growing_ || !images_ || images_->drawn() == images_->planned()) return false;
+    return first().samples() >= blockSamples || !grows_;
 }
 
 void ViewPicture::grow(const FrameBudget& budget) {
+    if (keepsMore()) {
+        images_->grow(growthTime(budget));
+        return;
+    }
     if (!growing_ || !grows_) return;
     grown_ = true;
     // Add samples to the side with fewer samples, so that both sides stay comparable.
@@ -247,7 +320,7 @@ void ViewPicture::present(const PictureRequest& request) {
     const DisplaySettings& display = request.display;
     if (display.needsAovs()) drawAovs(display.wireframe);
     DisplayInputs inputs;
-    inputs.first = sides_[0]->image.texture();
+    inputs.first = &firstTexture();
     if (sides_.size() > 1) inputs.second = sides_[1]->image.texture();
     if (aovsCurrent_) {
         inputs.coc = &aovs_->coc();

@@ -2,6 +2,11 @@
 // Renders the picture of the window on the GPU. While the view changes, each frame is drawn completely, in a quality
 // that fits the time budget. While the view is still, the image accumulates samples. Shows one image, or two for
 // comparison, and overlays.
+//
+// After the first block of samples of a still view, its lens images are kept (kept_images.h). If only the focus
+// distance or the f-number changes, the picture is computed from these images until the accumulated image has as many
+// samples. If OpenGL runs on the CPU and adding all images takes longer than the budget, fewer images are added until
+// the view is still.
 
 #include <chrono>
 #include <memory>
@@ -15,6 +20,7 @@
 #include "render/aov/work.h"
 #include "render/display/display_pass.h"
 #include "render/sampling/progressive_image.h"
+#include "view/picture/kept_images.h"
 #include "view/state/frame_budget.h"
 
 namespace defocus::engine {
@@ -37,6 +43,7 @@ struct PictureRequest {
     std::optional<double> targetError;         // stops accumulating below this estimated error
     std::optional<FrameQuality> fixedQuality;  // replaces the quality chosen by the budget; disables accumulation
     double restOfFrame = 0;                    // part of the frame's budget that the interface takes, ms
+    std::uint64_t imageBytes = 0;              // max size of the kept lens images in bytes; 0: none are kept
 };
 
 class ViewPicture {
@@ -55,13 +62,21 @@ public:
     [[nodiscard]] bool moving() const { return !growing_; }
     // Returns whether the picture is complete until the request changes.
     [[nodiscard]] bool finished() const { return growing_ && !grows_ && !(showsWork_ && workGrows_); }
-    [[nodiscard]] std::uint32_t samples() const { return sides_.empty() ? 0 : first().samples(); }
+    // Returns whether grow() has nothing left to draw.
+    [[nodiscard]] bool idle() const { return finished() && !keepsMore(); }
+    // Returns the lens samples in the first image, or the kept images in a refocused picture.
+    [[nodiscard]] std::uint32_t samples() const;
+    // Returns whether the picture is computed from kept images, and whether it is computed from all that serve it.
+    [[nodiscard]] bool refocused() const { return refocused_.has_value(); }
+    [[nodiscard]] bool refocusedFully() const { return refocused_ && refocused_->images == refocused_->serving; }
+    // Returns null before the first still view.
+    [[nodiscard]] const KeptImages* keptImages() const { return images_ ? &*images_ : nullptr; }
     // Returns whether the first image of a still view has reached its target error.
     [[nodiscard]] bool converged() const { return growing_ && first().converged(); }
     [[nodiscard]] std::optional<double> estimatedError() const {
-        return growing_ ? first().estimatedError() : std::nullopt;
+        return growing_ && !refocused_ ? first().estimatedError() : std::nullopt;
     }
-    [[nodiscard]] Image image() { return readBack(*sides_[0]->image.texture(), 4); }  // first image, linear RGBA
+    [[nodiscard]] Image image() { return readBack(firstTexture(), 4); }  // first image, linear RGBA
     [[nodiscard]] const FramePlan& plan() const;  // plan of the first image; empty without an image
     // Returns the second side; null without a comparison.
     [[nodiscard]] const PictureSide* secondSide() const { return sides_.size() > 1 ? &sides_[1]->shows : nullptr; }
@@ -81,12 +96,23 @@ private:
         ProgressiveImage image;
     };
 
+    // Picture from kept images, which replaces the first image.
+    struct Refocused {
+        FramePlan plan;
+        std::uint32_t images = 0;
+        std::uint32_t serving = 0;  // KeptImages::serving
+    };
+
     [[nodiscard]] const ProgressiveImage& first() const { return sides_[0]->image; }
+    [[nodiscard]] const GlTexture& firstTexture();
     [[nodiscard]] std::uint32_t minSamples() const;                    // smaller sample count of both sides
     [[nodiscard]] double growthTime(const FrameBudget& budget) const;  // ms
     bool prepareSides(const PictureRequest& request);
     void drawMoving(const PictureRequest& request, FrameBudget& budget);
+    bool drawRefocused(const PictureRequest& request, double milliseconds);
     void beginGrowing(const PictureRequest& request);
+    void planImages(const PictureRequest& request);
+    [[nodiscard]] bool keepsMore() const;
     void present(const PictureRequest& request);
     void notePasses();
     void drawAovs(bool wireframe);
@@ -104,7 +130,10 @@ private:
     bool workCurrent_ = false;
     bool workGrows_ = false;  // the work overlay needs more samples
     std::vector<std::unique_ptr<Side>> sides_;
-    std::vector<double> lastKey_, lastDisplayKey_;
+    std::optional<KeptImages> images_;
+    std::optional<Refocused> refocused_;
+    double imageMilliseconds_ = 10;  // time for adding one kept image to a picture, from the latest picture
+    std::vector<double> lastKey_, lastFocusKey_, lastDisplayKey_;
     std::string lastSettings_;
     std::shared_ptr<const Image> lastAperture_;
     Clock::time_point settlesAt_;

@@ -121,7 +121,8 @@ struct ViewState : ViewEdit, SceneState {
     Comparison comparison = Comparison::none;
     std::string comparedMethod = "circular";
     FrameBudget budget;
-    std::uint32_t maxSamples = 4096;  // max lens samples of a still view
+    std::uint32_t maxSamples = 4096;        // max lens samples of a still view
+    std::uint64_t imageBytes = 1ull << 30;  // max size of the kept lens images in bytes; 0: none are kept
 
     // State of the window.
     bool panel = true;

@@ -93,6 +93,10 @@ bool valueIsSet(const std::string& name, std::string& text, const std::string& f
 
 }  // namespace
 
+bool settingRow(Request& request, const std::string& name) {
+    return settingRow(request, name, settingNamed(name)->example);
+}
+
 bool settingRow(Request& request, const std::string& name, const std::string& first) {
     const Setting& setting = *settingNamed(name);
     ImGui::PushID(name.c_str());

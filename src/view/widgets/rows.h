@@ -10,8 +10,10 @@
 namespace defocus::engine {
 
 // Draws the row of the setting `name`. Returns whether the request changed. Values that the setting rejects are
-// ignored. `first`: for a setting that may be unset, the value that it gets when it is turned on.
-bool settingRow(Request& request, const std::string& name, const std::string& first = "");
+// ignored. `first`: the value that a checkbox turns on; empty: no checkbox, since the setting always has a value. The
+// default of `first` is the example in the table of settings, which every setting has that may be unset.
+bool settingRow(Request& request, const std::string& name);
+bool settingRow(Request& request, const std::string& name, const std::string& first);
 
 // Draws the row of a lens field. Returns whether the lens changed. Values that checkLens rejects are ignored.
 bool lensFieldRow(Lens& lens, const LensField& field);

@@ -21,7 +21,7 @@ double idleTime(const Session& session) {
     const ViewState& state = session.state;
     const bool loading = session.document.loader.busy();
     if (!session.picture.image) return loading ? 0.03 : 0.1;
-    const bool moves = state.playing || state.pull || state.poppingSince || !session.picture.image->finished();
+    const bool moves = state.playing || state.pull || state.poppingSince || !session.picture.image->idle();
     if (moves || session.still || session.options.frames > 0) return 0;
     if (loading || state.marker.shown) return 0.03;
     return state.messages.empty() && !session.openDialog.desktop.running() ? 0.25 : 0.1;

@@ -25,12 +25,15 @@ ordered_json pictureJson(const Session& session) {
     const ViewPicture* const image = picture.image ? &*picture.image : nullptr;
     static const FramePlan empty;
     const FramePlan& plan = image ? image->plan() : empty;
+    const KeptImages* const kept = image ? image->keptImages() : nullptr;
     return {
         {"samples", image ? image->samples() : 0},
         {"converged", image && image->converged()},
         {"moving", image && image->moving()},
         {"changes", image ? image->changes() : 0},
         {"begun", image ? image->begun() : 0},
+        {"refocused", image && image->refocused()},
+        {"lensImages", kept ? kept->drawn() : 0},
         {"workSamples", image ? image->workSamples() : 0},
         {"psnr", image && image->psnr() ? ordered_json(*image->psnr()) : ordered_json()},
         {"warnings", picture.warnings},

@@ -1,5 +1,5 @@
-// Tests `defocus capture --refocus`: frames of a still scene come from one set of lens images, other frames stay as
-// they are.
+// Tests `defocus capture --refocus`: frames of a still scene come from one set of lens images, other frames are
+// rendered.
 
 #include "cli/shots.h"
 #include "image/image_io.h"
@@ -13,7 +13,7 @@ using nlohmann::json;
 
 class CaptureRefocus : public Capture {
 protected:
-    // Returns a shot in which only the focus changes, of 64 samples.
+    // Returns a shot in which only the focus changes, with 64 samples per frame.
     static json focusPull() {
         json document = shot();
         document.erase("camera");

@@ -1,4 +1,5 @@
-// Tests `render --lens-images` and `refocus`: what they write, and that each wrong use gives one line and no file.
+// Tests `render --lens-images` and `refocus`: their output files, and that each invalid use gives one error line and no
+// file.
 
 #include <fstream>
 #include <iterator>
@@ -26,7 +27,7 @@ protected:
         return run(words);
     }
 
-    // Expects that a command line is refused in one line with `text`, and that it writes no file.
+    // Expects that a command line is rejected in one line with `text`, and that it writes no file.
     void expectRefused(const Words& line, const std::string& text, int exitCode = 1) const {
         const std::size_t files = fileCount();
         const Outcome outcome = run(line);
@@ -43,7 +44,7 @@ protected:
 
 TEST_F(RefocusCommand, writesPicturesStacksAndPages) {
     ASSERT_EQ(lensImages({"--samples", "16", "--focus-range", "2:5", "--lens-images", "a.lens.exr"}).exitCode, 0);
-    // Any reader opens the file as the image of the first lens point.
+    // Readers of single images see the image of the first lens point.
     EXPECT_EQ(readImage(folder() / "a.lens.exr").channels, 4);
 
     ASSERT_EQ(run({"refocus", "a.lens.exr", "-o", "a.exr", "-o", "a.png", "--focus-distance", "4"}).exitCode, 0);

@@ -88,7 +88,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ManyParts,
 
 class ExtremeLens : public OwnContextTest {};
 
-// The blur of this triangle covers millions of images, so hardly any of 1,024 samples would show it.
+// The blur disk of this triangle has millions of times the area of the image, so hardly any of 1,024 samples would show
+// the triangle.
 TEST_F(ExtremeLens, takesFewSamples) {
     GltfBuilder builder;
     builder.mesh({{{"attributes", {{"POSITION", builder.positions(unitTriangle)}}}}});

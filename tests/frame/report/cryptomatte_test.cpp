@@ -1,4 +1,4 @@
-// Compares hashes and ids with published values, and masks with counts by hand.
+// Compares hashes and ids with published values, and masks with counts computed by hand.
 
 #include "frame/report/cryptomatte.h"
 

@@ -48,7 +48,7 @@ TEST(PlanWarnings, aBlurThatNoSamplesResolveIsNamedWithAScaleThatHelps) {
     small->view.lens.fStop = 1e-4;
     const std::vector<std::string> lines = warningsOf(*small, 32);
     ASSERT_EQ(lines.size(), 1u);
-    EXPECT_NE(lines[0].find("more than 1,024 images"), std::string::npos) << lines[0];
+    EXPECT_NE(lines[0].find("more than 1,024 times"), std::string::npos) << lines[0];
     small->view.lens.blurScale = numberAfter(lines[0], "--blur-scale ");
     EXPECT_TRUE(warningsOf(*small, 256).empty());
 }
@@ -61,7 +61,7 @@ TEST(PlanWarnings, boundedDivisionsAreNamed) {
     ASSERT_EQ(plan.objects.at(0).refinement, Refinement::subdivide);
     const auto says = [&] {
         for (const std::string& line : planWarnings(plan, parseMethodUse("accumulation")))
-            if (line.find("1 object(s) bends") != std::string::npos) return line.find("at most 8 parts") != line.npos;
+            if (line.find("1 object(s) varies") != std::string::npos) return line.find("at most 8 parts") != line.npos;
         return false;
     };
     EXPECT_FALSE(says());

@@ -1,4 +1,4 @@
-// Tests the layers beside the picture against the picture itself and against closed forms.
+// Tests data layers against the picture itself and against closed forms.
 
 #include <algorithm>
 #include <cmath>
@@ -147,7 +147,7 @@ TEST_F(LensLayer, ofAWallAreItsPlaceAndBlur) {
         EXPECT_NEAR(at(Layer::coc), coc, 1e-3);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(Layer::normal, c), c == 2 ? 1 : 0, 1e-3);
         EXPECT_NEAR(at(Layer::albedo, 1), 0.25, 1e-3);
-        // Lens samples are symmetric about the pixel's centre up to their noise: a tenth of the blur.
+        // Lens samples are symmetric about the pixel's centre up to their noise, a tenth of the blur.
         const double pixelWidth = 2 * tanX * 3 / small->view.width;
         const double tolerance = (0.1 * coc + 0.1) * pixelWidth;
         EXPECT_NEAR(at(Layer::position, 0), 0.25 + (pixel.x + 0.5 - 32) * pixelWidth, tolerance);
@@ -170,7 +170,7 @@ TEST_F(LensLayer, ofNothingAreEmpty) {
     EXPECT_EQ(frame.layers.numbers.at(Layer::objects).values[95 * 16], 0u);
 }
 
-// A pane with an alpha of a quarter in front of a wall counts a quarter.
+// A pane with alpha 1/4 in front of a wall has the weight 1/4.
 TEST_F(LensLayer, ofBlendedSurfacesFollowAlpha) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({1, 0, 0, 0.25f}), unlitMaterial({0, 1, 0, 1})};
@@ -212,7 +212,7 @@ TEST_F(LensLayer, motionIsTheWayDuringTheExposure) {
     EXPECT_NEAR(valueAt(frame.layers.means.at(Layer::motion), 48, 32, 1), -0.04 * pixels, 1e-3);
 }
 
-// Layers do not depend on the number of samples drawn together, nor on the other layers.
+// Layers depend neither on the number of samples drawn together nor on the other layers.
 TEST_F(LensLayer, dependOnlyOnTheSamples) {
     const auto small = fiveSpheres();
     const Drawn all = drawn(*small, 70);

@@ -1,4 +1,4 @@
-// Tests of the published forms of the lens-space methods, and of the forms beside them.
+// Tests of the published forms of the lens-space methods, and of their alternatives.
 
 #include <set>
 
@@ -38,8 +38,8 @@ std::unique_ptr<SmallWorld> planks() {
     return small;
 }
 
-// A range of focus bends C inside the planks' triangles. Divided triangles show it as the accumulation does; C linear
-// between the corners doesn't.
+// A focus range makes C nonlinear inside the planks' triangles. Divided triangles reproduce it like method
+// accumulation; linear interpolation of C between the corners does not.
 TEST_P(CocInterpolation, bendsOnlyInDividedTriangles) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = planks();
@@ -56,7 +56,7 @@ TEST_P(CocInterpolation, bendsOnlyInDividedTriangles) {
 }
 INSTANTIATE_TEST_SUITE_P(Methods, CocInterpolation, testing::Values("stochastic", "line"));
 
-// The image doesn't change along y, so pixels of a column differ only by their points.
+// The image does not change along y, so pixels of a column differ only by their sample points.
 TEST_F(LensSpaceAlone, stochasticPixelsHaveTheirOwnPoints) {
     auto small = std::make_unique<SmallWorld>();
     Mesh mesh = quad(0);
@@ -87,7 +87,8 @@ std::unique_ptr<SmallWorld> movingSpheres(bool doubleSided) {
     return small;
 }
 
-// The back-face test over lens and time removes the backs of moving triangles before the search, which loses nothing.
+// Back faces of moving triangles are culled before the search, by the test over lens and time. The image does not
+// change.
 TEST_F(LensSpaceAlone, movingBacksAreCulled) {
     RenderStats front, both;
     const Image culled = lensSpaceImage("stochastic", *movingSpheres(false), 16, &front);
@@ -137,7 +138,7 @@ double middleOverRim(const Image& image) {
             energy += image.at(x, y)[0];
             moment += image.at(x, y)[0] * radiusAt(x, y) * radiusAt(x, y);
         }
-    const double radius = std::sqrt(2 * moment / energy);  // of a uniform disk
+    const double radius = std::sqrt(2 * moment / energy);  // radius of a uniform disk
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const double at = radiusAt(x, y) / radius;
@@ -174,7 +175,7 @@ TEST_F(LensSpaceAlone, linesShareSpatialPositions) {
     }
 }
 
-// Intervals of 16 bits move the ends of segments by at most half a 255th of the line.
+// Intervals stored in 16 bits move the ends of segments by at most 1/510 of the line.
 TEST_F(LensSpaceAlone, shortIntervalsChangeLittle) {
     const auto small = twoSpheres();
     const Image full = lensSpaceImage("line:resolve=published", *small, 16);
@@ -198,12 +199,12 @@ TEST_F(LensSpaceAlone, binsOfFixedSizeCountTheirOverflow) {
     EXPECT_EQ(figureOf(stats, "triangles beyond the size of a bin"), 0);
 }
 
-// With light of vertices, segments merge only if their colours agree.
+// With lighting at vertices, segments merge only if their colours agree.
 TEST_F(LensSpaceAlone, segmentsOfDifferentColoursStayApart) {
     const auto mergedOf = [](float difference) {
         auto small = std::make_unique<SmallWorld>();
         Mesh mesh = quad(0);
-        // The corners of each triangle have one colour, so that the two triangles need vertices of their own.
+        // The corners of each triangle have one colour, so the two triangles need separate vertices.
         const std::vector<glm::vec3> corners = mesh.vertices.positions;
         const std::vector<std::uint32_t> indices = mesh.primitives[0].indices;
         mesh.vertices = {};

@@ -33,6 +33,17 @@ protected:
 };
 std::unique_ptr<GlContext> PostProcessesAlone::context_;
 
+bool inTenBits(std::string_view method) {
+    return method.find("r10g10b10a2") != std::string_view::npos;
+}
+
+// Returns the image that `method` can store: clipped at 1 if it stores ten bits.
+Image storable(Image image, std::string_view method) {
+    if (inTenBits(method))
+        for (float& value : image.pixels) value = std::min(value, 1.0f);
+    return image;
+}
+
 TEST_P(PostProcesses, apertureZeroIsThePinhole) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
@@ -40,7 +51,9 @@ TEST_P(PostProcesses, apertureZeroIsThePinhole) {
     // Without blur, the image equals the pinhole image that another post-process method gives.
     small->view.lens.dofEnabled = false;
     const std::string pinholes = std::string(GetParam()).starts_with("circular") ? "scheuermann" : "circular";
-    EXPECT_LT(largestDifferenceInColumns(image, postProcessed(*small, pinholes.c_str())), 2e-3);
+    if (!inTenBits(GetParam())) {  // ten bits clip each of the pinhole images, not their mean
+        EXPECT_LT(largestDifferenceInColumns(image, postProcessed(*small, pinholes)), 2e-3);
+    }
 
     // With one pinhole, the image equals that of a single sample of the accumulation.
     RenderSettings one = settingsWithTheLens();
@@ -50,7 +63,8 @@ TEST_P(PostProcesses, apertureZeroIsThePinhole) {
     accumulation->advance();
     const std::string single =
         std::string(GetParam()) + (std::string(GetParam()).find(':') == std::string::npos ? ":" : ",");
-    EXPECT_LT(largestDifferenceInColumns(accumulation->image(), postProcessed(*small, (single + "pinholes=1").c_str())),
+    EXPECT_LT(largestDifferenceInColumns(storable(accumulation->image(), GetParam()),
+                                         postProcessed(*small, single + "pinholes=1")),
               2e-3);
 }
 
@@ -63,14 +77,13 @@ TEST_P(PostProcesses, aConstantSceneStaysConstant) {
                               glm::vec3(color));
     const Image image = postProcessed(*small, GetParam());
     small->view.lens.dofEnabled = false;  // the reference is the constant rounded to half floats
-    const bool tenBits = std::string(GetParam()).find("r10g10b10a2") != std::string::npos;
-    EXPECT_LT(largestDifferenceInColumns(image, postProcessed(*small, GetParam())), tenBits ? 6e-3 : 1e-3);
+    EXPECT_LT(largestDifferenceInColumns(image, postProcessed(*small, GetParam())), inTenBits(GetParam()) ? 6e-3 : 1e-3);
 }
 
 TEST_P(PostProcesses, aHighlightKeepsItsEnergyWhereTheBlurIsTheSame) {
     // A bright square on a black wall. Both are at the same depth behind the focus plane and have a blur of 16 px.
     const auto small =
-        boards({{6, {0, 0}, {0.2, 0.2}, {8, 4, 2, 1}}, {6.0001, {0, 0}, {9, 9}, {0, 0, 0, 1}}}, glm::vec3(0));
+        boards({{6, {0, 0}, {0.2, 0.2}, {1, 0.5f, 0.25f, 1}}, {6.0001, {0, 0}, {9, 9}, {0, 0, 0, 1}}}, glm::vec3(0));
     small->view.lens.blurScale = 16 / (0.05 * (1.0 / 2 - 1.0 / 6) * 96 / 0.72);
     const Image image = postProcessed(*small, GetParam());
     small->view.lens.dofEnabled = false;
@@ -81,7 +94,7 @@ TEST_P(PostProcesses, aHighlightKeepsItsEnergyWhereTheBlurIsTheSame) {
         blurredEnergy += image.pixels[i];
         sharpEnergy += sharp.pixels[i];
     }
-    ASSERT_GT(sharpEnergy, 100);
+    ASSERT_GT(sharpEnergy, 50);
     EXPECT_NEAR(blurredEnergy / sharpEnergy, 1, 0.01);
     EXPECT_LT(*image.at(48, 32), 0.95 * *sharp.at(48, 32));  // the centre is darker, so the light is blurred
 }
@@ -119,10 +132,10 @@ TEST_P(PostProcesses, whatIsInFocusStaysWhenOnlyTheBackgroundBlurs) {
 }
 
 // A bright object in focus hardly leaks into the blurred background beside it. A gather with equal weights over a disk
-// of radius R brings the share of the disk that lies beyond the edge into a column. Over the columns within R of the
+// of radius R adds to a column the fraction of the disk that lies beyond the edge. Over the columns within R of the
 // edge, this averages 2/(3π) of the bright radiance. Here, at most a quarter of it arrives. Scheuermann's pre-blurred
-// copy mixes object and background before the weights count, so three quarters are tolerated; without the weights,
-// copy and taps together bring more than the gather.
+// copy mixes object and background before the weights count, so three quarters are tolerated. Without the weights, copy
+// and taps together would leak more than the gather.
 TEST_P(PostProcesses, aSharpObjectDoesNotLeakIntoTheBlurredBackground) {
     constexpr float bright = 4;
     const auto small = boards(
@@ -228,6 +241,21 @@ INSTANTIATE_TEST_SUITE_P(Forms, CircularNearField, testing::Values("circular:nea
 // A bias by luminance does not brighten edges as much as a constant bias does. A bright, blurred board over black shows
 // its coverage. A constant bias doubles the coverage; a bias by luminance increases it in proportion to the board's
 // share of the disk.
+// With ten bits per channel, an image without blur is the pinhole image, clipped at 1 and rounded to 1023 steps.
+TEST_F(PostProcessesAlone, tenBitsHoldTheWholeImage) {
+    const auto small = fiveSpheres();
+    small->view.lens.blurScale = 0;
+    const Image floats = postProcessed(*small, "circular:pinholes=1,storage=float");
+    const Image tenBits = postProcessed(*small, "circular:pinholes=1,storage=r10g10b10a2");
+    double squared = 0;  // error in steps
+    for (std::size_t i = 0; i < floats.pixels.size(); ++i)
+        squared += std::pow(1023 * (double(tenBits.pixels[i]) - std::min(double(floats.pixels[i]), 1.0)), 2);
+    // the RMS error of rounding is 1/√12 step; alpha has none, and half floats add a little
+    const double error = std::sqrt(squared / static_cast<double>(floats.pixels.size()));
+    EXPECT_GT(error, 0.7 / std::sqrt(12.0));
+    EXPECT_LT(error, 1.3 / std::sqrt(12.0));
+}
+
 TEST_F(PostProcessesAlone, biasByLuminanceLeavesEdges) {
     const auto small = boards({{1, {-0.3, 0}, {0.3, 0.5}, {4, 4, 4, 1}}}, glm::vec3(0));
     small->view.lens.blurScale = 24 / (0.05 * (1.0 / 1 - 1.0 / 2) * 96 / 0.72);

@@ -72,8 +72,8 @@ TEST(SamplesForBlur, leaveOutWhatHasNoBound) {
     EXPECT_EQ(samplesForBlur(plan, Quality::good), 32u);
 }
 
-// 1,024 samples of a point whose blur covers more than 1,024 images show it less than once, so more samples do not
-// help.
+// Fewer than one of 1,024 samples shows a point whose blur disk has more than 1,024 times the area of the image, so
+// more samples do not help.
 TEST(SamplesForBlur, leaveOutWhatNoNumberResolves) {
     const FramePlan plan = planOf(0);
     const double pixels = 1.0 * plan.view.width * plan.view.height;

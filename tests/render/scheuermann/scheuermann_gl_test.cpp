@@ -3,13 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "aperture_shapes.h"
 #include "bokeh.h"
 #include "core/error.h"
 #include "gl/context.h"
 #include "image/tone_map.h"
 #include "render/methods.h"
+#include "render/post_process/boards.h"
 #include "render/rendered.h"
+#include "render/scheuermann/scheuermann.h"
 #include "small_world.h"
 
 namespace defocus::engine {
@@ -37,7 +41,8 @@ Image rendered(const World& world, const View& view, const char* method) {
 }
 
 // Returns the bokeh of a bright square in a black wall. Both lie at one depth, so that all pixels have the same blur.
-Image bokehOf(const View& view, double depth) {
+Image bokehOf(const View& view, double depth,
+              const char* method = "scheuermann:coc=thin-lens,taps=64,max-coc=unlimited") {
     const double left = (view.width - lightSide) / 2;
     const double top = (view.height - lightSide) / 2;
     const double right = left + lightSide;
@@ -55,7 +60,7 @@ Image bokehOf(const View& view, double depth) {
     for (std::size_t i = 1; i < scene.meshes.size(); ++i) scene.meshes[i].primitives.front().material = 1;
     World world = flatWorld(scene, blackBackground());
     for (const Mesh& mesh : scene.meshes) world.pyramids.push_back(fullDetail(mesh));
-    return rendered(world, view, "scheuermann:coc=thin-lens,taps=64,max-coc=unlimited");
+    return rendered(world, view, method);
 }
 
 // A blurred light has the shape of the aperture, upright behind the focus and turned by 180° in front of it. The 64
@@ -109,6 +114,46 @@ TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
     EXPECT_LT(error, 1.0 / 255);
     // lower bound: half the RMS error of rounding to bytes; alpha adds no error
     EXPECT_GT(error, 0.5 / 255 / std::sqrt(12.0));
+}
+
+// At max blur, the published form reads only the small image, at the taps of a disk of 0.4 · 4 = 1.6 times the radius.
+// The variance of a blurred light is then that of the taps, plus that of the small image: pixels 4 px wide (16/12),
+// linear interpolation (16/6) and the Gaussian (8).
+TEST_F(ScheuermannImage, asPublishedReadsTheSmallImageAtItsOwnRadius) {
+    View view = bokehView(192, 144);
+    const Image image = bokehOf(view, 6, "scheuermann:far-blur-depth=5,blurriness-cutoff=1");
+    const double radius = 1.6 * 5;  // px; the max blur is 10 px wide
+    glm::dvec2 mean(0);
+    glm::dvec2 meanSquare(0);
+    const std::vector<glm::vec2> taps = poissonDisk(8);
+    for (const glm::vec2& tap : taps) {
+        mean += glm::dvec2(tap) / 8.0;
+        meanSquare += glm::dvec2(tap) * glm::dvec2(tap) / 8.0;
+    }
+    const glm::dvec2 ofTheTaps = radius * radius * (meanSquare - mean * mean);
+    const Moments moments = momentsOf(image);
+    const double ofTheLight = (lightSide * lightSide - 1) / 12;
+    for (int axis = 0; axis < 2; ++axis)
+        EXPECT_NEAR(moments.variance[axis], ofTheTaps[axis] + 12 + ofTheLight, 0.03 * ofTheTaps[axis]) << axis;
+}
+
+// An edge in focus has the resolved colours of a multisampled image: quarters of the display-encoded white.
+TEST_F(ScheuermannImage, multisamplingSmoothsEdgesBeforeTheBlur) {
+    const auto small = boards({{2, {-1, 0}, {1, 2}, {1, 1, 1, 1}}}, glm::vec3(0));
+    small->view.worldFromCamera = glm::rotate(glm::dmat4(1), 0.3, glm::dvec3(0, 0, 1));
+    small->view.lens.blurScale = 0;
+    const auto greys = [&](const char* method) {
+        std::set<int> found;  // quarters of white
+        const Image image = postProcessed(*small, method);
+        for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+            const float quarters = 4 * srgbEncode(image.pixels[i]);
+            EXPECT_NEAR(quarters, std::round(quarters), 0.1);  // the taps of bytes lie 0.02 px apart
+            found.insert(static_cast<int>(std::round(quarters)));
+        }
+        return found;
+    };
+    EXPECT_EQ(greys("scheuermann:bits=8,pinholes=1"), (std::set{0, 4}));
+    EXPECT_EQ(greys("scheuermann:bits=8,pinholes=1,multisampling=4"), (std::set{0, 1, 2, 3, 4}));
 }
 
 TEST_F(ScheuermannImage, planesByHandMustBeInOrder) {

@@ -123,7 +123,7 @@ const Bytes& webp() {
     return bytes;
 }
 
-// Colours are straight, up to their rounding at low alpha.
+// Alpha is straight: colours are not premultiplied, up to their rounding at low alpha.
 TEST(GltfTexture, webpWithoutFallbackIsRead) {
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
         GltfBuilder builder = texturedTriangle({{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}});

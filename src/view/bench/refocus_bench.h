@@ -1,0 +1,29 @@
+#pragma once
+// Measures how fast and how well the window answers a change of focus or f-number while the camera stands still: with
+// and without kept lens images (picture/kept_images.h).
+
+#include "view/bench/view_bench.h"
+
+namespace defocus::engine {
+
+struct RefocusBenchRow {
+    std::string method;             // in the format of MethodUse::text
+    std::string change;             // such as "focus 2 to 1.4 m"
+    std::uint32_t keptImages = 0;   // lens images that the window keeps; 0: keeps none
+    double dragMilliseconds = 0;    // median time of a frame while the value is dragged
+    FrameQuality dragQuality;       // resolution and lens samples of the last frame of the drag
+    double dragPsnr = 0;            // PSNR of this frame, dB
+    double fullMilliseconds = 0;    // time from the last change to the first picture at full quality
+    std::uint32_t fullSamples = 0;  // lens samples of this picture
+    double fullPsnr = 0;            // PSNR of this picture, dB
+};
+
+// Measures the methods on the document's scene at ViewState::pictureSize. For each method, drags the focus halfway, in
+// 1/distance, to the nearest and to the farthest surface, and the f-number by one stop, in steps of one frame each. A
+// picture has full quality if it has the window's resolution and is computed from all kept images within the aperture,
+// or has as many samples as the maximum number of kept images. Needs a current GL context. Throws Error for a method
+// that doesn't support the scene or the settings.
+void measureRefocus(Document& document, ViewState& state, const ViewBenchOptions& options,
+                    const std::function<void(const RefocusBenchRow&)>& take, const Progress& progress = {});
+
+}  // namespace defocus::engine
