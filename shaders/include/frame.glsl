@@ -1,5 +1,5 @@
 // Uniform blocks of the frame, the object and the material. The C++ counterparts are GpuFrame in frame_uniforms.cpp,
-// GpuObject in surface_draws.h and GpuMaterial in gpu_scene.h, all in src/render/gpu_scene/.
+// GpuObject in surface_draws.h and GpuMaterial in material_blocks.h, all in src/render/gpu_scene/.
 
 layout(std140, binding = 0) uniform FrameBlock {
     vec4 projection;      // 1/tan(θx/2), 1/tan(θy/2), near plane (m), unused
@@ -38,5 +38,4 @@ layout(std140, binding = 2) uniform MaterialBlock {
     vec4 anisotropy;      // strength; cosine and sine of the rotation
     vec4 film;            // iridescence: factor, ior, min and max thickness (nm)
     vec4 through;         // diffuse transmission: rgb colour; w: factor
-    vec4 uvRows[38];      // per texture: two rows of a 2×3 matrix; w of the first row: number of the UV set
 } material;

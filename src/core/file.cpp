@@ -76,6 +76,9 @@ bool isStream(const fs::path& path) {
 
 std::vector<std::byte> allBytes(std::FILE* file, const fs::path& path) {
     std::vector<std::byte> bytes;
+    struct stat status {};
+    if (::fstat(::fileno(file), &status) == 0 && S_ISREG(status.st_mode))
+        bytes.reserve(static_cast<std::size_t>(status.st_size));
     std::byte chunk[1 << 16];
     while (const std::size_t count = std::fread(chunk, 1, sizeof chunk, file))
         bytes.insert(bytes.end(), chunk, chunk + count);

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "gl/buffer.h"
+#include "gl/buffer_writer.h"
 #include "gl/gl_test.h"
 #include "gl/texel_buffer.h"
 #include "gl_conduct.h"
@@ -83,6 +84,20 @@ void main() {
     handed = vec4(shade, once, place.y, 1.0);
 }
 )";
+
+// The parts are smaller and larger than the writer's store of pending bytes.
+TEST_F(GlBuffer, isWrittenInPartsOfAnySize) {
+    std::vector<std::uint32_t> words(400'000);
+    std::iota(words.begin(), words.end(), 7u);
+    BufferWriter writer(words.size() * 4);
+    std::size_t at = 0;
+    for (const int part : {1, 3, 60'000, 0, 10'000, 200'000, 5, 129'991}) {
+        writer.append(std::span<const std::uint32_t>(words).subspan(at, static_cast<std::size_t>(part)));
+        at += static_cast<std::size_t>(part);
+    }
+    ASSERT_EQ(at, words.size());
+    EXPECT_EQ(contentsOf(writer.finish()), words);
+}
 
 TEST_F(GlVertexArray, readsAttributesByOffsetStrideTypeAndInstance) {
     struct Vertex {

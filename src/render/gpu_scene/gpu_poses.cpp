@@ -9,9 +9,9 @@ namespace defocus::engine {
 namespace {
 
 // Returns the indices of the morph targets with a nonzero weight in at least one pose.
-std::vector<std::size_t> targetsUsed(const std::vector<const ObjectPose*>& poses, const GpuDeformation& deformation) {
+std::vector<std::size_t> targetsUsed(const std::vector<const ObjectPose*>& poses, const GpuMorphs& morphs) {
     std::vector<std::size_t> used;
-    if (!deformation.morphs) return used;
+    if (!morphs) return used;
     for (std::size_t t = 0; t < poses.front()->morphWeights.size(); ++t)
         if (std::any_of(poses.begin(), poses.end(), [&](const ObjectPose* pose) { return pose->morphWeights[t] != 0; }))
             used.push_back(t);
@@ -31,14 +31,14 @@ GpuPoses gpuPoses(const FramePlan& plan, const ObjectPlan& object, const GpuMesh
     std::vector<const ObjectPose*> poses;
     for (const ObjectPose& pose : object.motion) poses.push_back(&pose);
     if (poses.empty()) poses.push_back(&object.pose);
-    const std::vector<std::size_t> targets = targetsUsed(poses, mesh.deformation);
+    const std::vector<std::size_t> targets = targetsUsed(poses, mesh.morphs);
     const std::size_t joints = object.pose.viewFromJoint.size();
     result.count = poses.size();
     result.skinned = object.skinned;
     result.moving = !object.motion.empty();
     result.cameraMoves = result.moving && !plan.middleFromView.empty();
     result.layout = glm::ivec4(3 * joints + targets.size() + (result.cameraMoves ? 3 : 0), joints, targets.size(),
-                               mesh.deformation.vertexCount);
+                               mesh.morphs.vertexCount);
 
     std::vector<float> texels;
     texels.reserve(poses.size() * static_cast<std::size_t>(result.layout.x) * 4);
@@ -60,13 +60,13 @@ void poseDefines(ShaderDefines& defines, const GpuPoses& poses, const GpuMesh& m
     defines.emplace_back("POSED", "");
     if (poses.moving) defines.emplace_back("moving", "true");
     if (poses.cameraMoves) defines.emplace_back("cameraMoves", "true");
-    if (poses.skinned && mesh.deformation.joints)
-        defines.emplace_back("skinInfluences", mesh.deformation.joints1 ? "8" : "4");
+    if (poses.skinned && mesh.has(jointsLocation))
+        defines.emplace_back("skinInfluences", mesh.has(joints1Location) ? "8" : "4");
     if (poses.layout.z == 0) return;
     defines.emplace_back("morphed", "true");
-    defines.emplace_back("morphAttributes", std::to_string(mesh.deformation.attributesPerTarget()));
-    if (mesh.deformation.morphNormals) defines.emplace_back("morphNormals", "true");
-    if (mesh.deformation.morphTangents) defines.emplace_back("morphTangents", "true");
+    defines.emplace_back("morphAttributes", std::to_string(mesh.morphs.attributesPerTarget()));
+    if (mesh.morphs.normals) defines.emplace_back("morphNormals", "true");
+    if (mesh.morphs.tangents) defines.emplace_back("morphTangents", "true");
 }
 
 }  // namespace defocus::engine

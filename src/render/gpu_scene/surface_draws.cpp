@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "plan/motion/object_pose.h"
+#include "render/gpu_scene/material_blocks.h"
 
 namespace defocus::engine {
 
@@ -41,18 +42,17 @@ double levelError(const World& world, const ObjectPlan& object) {
 }  // namespace
 
 UniformBlocks<GpuObject> objectBlocks(const FramePlan& plan, GpuScene& scene, std::vector<GpuPoses>& poses) {
-    std::vector<GpuObject> blocks;
-    blocks.reserve(plan.objects.size());
     poses.clear();
-    for (const ObjectPlan& object : plan.objects) {
+    poses.reserve(plan.objects.size());
+    return UniformBlocks<GpuObject>(plan.objects.size(), [&](std::size_t i) -> GpuObject {
+        const ObjectPlan& object = plan.objects[i];
         const GpuMesh& mesh = scene.mesh(object.mesh);
         poses.push_back(gpuPoses(plan, object, mesh));
-        blocks.push_back({glm::mat4(glm::translate(object.viewFromObject, mesh.origin)),
-                          glm::mat4(glm::mat3(glm::inverseTranspose(glm::dmat3(object.viewFromObject)))),
-                          glm::vec4(object.lambda, object.boundaryShare, object.object, object.cocScale),
-                          poses.back().layout, glm::vec4(levelError(scene.world(), object), object.maxParts, 0, 0)});
-    }
-    return UniformBlocks<GpuObject>(blocks);
+        return {glm::mat4(glm::translate(object.viewFromObject, mesh.origin)),
+                glm::mat4(glm::mat3(glm::inverseTranspose(glm::dmat3(object.viewFromObject)))),
+                glm::vec4(object.lambda, object.boundaryShare, object.object, object.cocScale), poses.back().layout,
+                glm::vec4(levelError(scene.world(), object), object.maxParts, 0, 0)};
+    });
 }
 
 std::vector<IndexRun> indexRuns(const World& world, const ObjectPlan& object, const GpuMesh& mesh, std::uint32_t level,
@@ -62,10 +62,10 @@ std::vector<IndexRun> indexRuns(const World& world, const ObjectPlan& object, co
     const VisibleLevel* visible = visibleLevel(object, level);
     const std::vector<IndexRange> ranges =
         visible != nullptr ? visible->primitives[primitive] : std::vector<IndexRange>{whole};
-    const std::size_t offset = mesh.levels[level].indexOffsets[primitive];
+    const std::size_t levelFirst = pyramid.levels[level].primitives.front().first;
     std::vector<IndexRun> runs;
     for (const IndexRange& range : ranges) {
-        const std::size_t first = offset / sizeof(std::uint32_t) + range.first - whole.first;
+        const std::size_t first = mesh.levels[level].firstIndex + range.first - levelFirst;
         runs.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(range.count)});
     }
     return runs;
@@ -82,7 +82,7 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
     const auto set = [&](bool condition, const char* name) {
         if (condition) defines.emplace_back(name, "true");
     };
-    const bool hasUv = static_cast<bool>(mesh.uv0) || static_cast<bool>(mesh.uv1);
+    const bool hasUv = mesh.has(uv0Location) || mesh.has(uv1Location);
     const GpuMaterialTextures& textures = scene.textures(materialIndex);
     const bool transmits = look == SurfaceLook::seenThrough && material.transmits();
     const bool letsLightPass = look == SurfaceLook::caster && material.transmits();
@@ -98,10 +98,10 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
         const bool ofTransmission = std::ranges::count(transmissionSlots, i) > 0;
         const bool wanted = shaded ? transmits || !ofTransmission
                                    : (i == 0 && masked) || ((i == metallicSlot || ofTransmission) && letsLightPass);
-        const bool used = textures.slots[i] != nullptr && hasUv && wanted && (!ofTangents || mesh.tangents);
+        const bool used = textures.slots[i] != nullptr && hasUv && wanted && (!ofTangents || mesh.has(tangentLocation));
         bumped |= used && ofTangents;
         textured |= used;
-        transformed |= used && (uses[i]->uvSet != 0 || uses[i]->uvTransform != glm::mat3(1.0f));
+        transformed |= used && transformsUv(*uses[i]);
         units[i] = used ? textures.unit(i) : -1;
     }
     if (textured) {
@@ -110,7 +110,7 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
         defines.emplace_back("textureUnits", fmt::format("int[]({})", fmt::join(units, ",")));
     }
     const bool lit = shaded && !material.unlit;
-    const bool anisotropic = lit && material.isAnisotropic() && mesh.tangents;
+    const bool anisotropic = lit && material.isAnisotropic() && mesh.has(tangentLocation);
     if (bumped || anisotropic) defines.emplace_back("BUMPED", "");
     const std::vector<PlacedLight>& lights = scene.world().lights;
     const bool hasLocalLights = lit && std::any_of(lights.begin(), lights.end(), local);
@@ -129,7 +129,7 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
     set(lit && material.transmitsDiffusely(), "diffusesThrough");
     set(lit && level > 0, "coarseLevel");
     set(hasLocalLights, "localLights");
-    set(static_cast<bool>(mesh.colors), "vertexColors");
+    set(mesh.has(colorLocation), "vertexColors");
     set(material.doubleSided, "doubleSided");
     return defines;
 }

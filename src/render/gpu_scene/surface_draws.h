@@ -25,7 +25,7 @@ struct GpuObject {
 // object.
 UniformBlocks<GpuObject> objectBlocks(const FramePlan& plan, GpuScene& scene, std::vector<GpuPoses>& poses);
 
-// Range of indices in GpuMesh::indices.
+// Range of indices in MeshBuffers::indices.
 struct IndexRun {
     std::uint32_t first = 0;
     std::uint32_t count = 0;

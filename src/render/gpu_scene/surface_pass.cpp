@@ -72,20 +72,15 @@ void SurfacePass::prepare(const FramePlan& plan, const FrameUniforms& frame, con
     }
     addDraws(plan);
     uploadMaterials();
-    skyArray_.attribute(lensLocation, 4, GL_FLOAT, false, true);
-    skyArray_.attribute(eyeLocation, 4, GL_FLOAT, false, true);
-    skyArray_.bind(lensLocation, frame.samples(), 0, sizeof(GpuSample));
-    skyArray_.bind(eyeLocation, frame.samples(), sizeof(glm::vec4), sizeof(GpuSample));
-    if (frame.bandShifts()) {
-        skyArray_.attribute(bandShiftLocation, 1, GL_FLOAT, false, true);
-        skyArray_.bind(bandShiftLocation, frame.bandShifts(), 0, sizeof(float));
-    }
+    arrays_ = VertexArrays([this](VertexArray& array) { addSamples(array); });
+    skyArray_ = VertexArray();
+    addSamples(skyArray_);
 }
 
 void SurfacePass::uploadMaterials() {
-    std::vector<GpuMaterial> blocks(materialSlots_.size());
-    for (const auto& [material, slot] : materialSlots_) blocks[slot] = scene_->materialBlock(material);
-    materialBlocks_ = UniformBlocks<GpuMaterial>(blocks);
+    std::vector<int> materials(materialSlots_.size());
+    for (const auto& [material, slot] : materialSlots_) materials[slot] = material;
+    materialBlocks_ = MaterialBlocks(*scene_, std::move(materials));
 }
 
 void SurfacePass::addDraws(const FramePlan& plan) {
@@ -102,9 +97,6 @@ void SurfacePass::addDraws(const FramePlan& plan) {
     for (std::size_t index = 0; index < plan.objects.size(); ++index) {
         const ObjectPlan& object = plan.objects[index];
         const Mesh& mesh = scene_->world().scene->meshes[static_cast<std::size_t>(object.mesh)];
-        GpuMesh& gpuMesh = scene_->mesh(object.mesh);
-        if (frame_->moments()) gpuMesh.vertexArray.attribute(momentLocation, 3, GL_FLOAT, false, true);
-        if (frame_->bandShifts()) gpuMesh.vertexArray.attribute(bandShiftLocation, 1, GL_FLOAT, false, true);
         for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p)
             if (!ordered(mesh.primitives[p].material))
                 addPrimitive(plan, {static_cast<std::uint32_t>(index), p, 0, {}, false}, partIndices);
@@ -203,10 +195,10 @@ const Program& SurfacePass::program(const Draw& draw) {
     };
     const bool receivesShadows = shadows_ != nullptr && shaded() && !material.unlit;
     if (receivesShadows || info_.writesLayers) defines.emplace_back("PLACED", "");
-    const bool colored = static_cast<bool>(mesh.colors);
+    const bool colored = mesh.has(colorLocation);
     set(colored && shaded() && draw.level == 0, "colorRanges");
     set(colored && shaded() && draw.level > 0, "levelColorRange");
-    set(static_cast<bool>(mesh.blurs), "vertexBlurs");
+    set(mesh.has(blurLocation), "vertexBlurs");
     set(draw.blurMoves && frame_->moments(), "blurMoves");
     set(material.alphaMode == AlphaMode::mask, "alphaTested");
     const bool blended = material.alphaMode == AlphaMode::blend;
@@ -253,13 +245,18 @@ void SurfacePass::bindFrame() {
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
 }
 
-// Binds this pass's sample buffers to a mesh's vertex array, because other passes bind their own buffers to the same
-// array.
-void SurfacePass::bindSamples(VertexArray& array) const {
-    array.bind(lensLocation, frame_->samples(), 0, sizeof(GpuSample));
-    array.bind(eyeLocation, frame_->samples(), sizeof(glm::vec4), sizeof(GpuSample));
-    if (frame_->moments()) array.bind(momentLocation, frame_->moments(), 0, sizeof(glm::vec3));
-    if (frame_->bandShifts()) array.bind(bandShiftLocation, frame_->bandShifts(), 0, sizeof(float));
+// Adds the lens samples to a vertex array.
+void SurfacePass::addSamples(VertexArray& array) const {
+    const auto add = [&](GLuint location, GLint components, const Buffer& buffer, std::size_t offset,
+                         std::size_t stride) {
+        if (!buffer) return;
+        array.attribute(location, components, GL_FLOAT, false, true);
+        array.bind(location, buffer, offset, stride);
+    };
+    add(lensLocation, 4, frame_->samples(), 0, sizeof(GpuSample));
+    add(eyeLocation, 4, frame_->samples(), sizeof(glm::vec4), sizeof(GpuSample));
+    add(momentLocation, 3, frame_->moments(), 0, sizeof(glm::vec3));
+    add(bandShiftLocation, 1, frame_->bandShifts(), 0, sizeof(float));
 }
 
 // Binds all inputs of draw `item`, whose first sample is `sample`.
@@ -279,8 +276,7 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
     }
     if (poses_[item.object].texels) poses_[item.object].texels.attach(6);
     if (bound_.materialSlot != item.materialSlot) {
-        materialBlocks_.bind(2, item.materialSlot);
-        scene_->textures(item.material).attach();
+        materialBlocks_.bind(item.materialSlot);
         bound_.materialSlot = item.materialSlot;
     }
     glFrontFace(item.mirrored ? GL_CW : GL_CCW);
@@ -289,15 +285,14 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
 
 // Binds the program and the vertices of draw `item`.
 void SurfacePass::bindVertices(const Draw& item, const Buffer& indices) {
-    GpuMesh& mesh = scene_->mesh(item.mesh);
-    mesh.vertexArray.use();
+    const GpuMesh& mesh = scene_->mesh(item.mesh);
+    VertexArray& array = arrays_.attach(mesh, item.level);
+    array.indices(indices);
+    array.use();
     item.program->use();
-    if (mesh.deformation.morphs) mesh.deformation.morphs.attach(7);
+    if (mesh.morphs) mesh.morphs.texels.attach(7);
     if (info_.look == SurfaceLook::caster) glUniform1i(shadowSlotLocation, shadowSlot_);
-    bindSamples(mesh.vertexArray);
-    bindLevel(mesh, item.level);
-    mesh.vertexArray.indices(indices);
-    if (const GpuLevel& level = mesh.levels[item.level]; mesh.colors && shaded() && item.level > 0) {
+    if (const GpuLevel& level = mesh.levels[item.level]; mesh.has(colorLocation) && shaded() && item.level > 0) {
         glUniform4fv(0, 1, &level.minColor.x);
         glUniform4fv(1, 1, &level.maxColor.x);
     }
@@ -310,7 +305,7 @@ void SurfacePass::bindVertices(const Draw& item, const Buffer& indices) {
 void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t count) {
     const SampleSpan samples = samplesOf(item, first, count);
     if (samples.empty()) return;
-    bindDraw(item, samples.begin, item.partial ? partIndices_ : scene_->mesh(item.mesh).indices);
+    bindDraw(item, samples.begin, item.partial ? partIndices_ : scene_->mesh(item.mesh).buffers->indices);
     for (const IndexRun& run : item.runs) submit(scene_->pacer(), modeOf(item.refinement), run, samples);
 }
 

@@ -11,8 +11,10 @@
 
 #include "gl/program.h"
 #include "render/gpu_scene/backdrop.h"
+#include "render/gpu_scene/material_blocks.h"
 #include "render/gpu_scene/object_set.h"
 #include "render/gpu_scene/surface_draws.h"
+#include "render/gpu_scene/vertex_arrays.h"
 #include "render/occlusion/occlusion.h"
 
 namespace defocus::engine {
@@ -96,7 +98,7 @@ private:
         bool cuts = false;
         bool blurMoves = false;
         bool stochasticAlpha = false;
-        bool partial = false;  // `runs` are ranges of partIndices_ instead of GpuMesh::indices
+        bool partial = false;  // `runs` are ranges of partIndices_ instead of MeshBuffers::indices
         Refinement refinement = Refinement::none;
         ScreenDoor screenDoor = ScreenDoor::open;
         const Program* program = nullptr;
@@ -129,7 +131,7 @@ private:
     [[nodiscard]] std::vector<std::string> shadersOf(const Draw& draw) const;
     void bindFrame();
     void bindSolid(GLenum depthTest);
-    void bindSamples(VertexArray& array) const;
+    void addSamples(VertexArray& array) const;
     void drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count,
                    GLenum depthTest = GL_GREATER, const ObjectSet& objects = {});
     void drawFronts(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count,
@@ -151,12 +153,13 @@ private:
     Bound bound_;
     Program sky_;
     ShaderDefines skyDefines_;  // defines of sky_
+    VertexArrays arrays_;
     VertexArray skyArray_;
     const FrameUniforms* frame_ = nullptr;
     const ShadowMaps* shadows_ = nullptr;
     int shadowSlot_ = 0;  // shadow map into which casters are drawn
     UniformBlocks<GpuObject> objectBlocks_;
-    UniformBlocks<GpuMaterial> materialBlocks_;
+    MaterialBlocks materialBlocks_;
     std::vector<GpuPoses> poses_;  // one per object
     std::map<int, std::size_t> materialSlots_;
     std::vector<Draw> opaque_;

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-#include "gl/buffer.h"
+#include "gl/buffer_writer.h"
 
 namespace defocus::engine {
 
@@ -15,11 +15,16 @@ template <typename Block>
 class UniformBlocks {
 public:
     UniformBlocks() = default;
-    explicit UniformBlocks(const std::vector<Block>& blocks) : stride_(uniformStride(sizeof(Block))) {
-        std::vector<std::byte> bytes(blocks.size() * stride_);
-        for (std::size_t i = 0; i < blocks.size(); ++i)
-            std::memcpy(bytes.data() + i * stride_, &blocks[i], sizeof(Block));
-        buffer_ = Buffer(bytes.size(), bytes.data());
+    // Uploads `count` blocks; block i is blockAt(i), called in ascending order.
+    UniformBlocks(std::size_t count, const auto& blockAt) : stride_(uniformStride(sizeof(Block))) {
+        BufferWriter writer(count * stride_);
+        std::vector<std::byte> padded(stride_);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Block block = blockAt(i);
+            std::memcpy(padded.data(), &block, sizeof(Block));
+            writer.appendBytes(padded);
+        }
+        buffer_ = writer.finish();
     }
 
     void bind(GLuint binding, std::size_t index) const {

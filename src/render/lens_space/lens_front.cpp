@@ -83,6 +83,7 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
     defines_ = frame.defines();
     if (moving) defines_.emplace_back("moving", "true");
     objects_ = objectBlocks(plan, *scene_, poses_);
+    arrays_ = VertexArrays();
 
     // Collect vertices and triangles of all levels that are drawn for at least one ray.
     vertices_.clear();
@@ -197,7 +198,7 @@ void LensFront::convertRuns(const Buffer& target, bool divided) {
     for (const Run& run : runs_) {
         if ((run.parts > 1) != divided) continue;
         const ObjectPlan& object = plan_.objects[run.object];
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, scene_->mesh(object.mesh).indices.name());
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, scene_->mesh(object.mesh).buffers->indices.name());
         glUniform1ui(0, run.first);
         glUniform1ui(1, run.triangles);
         glUniform1ui(2, run.firstVertex);
@@ -244,18 +245,17 @@ void LensFront::makeVertices(const Buffer& target, std::size_t vertexBytes, bool
     for (const Vertices& vertices : vertices_) {
         if (vertices.count == 0) continue;
         const ObjectPlan& object = plan_.objects[vertices.object];
-        GpuMesh& mesh = scene_->mesh(object.mesh);
+        const GpuMesh& mesh = scene_->mesh(object.mesh);
         const GpuPoses& poses = poses_[vertices.object];
         const Program& program = vertexProgram(vertices, attributes);
-        mesh.vertexArray.use();
+        arrays_.attach(mesh, vertices.level).use();
         program.use();
         const float place = static_cast<float>(moment) + fraction;
         if (poses.moving || (changesBlur(vertices) && !attributes))
             glUniform3f(0, static_cast<float>(moment), fraction, place / static_cast<float>(parts_));
         objects_.bind(1, vertices.object);
         if (poses.texels) poses.texels.attach(6);
-        if (mesh.deformation.morphs) mesh.deformation.morphs.attach(7);
-        bindLevel(mesh, vertices.level);
+        if (mesh.morphs) mesh.morphs.texels.attach(7);
         glBindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, target.name(),
                           static_cast<GLintptr>(vertices.first * vertexBytes),
                           static_cast<GLsizeiptr>(vertices.count * vertexBytes));
@@ -278,8 +278,8 @@ bool LensFront::changesBlur(const Vertices& vertices) const {
 const Program& LensFront::vertexProgram(const Vertices& vertices, bool attributes) {
     const GpuMesh& mesh = scene_->mesh(plan_.objects[vertices.object].mesh);
     ShaderDefines defines = frame_->defines();
-    if (mesh.colors) defines.emplace_back("vertexColors", "true");
-    if (mesh.blurs) defines.emplace_back("vertexBlurs", "true");
+    if (mesh.has(colorLocation)) defines.emplace_back("vertexColors", "true");
+    if (mesh.has(blurLocation)) defines.emplace_back("vertexBlurs", "true");
     if (changesBlur(vertices) && !attributes) defines.emplace_back("blurMoves", "true");
     if (ownBlurs_ && !attributes) defines.emplace_back("passesOwnBlur", "true");
     poseDefines(defines, poses_[vertices.object], mesh);

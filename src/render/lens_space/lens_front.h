@@ -13,6 +13,7 @@
 #include "gl/program.h"
 #include "gl/target.h"
 #include "render/gpu_scene/surface_draws.h"
+#include "render/gpu_scene/vertex_arrays.h"
 #include "render/lens_space/divided_triangles.h"
 
 namespace defocus::engine {
@@ -139,6 +140,7 @@ private:
     GlTexture unused_;  // dummy target, which drivers need even with rasterization disabled
     Target unusedTarget_;
     UniformBlocks<GpuObject> objects_;
+    VertexArrays arrays_;
     std::vector<GpuPoses> poses_;
     std::vector<Vertices> vertices_;
     std::vector<Run> runs_;

@@ -1,6 +1,7 @@
 #include "render/lens_space/record_shading.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.h"
 
@@ -38,7 +39,7 @@ void RecordShading::prepare(const FramePlan& plan, const LensFront& front, const
     }
     groupPrograms_ = {&program("lens_space/shade_sky.comp", defines, {})};
     vertexPrograms_.clear();
-    std::vector<GpuMaterial> materials;
+    std::vector<int> materials;
     for (const ShadedGroup& group : front.groups()) {
         if (front.lightsVertices()) {
             groupPrograms_.push_back(&program("lens_space/interpolate_light.comp", defines, {}));
@@ -46,16 +47,11 @@ void RecordShading::prepare(const FramePlan& plan, const LensFront& front, const
         } else {
             groupPrograms_.push_back(&program("lens_space/shade_surface.comp", defines, group.defines));
         }
-        materials.push_back(scene_->materialBlock(group.material));
+        materials.push_back(group.material);
     }
-    materials_ = UniformBlocks<GpuMaterial>(materials);
+    materials_ = MaterialBlocks(*scene_, std::move(materials));
     groups_ = Buffer(groupPrograms_.size() * groupBytes);
     dispatches_ = Buffer(groupPrograms_.size() * dispatchBytes);
-}
-
-void RecordShading::bindMaterial(const LensFront& front, std::size_t group) const {
-    scene_->textures(front.groups()[group].material).attach();
-    materials_.bind(2, group);
 }
 
 void RecordShading::shadeVertices(const LensFront& front) {
@@ -65,7 +61,7 @@ void RecordShading::shadeVertices(const LensFront& front) {
         vertexPrograms_[i]->use();
         glUniform1ui(0, front.vertexCount());
         glUniform1ui(1, static_cast<GLuint>(i) + 1);
-        bindMaterial(front, i);
+        bindMaterial(i);
         dispatchOver(front.vertexCount());
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -112,7 +108,7 @@ void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint
         glUniform1ui(1, firstRay);
         glUniform1ui(2, static_cast<GLuint>(i));
         glUniform1f(3, lensRadius_);
-        if (i > 0 && !front.lightsVertices()) bindMaterial(front, i - 1);
+        if (i > 0 && !front.lightsVertices()) bindMaterial(i - 1);
         glDispatchComputeIndirect(static_cast<GLintptr>(i * dispatchBytes));
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "render/gpu_scene/material_blocks.h"
 #include "render/lens_space/lens_front.h"
 
 namespace defocus::engine {
@@ -24,7 +25,7 @@ public:
     // bound.
     void shade(const LensFront& front, std::uint64_t count, std::uint32_t firstRay);
     // Binds the textures and the uniforms of the material of a group, by index in LensFront::groups().
-    void bindMaterial(const LensFront& front, std::size_t group) const;
+    void bindMaterial(std::size_t group) const { materials_.bind(group); }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
@@ -39,7 +40,7 @@ private:
     Program countProgram_, listProgram_, placesProgram_;
     std::vector<const Program*> groupPrograms_;   // program 0 is for the sky
     std::vector<const Program*> vertexPrograms_;  // one per group; empty without per-vertex lighting
-    UniformBlocks<GpuMaterial> materials_;
+    MaterialBlocks materials_;
     Buffer groups_, dispatches_, list_;
 };
 

@@ -47,7 +47,7 @@ std::uint32_t SeeThrough::raysThatGoOn(const LensFront& front, const RecordShadi
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, goOn_.name());
     for (const Test& test : tests_) {
         test.program->use();
-        shading.bindMaterial(front, test.group);
+        shading.bindMaterial(test.group);
         glUniform2i(0, imageSize_.x, imageSize_.y);
         glUniform1ui(1, firstRay);
         glUniform1ui(2, static_cast<GLuint>(test.group) + 1);

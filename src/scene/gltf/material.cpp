@@ -290,6 +290,7 @@ Material readMaterial(Source& source, std::size_t index) {
 std::vector<Material> readMaterials(Source& source) {
     std::vector<Material> materials;
     const std::size_t count = entryCount(source.document, "materials");
+    materials.reserve(count);
     for (std::size_t i = 0; i < count; ++i) materials.push_back(readMaterial(source, i));
     return materials;
 }

@@ -270,6 +270,7 @@ private:
 std::vector<Mesh> readMeshes(Source& source, const std::vector<Material>& materials, const Progress& progress) {
     MeshReader reader(source, materials);
     std::vector<Mesh> meshes;
+    meshes.reserve(source.model.meshes.size());
     for (std::size_t i = 0; i < source.model.meshes.size(); ++i) {
         report(progress, "reading meshes", i, source.model.meshes.size());
         meshes.push_back(reader.read(i));

@@ -263,6 +263,7 @@ Hierarchy readHierarchy(Source& source) {
     // Keep needed nodes in file order.
     const std::vector<bool> needed = neededNodes(source, parents, roots);
     result.kept.assign(parents.size(), -1);
+    result.nodes.reserve(static_cast<std::size_t>(std::count(needed.begin(), needed.end(), true)));
     for (std::size_t i = 0; i < parents.size(); ++i) {
         if (!needed[i]) continue;
         result.kept[i] = static_cast<int>(result.nodes.size());

@@ -1,0 +1,33 @@
+#pragma once
+// Fills a new buffer from front to back. Joins small parts in main memory, because each transfer to the GPU takes time.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "gl/buffer.h"
+
+namespace defocus::engine {
+
+class BufferWriter {
+public:
+    // Creates a buffer of `bytes`, of which all must be appended.
+    explicit BufferWriter(std::size_t bytes) : buffer_(bytes) {}
+
+    template <typename T>
+    void append(std::span<const T> items) {
+        appendBytes(std::as_bytes(items));
+    }
+    void appendBytes(std::span<const std::byte> bytes);
+    // Returns the filled buffer. The writer must not be used afterwards.
+    Buffer finish();
+
+private:
+    void flush();
+
+    Buffer buffer_;
+    std::size_t written_ = 0;         // bytes that are in the buffer
+    std::vector<std::byte> pending_;  // bytes that follow them
+};
+
+}  // namespace defocus::engine
