@@ -1,9 +1,10 @@
 """Measures how defocus endures long runs, kills, fuzzing and files of many parts, and writes bench/results/endurance.md.
 
     scripts/fuzz --minutes 10 >fuzz.txt
-    scripts/figures endurance --fuzz fuzz.txt [--program build/release/defocus] [--frames 2500] [--kills 20]
-                              [--output bench/results/endurance.md]
+    scripts/figures endurance --fuzz fuzz.txt [--before PROGRAM] [--program build/release/defocus] [--frames 2500]
+                              [--kills 20] [--output bench/results/endurance.md]
 
+PROGRAM is a build of commit FIRST. Its processor times are compared with those of the current program.
 Takes about half an hour on two cores. Exits with 1 if a part falls short.
 """
 
@@ -14,18 +15,22 @@ import pathlib
 import random
 import re
 import signal
+import statistics
 import struct
 import subprocess
 import sys
 import tempfile
 import time
 
-from figures.command import ROOT, add_program, parser_of, path
+from figures.command import ROOT, add_program, executable, parser_of, path
 from figures.markdown import table
 from figures.results import run_of
 
-# Files with many parts: name and number of the parts, and the seconds to render the file with the baseline version
-# (commit 557338bc~1).
+# Version with which files of many parts are compared.
+FIRST = "f7ddc1ab"
+PAIRS = 3  # runs of each version, in alternation
+# Files with many parts: name and number of the parts, and the seconds that the first measurement took to render the
+# file, on a busier machine.
 MANY = [("roots", 300_000, 41), ("nodes in a chain", 100_000, 17), ("materials", 65_000, 7.6), ("meshes", 65_000, 12)]
 TRIANGLE = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
 
@@ -74,23 +79,43 @@ def many(kind, count):
     return document, data
 
 
-def costs(program, folder, _):
+def cost(program, scene, picture):
+    """Renders a scene. Returns the elapsed and the processor time in seconds, and the peak memory in MiB."""
+    begin = time.monotonic()
+    child = subprocess.Popen([program, "render", scene, "--no-cache", "--samples", "4", "--size", "320x240", "--quiet", "-o", picture])
+    _, status, usage = os.wait4(child.pid, 0)
+    seconds = time.monotonic() - begin
+    child.returncode = os.waitstatus_to_exitcode(status)
+    if child.returncode != 0:
+        sys.exit(f"cannot render {scene}")
+    return seconds, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
+
+
+def costs(program, folder, arguments):
     """Renders each file of many parts. Returns the lines of the page, and true."""
     rows = []
     for kind, count, first in MANY:
         scene = folder / "many.glb"
         write_glb(scene, *many(kind, count))
-        begin = time.monotonic()
-        child = subprocess.Popen([program, "render", scene, "--no-cache", "--samples", "4", "--size", "320x240", "--quiet", "-o", folder / "many.png"])
-        _, status, usage = os.wait4(child.pid, 0)
-        seconds = time.monotonic() - begin
-        child.returncode = os.waitstatus_to_exitcode(status)
-        if child.returncode != 0:
-            sys.exit(f"cannot render {count} {kind}")
-        rows.append([f"{count:,} {kind}", f"{first:g} s", f"{seconds:.1f} s", f"{usage.ru_utime + usage.ru_stime:.1f} s",
-                     f"{first / seconds:.1f}", f"{usage.ru_maxrss / 1024:,.0f} MiB"])
-    return ["Each file has one triangle per part. `defocus render FILE --no-cache --samples 4 --size 320x240`:", "",
-            table(["parts", "first version", "now", "time of all cores", "times as fast", "peak memory"], rows).rstrip()], True
+        before, now = [], []
+        for _ in range(PAIRS):
+            if arguments.before:
+                before.append(cost(arguments.before, scene, folder / "many.png"))
+            now.append(cost(program, scene, folder / "many.png"))
+        seconds, processor, memory = (statistics.median(values) for values in zip(*now))
+        row = [f"{count:,} {kind}", f"{first:g} s", f"{seconds:.1f} s", f"{memory:,.0f} MiB", f"{processor:.1f} s"]
+        if before:
+            earlier = statistics.median(run[1] for run in before)
+            row += [f"{earlier:.1f} s", f"{earlier / processor:.1f}", f"{statistics.median(run[2] for run in before):,.0f} MiB"]
+        rows.append(row)
+    columns = ["parts", "first measurement", "now", "peak memory", "time of all cores"]
+    lines = ["Each file has one triangle per part. `defocus render FILE --no-cache --samples 4 --size 320x240`, "
+             f"medians of {PAIRS} runs:", ""]
+    if arguments.before:
+        columns += [f"at commit {FIRST}", "ratio", "memory then"]
+        lines[0] = lines[0].replace(":", f". Runs of commit {FIRST} alternate with those of the current program; the ratio is that of the "
+                                    "times of all cores:")
+    return [*lines, table(columns, rows).rstrip()], True
 
 
 def resident(process):
@@ -204,6 +229,7 @@ def main(words):
     parser = parser_of("endurance", __doc__)
     add_program(parser)
     parser.add_argument("--fuzz", type=path, required=True, help="output of scripts/fuzz")
+    parser.add_argument("--before", type=executable, help=f"program of commit {FIRST}, to compare with (default: none)")
     parser.add_argument("--frames", type=int, default=2500, help="of the long film (default: %(default)s)")
     parser.add_argument("--kills", type=int, default=20, help="captures to kill (default: %(default)s)")
     parser.add_argument("--output", type=path, default=ROOT / "bench/results/endurance.md", help="page (default: bench/results/endurance.md)")
