@@ -138,8 +138,8 @@ ImVec2 drawStatus(const Ui& ui) {
     const float width = static_cast<float>(ui.state.area.size.x) - 2 * gap;
     const View& view = ui.picture.image->plan().view;
     const std::string samples = samplesLabel(*ui.picture.image);
-    const std::string details =
-        fmt::format("{}   {} × {}   {:.0f} ms", samples, view.width, view.height, ui.times.frame);
+    const std::string details = fmt::format("{}   {} × {}   {:.0f} ms, {:.0f} frames/s", samples, view.width,
+                                            view.height, ui.times.frame, 1000 / std::max(ui.times.frame, 1.0));
     std::vector<std::pair<std::string, ImU32>> labels = {
         {lensLabel(ui.state.lens), brightColor},
         {labelWidth(ui, details) <= width ? details : samples, dimColor},

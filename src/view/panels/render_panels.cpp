@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "frame/settings/presets.h"
 #include "lod/pyramid/level_selection.h"
 #include "scene/built_in_environment.h"
 #include "view/panels/panels.h"
@@ -55,6 +56,23 @@ void backgroundCombo(Background& background) {
         background = choices[chosen];
 }
 
+// Draws the choice of a paper's preset. The window keeps the lens apart from the other settings, so values of the lens
+// that the preset sets or resets are copied to it.
+void presetRow(ViewState& state) {
+    const Preset* const before = presetOf(state.options);
+    if (!settingRow(state.options, "preset")) return;
+    const LensValues given = givenLensValues(state.options);
+    for (const Preset* const preset : {before, presetOf(state.options)}) {
+        if (preset == nullptr) continue;
+        for (const PresetValue& value : preset->values) {
+            const LensField* const field = lensFieldNamed(value.setting);
+            if (field == nullptr) continue;
+            const auto found = given.find(value.setting);
+            setLensField(state.lens, *field, found != given.end() ? found->second : lensFieldValue(Lens{}, *field));
+        }
+    }
+}
+
 }  // namespace
 
 void surroundingsPanel(const Ui& ui) {
@@ -93,6 +111,7 @@ void settingsPanel(const Ui& ui) {
 }
 
 void methodPanel(const Ui& ui) {
+    presetRow(ui.state);
     Request& options = ui.state.options;
     const MethodUse use = chosenMethod(options);
     rowLabel("Method", "Rendering method (--method)");
