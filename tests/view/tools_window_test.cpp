@@ -62,6 +62,18 @@ TEST_F(ViewTools, lightsGetASizeAndTheirOwnBack) {
     EXPECT_TRUE(reaches([&](const json& s) { return !isSized(s); })) << state();
 }
 
+TEST_F(ViewTools, aPresetIsChosenAndLeftInThePanel) {
+    openTall();
+    const auto hasPreset = [](const json& s) {
+        return s.at("command").get<std::string>().find("--preset ") != std::string::npos;
+    };
+    ASSERT_TRUE(foldsFocusAndLens()) << state();
+    ASSERT_TRUE(unfolds("Method", "preset")) << state();
+    ASSERT_FALSE(hasPreset(state()));
+    ASSERT_TRUE(clicks("preset", hasPreset)) << state();
+    EXPECT_TRUE(clicks("preset", [&](const json& s) { return !hasPreset(s); })) << state();
+}
+
 TEST_F(ViewTools, theDesktopsDialogIsAskedWhereThereIsOne) {
     writeTwoQuads(folder() / "other.gltf");
     fs::create_directory(folder() / "bin");

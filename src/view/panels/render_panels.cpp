@@ -60,7 +60,7 @@ void backgroundCombo(Background& background) {
 // that the preset sets or resets are copied to it.
 void presetRow(ViewState& state) {
     const Preset* const before = presetOf(state.options);
-    if (!settingRow(state.options, "preset")) return;
+    if (!settingRow(state.options, "preset", presets().front().name)) return;
     const LensValues given = givenLensValues(state.options);
     for (const Preset* const preset : {before, presetOf(state.options)}) {
         if (preset == nullptr) continue;
