@@ -38,4 +38,7 @@ layout(std140, binding = 2) uniform MaterialBlock {
     vec4 anisotropy;      // strength; cosine and sine of the rotation
     vec4 film;            // iridescence: factor, ior, min and max thickness (nm)
     vec4 through;         // diffuse transmission: rgb colour; w: factor
+#ifdef UV_TRANSFORMS
+    vec4 uvRows[38];      // per texture slot: two rows of a 2×3 matrix; w of the first row: number of the UV set
+#endif
 } material;

@@ -24,19 +24,16 @@ const ivec2 iridescenceThicknessTexture = ivec2(textureUnits[16], 16);
 const ivec2 diffuseTransmissionTexture = ivec2(textureUnits[17], 17);
 const ivec2 diffuseTransmissionColorTexture = ivec2(textureUnits[18], 18);
 
-// Transforms of texture coordinates; bound only with uvTransforms. The C++ counterpart is GpuUvRows in
-// src/render/gpu_scene/material_blocks.h.
-layout(std140, binding = 8) uniform UvBlock {
-    vec4 uvRows[38];   // per texture slot: two rows of a 2×3 matrix; w of the first row: number of the UV set
-};
-
 // Returns the texture coordinates of texture slot `slot`. `uvSets` holds both UV sets of the surface.
 vec2 uvOf(int slot, vec4 uvSets) {
-    if (!uvTransforms) return uvSets.xy;
-    vec4 rowU = uvRows[2 * slot];
-    vec4 rowV = uvRows[2 * slot + 1];
+#ifdef UV_TRANSFORMS
+    vec4 rowU = material.uvRows[2 * slot];
+    vec4 rowV = material.uvRows[2 * slot + 1];
     vec2 uv = rowU.w == 0.0 ? uvSets.xy : uvSets.zw;
     return vec2(dot(rowU.xyz, vec3(uv, 1.0)), dot(rowV.xyz, vec3(uv, 1.0)));
+#else
+    return uvSets.xy;
+#endif
 }
 
 // Returns a sample of materialTextures[unit] at uvOf(slot, …), filtered over the part of the pixel that the lens sample

@@ -60,7 +60,7 @@ constexpr ShaderConstant constants[] = {
     {"bool", "vertexColors", "false"},
     {"bool", "colorRanges", "false", "COLOR_RANGES"},
     {"bool", "levelColorRange", "false"},
-    {"bool", "uvTransforms", "false"},
+    {"bool", "uvTransforms", "false", "UV_TRANSFORMS"},
     {"int", "textureCount", "1"},
     {"int[19]", "textureUnits", "int[](-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1)"},
     {"bool", "passesOwnBlur", "false", "PASSES_OWN_BLUR"},  // the fragment stage reads the blur modifiers

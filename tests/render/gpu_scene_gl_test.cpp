@@ -106,7 +106,7 @@ TEST_F(GpuSceneTest, materialsWithoutUvTransformsTakeNoUvRows) {
     EXPECT_EQ(MaterialBlocks(scene, materials).bytes(), 100 * uniformStride(sizeof(GpuMaterial)));
     small_.scene.materials[7].baseColor = {0, 1, {}};
     EXPECT_EQ(MaterialBlocks(scene, materials).bytes(),
-              100 * uniformStride(sizeof(GpuMaterial)) + uniformStride(sizeof(GpuUvRows)));
+              99 * uniformStride(sizeof(GpuMaterial)) + uniformStride(sizeof(GpuTransformedMaterial)));
 }
 
 }  // namespace

@@ -11,7 +11,6 @@ namespace defocus::engine {
 namespace {
 
 constexpr GLuint materialBinding = 2;  // uniform block in shaders/include/frame.glsl
-constexpr GLuint uvRowsBinding = 8;    // uniform block in shaders/include/material_textures.glsl
 
 constexpr float minAttenuation = 1e-6f;  // lower bound of a colour channel before its logarithm
 
@@ -44,15 +43,15 @@ GpuMaterial blockOf(const Material& material, double metresPerUnit) {
     return block;
 }
 
-GpuUvRows uvRowsOf(const Material& material) {
-    GpuUvRows rows{};
+GpuTransformedMaterial transformedBlockOf(const Material& material, double metresPerUnit) {
+    GpuTransformedMaterial block{blockOf(material, metresPerUnit), {}};
     const auto uses = textureUses(material);
     for (std::size_t i = 0; i < uses.size(); ++i) {
         const glm::mat3& m = uses[i]->uvTransform;
-        rows[2 * i] = {m[0][0], m[1][0], m[2][0], static_cast<float>(uses[i]->uvSet)};
-        rows[2 * i + 1] = {m[0][1], m[1][1], m[2][1], 0};
+        block.uvRows[2 * i] = {m[0][0], m[1][0], m[2][0], static_cast<float>(uses[i]->uvSet)};
+        block.uvRows[2 * i + 1] = {m[0][1], m[1][1], m[2][1], 0};
     }
-    return rows;
+    return block;
 }
 
 bool transformsAnyUv(const Material& material) {
@@ -66,23 +65,29 @@ bool transformsUv(const TextureUse& use) {
 }
 
 MaterialBlocks::MaterialBlocks(const GpuScene& scene, std::vector<int> materials)
-    : scene_(&scene), materials_(std::move(materials)), uvSlots_(materials_.size()) {
+    : scene_(&scene), materials_(std::move(materials)) {
     const double metresPerUnit = scene.world().scene->metresPerUnit;
-    blocks_ = UniformBlocks<GpuMaterial>(
-        materials_.size(), [&](std::size_t slot) { return blockOf(scene.material(materials_[slot]), metresPerUnit); });
+    std::vector<int> plain;
     std::vector<int> transformed;
-    for (std::size_t slot = 0; slot < materials_.size(); ++slot) {
-        if (!transformsAnyUv(scene.material(materials_[slot]))) continue;
-        uvSlots_[slot] = transformed.size();
-        transformed.push_back(materials_[slot]);
+    for (const int material : materials_) {
+        const bool transforms = transformsAnyUv(scene.material(material));
+        std::vector<int>& list = transforms ? transformed : plain;
+        places_.push_back({transforms, list.size()});
+        list.push_back(material);
     }
-    uvRows_ = UniformBlocks<GpuUvRows>(transformed.size(),
-                                       [&](std::size_t i) { return uvRowsOf(scene.material(transformed[i])); });
+    plain_ = UniformBlocks<GpuMaterial>(
+        plain.size(), [&](std::size_t i) { return blockOf(scene.material(plain[i]), metresPerUnit); });
+    transformed_ = UniformBlocks<GpuTransformedMaterial>(transformed.size(), [&](std::size_t i) {
+        return transformedBlockOf(scene.material(transformed[i]), metresPerUnit);
+    });
 }
 
 void MaterialBlocks::bind(std::size_t slot) const {
-    blocks_.bind(materialBinding, slot);
-    if (uvSlots_[slot]) uvRows_.bind(uvRowsBinding, *uvSlots_[slot]);
+    const Place place = places_[slot];
+    if (place.transforms)
+        transformed_.bind(materialBinding, place.block);
+    else
+        plain_.bind(materialBinding, place.block);
     scene_->textures(materials_[slot]).attach();
 }
 

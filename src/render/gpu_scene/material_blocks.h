@@ -1,10 +1,11 @@
 #pragma once
-// Uniform blocks of materials. The transforms of texture coordinates have a block of their own, because they are larger
-// than all other values and few materials have them.
+// Uniform blocks of materials. Only materials with transforms of texture coordinates have a block that contains these
+// transforms, because few materials have them and they are larger than all other values. A second block for the
+// transforms would be one block more than Mesa 22.3's Vulkan driver (lavapipe) can draw with together with lamps and
+// shadows.
 
 #include <array>
 #include <glm/vec4.hpp>
-#include <optional>
 #include <vector>
 
 #include "render/gpu_scene/gpu_scene.h"
@@ -12,7 +13,7 @@
 
 namespace defocus::engine {
 
-// Uniform block of a material; matches shaders/include/frame.glsl (std140).
+// Uniform block of a material; matches shaders/include/frame.glsl (std140) without UV_TRANSFORMS.
 struct GpuMaterial {
     glm::vec4 baseColor;
     glm::vec4 emissiveCutoff;
@@ -27,8 +28,11 @@ struct GpuMaterial {
     glm::vec4 through;
 };
 
-// Transforms of a material's texture coordinates; matches shaders/include/material_textures.glsl (std140).
-using GpuUvRows = std::array<glm::vec4, 2 * materialTextureCount>;
+// Uniform block of a material with transforms; matches shaders/include/frame.glsl (std140) with UV_TRANSFORMS.
+struct GpuTransformedMaterial {
+    GpuMaterial material;
+    std::array<glm::vec4, 2 * materialTextureCount> uvRows;
+};
 
 // Returns whether a texture is read at other coordinates than those of UV set 0.
 bool transformsUv(const TextureUse& use);
@@ -39,16 +43,20 @@ public:
     // Uploads the blocks of `materials`, which are indices of the scene's materials; −1 is the default material.
     MaterialBlocks(const GpuScene& scene, std::vector<int> materials);
 
-    // Binds the blocks and the textures of the material with index `slot` in the list.
+    // Binds the block and the textures of the material with index `slot` in the list.
     void bind(std::size_t slot) const;
-    [[nodiscard]] std::size_t bytes() const { return blocks_.bytes() + uvRows_.bytes(); }
+    [[nodiscard]] std::size_t bytes() const { return plain_.bytes() + transformed_.bytes(); }
 
 private:
     const GpuScene* scene_ = nullptr;
     std::vector<int> materials_;
-    UniformBlocks<GpuMaterial> blocks_;
-    UniformBlocks<GpuUvRows> uvRows_;
-    std::vector<std::optional<std::size_t>> uvSlots_;  // per material: index in uvRows_; nullopt without transforms
+    struct Place {
+        bool transforms = false;  // true: the block is in transformed_, else in plain_
+        std::size_t block = 0;    // index of the block there
+    };
+    UniformBlocks<GpuMaterial> plain_;
+    UniformBlocks<GpuTransformedMaterial> transformed_;
+    std::vector<Place> places_;  // per material
 };
 
 }  // namespace defocus::engine
