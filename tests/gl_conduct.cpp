@@ -54,8 +54,9 @@ const char* extensionOf(GLenum stage) {
     }
 }
 
-// Redirects a function pointer of libepoxy to `mine` and keeps its original value. The original value may be libepoxy's
-// resolver, which must be called through the pointer: it looks up the driver's function and stores it there.
+// Redirects a function pointer of libepoxy to `mine` and keeps its original value. The original value is first
+// libepoxy's resolver, which must be called through the pointer: it looks up the driver's function and stores it there.
+// Later calls use the driver's function, so that threads do not see the pointer without the redirection.
 template <typename Function>
 class Detour {
 public:
@@ -63,7 +64,11 @@ public:
 
     template <typename... Arguments>
     auto call(Arguments... arguments) {
-        const std::scoped_lock lock(mutex_);
+        std::unique_lock lock(mutex_);
+        if (resolved_) {
+            lock.unlock();
+            return before_(arguments...);
+        }
         pointer_ = before_;
         const Restored restored{*this};
         return pointer_(arguments...);
@@ -75,6 +80,7 @@ private:
         ~Restored() {
             detour.before_ = detour.pointer_;
             detour.pointer_ = detour.mine_;
+            detour.resolved_ = true;
         }
     };
 
@@ -82,6 +88,7 @@ private:
     Function& pointer_;
     Function mine_;
     Function before_;
+    bool resolved_ = false;  // before_ is the driver's function
 };
 
 GLuint EPOXY_CALLSPEC createShader(GLenum stage);

@@ -114,6 +114,22 @@ public:
         return reason;
     }
 
+    // Creates a context that shares objects with the thread's current EGL context. Throws Error if this fails.
+    void share() {
+        display_ = eglGetCurrentDisplay();
+        const EGLContext current = eglGetCurrentContext();
+        EGLint id = 0;
+        eglQueryContext(display_, current, EGL_CONFIG_ID, &id);
+        const EGLint attributes[] = {EGL_CONFIG_ID, id, EGL_NONE};
+        EGLConfig config = EGL_NO_CONFIG_KHR;
+        EGLint configs = 0;
+        if (id != 0) eglChooseConfig(display_, attributes, &config, 1, &configs);
+        createContext(configs > 0 ? config : EGL_NO_CONFIG_KHR, current);
+        if (context_ == EGL_NO_CONTEXT)
+            fail("cannot create a further OpenGL context: {}; give --threads 1", eglErrorName(eglGetError()));
+        readDriver();
+    }
+
     void makeCurrent() override {
         if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE ||
             eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE)
@@ -149,17 +165,26 @@ private:
             eglChooseConfig(display_, configAttributes, &config, 1, &configs) == EGL_TRUE && configs > 0;
         if (!chosen && !listed(eglQueryString(display_, EGL_EXTENSIONS), "EGL_KHR_no_config_context"))
             return failed("eglChooseConfig");
-        const EGLint contextAttributes[] = {
-            EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-            EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-        context_ = eglCreateContext(display_, chosen ? config : EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, contextAttributes);
+        createContext(chosen ? config : EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT);
         if (context_ == EGL_NO_CONTEXT) return failed("eglCreateContext (OpenGL 4.5 core)");
         if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE)
             return failed("eglMakeCurrent without a surface");
+        readDriver();
+        return {};
+    }
+
+    void createContext(EGLConfig config, EGLContext shared) {
+        const EGLint attributes[] = {
+            EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+            EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+        context_ = eglCreateContext(display_, config, shared, attributes);
+    }
+
+    // Reads the facts about the driver from the current context, which uses the same driver.
+    void readDriver() {
         device_ = currentDevice();
         driver_ = currentDriver();
         software_ = currentIsSoftware();
-        return {};
     }
 
     void close() {
@@ -230,6 +255,13 @@ std::unique_ptr<GlContext> createHeadlessContext() {
         reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", candidate.name, reason);
     }
     fail("cannot create an OpenGL 4.5 context: {}; install a driver (Debian: libegl1 libgl1-mesa-dri)", reasons);
+}
+
+std::unique_ptr<GlContext> createSharedContext() {
+    if (eglGetCurrentContext() == EGL_NO_CONTEXT) return nullptr;
+    auto context = std::make_unique<HeadlessContext>();
+    context->share();
+    return context;
 }
 
 }  // namespace defocus::engine

@@ -21,18 +21,13 @@ bool softwareDriver() {
 SubmissionPacer::SubmissionPacer(std::uint64_t bytes)
     : batch_(softwareDriver() ? std::max<std::uint64_t>(1, bytes / pendingTriangleBytes / (openBatches + 1)) : 0) {}
 
-SubmissionPacer::~SubmissionPacer() {
-    for (const GLsync fence : fences_) glDeleteSync(fence);
-}
-
 void SubmissionPacer::submitted(std::uint64_t triangles) {
     open_ += triangles;
     if (batch_ == 0 || open_ < batch_) return;
     open_ = 0;
-    fences_.push_back(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
+    fences_.push_back(Fence::here());
     if (fences_.size() <= openBatches) return;
-    glClientWaitSync(fences_.front(), GL_SYNC_FLUSH_COMMANDS_BIT, longestWait);
-    glDeleteSync(fences_.front());
+    fences_.front().wait(longestWait);
     fences_.pop_front();
 }
 

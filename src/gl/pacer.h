@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <deque>
 
-#include "gl/handle.h"
+#include "gl/fence.h"
 
 namespace defocus::engine {
 
@@ -18,9 +18,6 @@ public:
 
     // `bytes`: max memory of all pending triangles of a software driver.
     explicit SubmissionPacer(std::uint64_t bytes = defaultBytes);
-    ~SubmissionPacer();
-    SubmissionPacer(const SubmissionPacer&) = delete;
-    SubmissionPacer& operator=(const SubmissionPacer&) = delete;
 
     // Returns the maximum number of triangles per draw call; 0: unlimited.
     [[nodiscard]] std::uint64_t maxTriangles() const { return batch_; }
@@ -31,7 +28,7 @@ public:
 private:
     std::uint64_t batch_ = 0;  // triangles between two fences; 0: no limit
     std::uint64_t open_ = 0;   // triangles since the last fence
-    std::deque<GLsync> fences_;
+    std::deque<Fence> fences_;
 };
 
 }  // namespace defocus::engine

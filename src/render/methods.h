@@ -36,7 +36,8 @@ using MethodSettings = std::map<std::string, std::string>;
 struct RendererOptions {
     LayerFormat layerFormat = LayerFormat::automatic;
     std::uint32_t wave = 0;                  // lens samples per wave K; 0: as many as fit into waveBytes
-    std::uint64_t waveBytes = 160ull << 20;  // max memory of a wave's layers
+    std::uint64_t waveBytes = 160ull << 20;  // max memory of the layers of all waves that are drawn at once
+    std::uint32_t threads = 1;               // threads that draw (Method::usesThreads), each with a context of its own
     std::uint64_t pendingBytes = SubmissionPacer::defaultBytes;  // max memory of pending triangles of a software driver
     bool geometryShaderLayers = false;                           // true: always select layers in a geometry shader
     std::filesystem::path shaderFolder;  // shaders in this folder replace embedded shaders; empty: none
@@ -57,6 +58,7 @@ struct Method {
     bool sumsBlocks = false;      // true: Renderer::continueWith adds samples to the sum
     bool drawsTiles = false;      // true: draws only FramePlan::tile; false: always the full image
     bool drawsLayers = false;     // true: draws RenderSettings::layers
+    bool usesThreads = false;     // true: draws in RendererOptions::threads threads
     bool drawsShadows = true;     // false: no shadows
     bool drawsMotion = true;      // false: draws moving objects at a single time within the exposure
     ApertureShown aperture = ApertureShown::all;

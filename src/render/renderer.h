@@ -35,6 +35,7 @@ struct RenderStats {
     std::uint64_t trianglesHidden = 0;  // triangles of the plan that were skipped because they are hidden
     std::uint64_t peakBytes = 0;        // peak size of the renderer's GPU resources
     std::uint32_t wave = 0;             // number of lens samples drawn together
+    std::uint32_t threads = 1;          // number of threads that draw, each with an OpenGL context of its own
     std::string layerFormat;            // format of the layers, e.g. "rgba16f"
     std::string device;
     std::string driver;
@@ -50,6 +51,17 @@ struct BlockSum {
     std::uint32_t samples = 0;
     Image sum;
     Image compensation;
+};
+
+// Limits on the samples that are drawn together.
+struct WaveLimit {
+    std::uint32_t samples = 0;  // max samples in memory, of all waves that are drawn at once; 0: RendererOptions::wave
+    std::uint32_t perWave = 0;  // max samples per wave, so that a wave takes little time; 0: no limit
+    // Returns the max samples of a method that draws one wave at a time; `otherwise` is RendererOptions::wave.
+    [[nodiscard]] std::uint32_t withDefault(std::uint32_t otherwise) const {
+        const std::uint32_t max = samples > 0 ? samples : otherwise;
+        return perWave > 0 && (max == 0 || max > perWave) ? perWave : max;
+    }
 };
 
 class Renderer {
@@ -81,9 +93,8 @@ public:
     // plans must have been drawn and form complete blocks of 64. Methods that do not sum blocks (Method::sumsBlocks)
     // start a new frame. Afterwards, times in stats() cover only `plan`; triangles and samples are totals.
     virtual void continueWith(const FramePlan& plan) { start(plan); }
-    // Sets the samples per wave K from the next start() on; 0 restores RendererOptions::wave. K does not change the
-    // image.
-    virtual void setWave(std::uint32_t /*samples*/) {}
+    // Limits the samples per wave K from the next start() on. K does not change the image.
+    virtual void setWave(const WaveLimit& /*limit*/) {}
     // Returns image() as a texture with row 0 at the bottom, valid until the next call of a member; nullptr for methods
     // without OpenGL.
     [[nodiscard]] virtual const GlTexture* imageTexture() { return nullptr; }

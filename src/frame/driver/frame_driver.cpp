@@ -249,13 +249,12 @@ FrameDriver::Fit FrameDriver::fitOf(const FrameOrder& order) {
             order.rows};
 }
 
-// Returns the number of samples per wave (samples drawn together) for a frame that must be able to stop soon. On a CPU,
-// returns 1, because a sample may take long. On a GPU, returns a few, which take little time and keep the GPU busy. The
-// result is at most the request's wave. Returns 0 (no limit) for other frames.
-std::uint32_t FrameDriver::shortWave(const FrameOrder& order) const {
+// Returns the max number of samples per wave (samples drawn together) for a frame that must be able to stop soon. On a
+// CPU, returns 1, because a sample may take long. On a GPU, returns a few, which take little time and keep the GPU
+// busy. Returns 0 (no limit) for other frames.
+std::uint32_t FrameDriver::shortWave(const FrameOrder& order) {
     if (!fitOf(order).shortDraws) return 0;
-    const std::uint32_t shortest = currentIsSoftware() ? 1 : 8;
-    return options_.limits.wave > 0 ? std::min(options_.limits.wave, shortest) : shortest;
+    return currentIsSoftware() ? 1 : 8;
 }
 
 // Chooses whether the frame is drawn untiled or in tiles, and how many layers are drawn per wave.
@@ -273,7 +272,7 @@ void FrameDriver::fit(const FrameOrder& order) {
     const bool mapsPossible = shadows == Shadows::on || (shadows == Shadows::automatic && hasGround(*world_->scene));
     if (!order.rows && surelyFits(order.view.width, order.view.height, mapsPossible, limits, limit_)) {
         if (!renderer_) makeRenderer();
-        return renderer_->setWave(shortWave(order));
+        return renderer_->setWave({.perWave = shortWave(order)});
     }
 
     // Free the memory of the previous frame before the remaining memory is measured.
@@ -289,10 +288,8 @@ void FrameDriver::fit(const FrameOrder& order) {
         return fitTiles(order, plan, order.rows.value_or(std::vector<RowRange>{{0, plan.view.height}}));
     TilingNeeds needs = needsBeforeUpload(*world_, plan, limits, limit_);
     makeRenderer();
-    const std::uint32_t shortest = shortWave(order);
-    renderer_->setWave(shortest);
+    renderer_->setWave({.samples = limits.memory ? waveWithin(needs) : 0, .perWave = shortWave(order)});
     if (!limits.memory) return;
-    if (shortest == 0) renderer_->setWave(waveWithin(needs));
     needs.keptBytes = std::uint64_t(needs.width) * std::uint64_t(needs.height) * options_.keptPixelBytes;
     crowded_ = !fitsInOnePiece(needs);
 }
@@ -307,7 +304,7 @@ void FrameDriver::fitTiles(const FrameOrder& order, const FramePlan& plan, const
     for (const RowRange& range : rows) {
         needs.rows = range;
         Tiling tiling = chosenTiling(needs);
-        renderer_->setWave(tiling.wave);
+        renderer_->setWave({.samples = tiling.wave});
         bands_->insert(bands_->end(), tiling.bands.begin(), tiling.bands.end());
     }
 }

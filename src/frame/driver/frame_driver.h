@@ -118,7 +118,7 @@ private:
 
     static Fit fitOf(const FrameOrder& order);
     void makeRenderer();
-    [[nodiscard]] std::uint32_t shortWave(const FrameOrder& order) const;
+    [[nodiscard]] static std::uint32_t shortWave(const FrameOrder& order);
     void fit(const FrameOrder& order);
     void fitTiles(const FrameOrder& order, const FramePlan& plan, const std::vector<RowRange>& rows);
 

@@ -19,8 +19,7 @@
 #include "plan/sample_range.h"
 #include "render/accumulation/layer_sum.h"
 #include "render/accumulation/lens_layers.h"
-#include "render/gpu_scene/shadow_maps.h"
-#include "render/gpu_scene/surface_pass.h"
+#include "render/accumulation/wave_queue.h"
 #include "render/sampling/frame_clock.h"
 
 namespace defocus::engine {
@@ -30,26 +29,39 @@ namespace {
 // Max samples per wave. The image's error may be estimated at each multiple of this number, so waves must not cross a
 // multiple.
 constexpr std::uint32_t maxWave = 16;
+// Max samples per wave if several threads draw. Small waves divide the samples evenly between threads.
+constexpr std::uint32_t maxSharedWave = 4;
 
-// Returns the number of layers, which is the number of samples per wave: a power of two, at most 16. If `requested` is
-// 0, it is the largest number that fits into RendererOptions::waveBytes.
-std::uint32_t chosenWave(const Scene& scene, const FramePlan& plan, const RendererOptions& options,
-                         std::uint32_t requested, LayerFormat format) {
+// Returns the max number of layers in memory. If `limit` sets none, as many as fit into RendererOptions::waveBytes.
+std::uint64_t maxLayers(const Scene& scene, const FramePlan& plan, const RendererOptions& options,
+                        const WaveLimit& limit, LayerFormat format) {
+    const std::uint32_t asked = limit.samples > 0 ? limit.samples : options.wave;
+    if (asked > 0) return asked;
     const LayerWindow window = layerWindow(plan);
+    const std::uint64_t pixels =
+        std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} * static_cast<std::uint32_t>(window.layerHeight);
     const std::uint64_t layerBytes =
-        std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} * static_cast<std::uint32_t>(window.layerHeight) *
-            layerPixelBytes(format) * (plan.usesTransmission ? 2 : 1) +  // the backdrop is a copy of all layers
-        shadowMapBytes(scene, plan) +
-        std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} * static_cast<std::uint32_t>(window.layerHeight) *
-            LensLayers::layerBytes(plan.settings.layers);
-    const std::uint64_t fitting =
-        requested > 0 ? requested : std::max<std::uint64_t>(1, options.waveBytes / layerBytes);
-    return std::bit_floor(static_cast<std::uint32_t>(std::min<std::uint64_t>({fitting, maxWave, plan.samples.size()})));
+        pixels * layerPixelBytes(format) * (plan.usesTransmission ? 2 : 1) +  // the backdrop is a copy of all layers
+        shadowMapBytes(scene, plan) + pixels * LensLayers::layerBytes(plan.settings.layers);
+    return std::max<std::uint64_t>(1, options.waveBytes / layerBytes);
 }
 
-bool sameSizes(const LayerSumInfo& a, const LayerSumInfo& b) {
-    return a.width == b.width && a.height == b.height && a.layers == b.layers && a.sumWidth == b.sumWidth &&
-           a.sumHeight == b.sumHeight;
+// Returns the division of the plan's samples into waves and threads, for at most `layers` layers in memory.
+WaveShape chosenShape(const FramePlan& plan, const RendererOptions& options, const WaveLimit& limit,
+                      std::uint64_t layers) {
+    const std::uint64_t samples = std::max<std::uint64_t>(1, plan.samples.size());
+    const std::uint64_t longest = limit.perWave > 0 ? limit.perWave : maxWave;
+    WaveShape shape;
+    shape.threads = static_cast<std::uint32_t>(std::min<std::uint64_t>({options.threads, layers, samples}));
+    shape.targets = shape.threads > 1 && 2 * shape.threads <= std::min(layers, samples) ? 2 : 1;
+    const auto power = [](std::uint64_t max) { return std::bit_floor(static_cast<std::uint32_t>(max)); };
+    if (shape.threads <= 1) {
+        shape.samples = power(std::min({layers, samples, longest, std::uint64_t{maxWave}}));
+    } else {
+        const std::uint64_t even = std::max<std::uint64_t>(1, samples / (4 * shape.threads));  // four waves per thread
+        shape.samples = power(std::min({layers / shape.waves(), even, longest, std::uint64_t{maxSharedWave}}));
+    }
+    return shape;
 }
 
 // Whether each sample's image is blurred by its lens cell. `automatic` decides by the blur in the image
@@ -59,18 +71,19 @@ enum class CellUse { never, always, automatic };
 class AccumulationRenderer final : public Renderer {
 public:
     AccumulationRenderer(const World& world, const RendererOptions& options, CellUse cellUse)
-        : options_(options), wave_(options.wave), cellUse_(cellUse), scene_(world, options.pendingBytes) {}
+        : options_(options), cellUse_(cellUse), scene_(world, options.pendingBytes), waves_(scene_, options) {}
 
-    void setWave(std::uint32_t samples) override { wave_ = samples > 0 ? samples : options_.wave; }
+    void setWave(const WaveLimit& limit) override { limit_ = limit; }
 
     void start(const FramePlan& plan) override {
         clock_.beginSetup();
+        waves_.stop();  // the waves of the previous frame use its plan
         setPlan(plan);
-        prepareTarget();
+        prepareSums();
         samplesBefore_ = 0;
         stats_.trianglesDrawn = stats_.trianglesHidden = 0;
-        for (GpuTimer* timer : {&shadowTimer_, &opaqueTimer_, &skyTimer_, &translucentTimer_, &sumTimer_})
-            timer->reset();
+        waves_.resetTimes();
+        sumTimer_.reset();
         if (layers_) layers_->reset();
         prepareFrame();
     }
@@ -81,25 +94,28 @@ public:
             fail(
                 "samples can be added only after the current block of samples is complete, and at the same image size");
         clock_.beginSetup();
+        waves_.stop();
         samplesBefore_ = samples();
         setPlan(plan);
         prepareFrame();
     }
 
     bool advance() override {
-        // `first` is the index of the wave's first sample within the plan.
-        const std::uint32_t first = sum_->samples() - samplesBefore_;
-        const auto total = static_cast<std::uint32_t>(plan_.samples.size());
-        if (first >= total) return false;
-        const std::uint32_t count = std::min(sum_->info().layers, total - first);
+        if (samples() == sampleTotal()) return false;
+        const DrawnWave wave = waves_.next();
+        latest_ = wave.layers;
         clock_.beginWave();
-        drawWave(first, count);
+        timed(sumTimer_, [&] { sum_->add(wave.layers->picture, frame_, wave.first, wave.count); });
+        if (layers_) layers_->add(*wave.layers->data, frame_, wave.first, wave.count);
         clock_.endWave();
-        if (first + count == total) {
+        stats_.trianglesDrawn += trianglesDrawn(plan_, wave.first, wave.count);
+        stats_.trianglesHidden += wave.hiddenTriangles;
+        const bool ended = samples() == sampleTotal();
+        if (ended) {
             sum_->makeMean();  // before endFrame(), so that the frame's time includes the mean
             clock_.endFrame();
         }
-        return first + count < total;
+        return !ended;
     }
 
     [[nodiscard]] std::uint32_t samples() const override { return sum_ ? sum_->samples() : 0; }
@@ -112,7 +128,7 @@ public:
     [[nodiscard]] std::optional<BlockSum> blockSum() override { return sum_->block(); }
 
     [[nodiscard]] std::optional<Image> sampleDepth() override {
-        Image depth = readBack(sum_->layerDepths(), 1);
+        Image depth = readBack(latest_->picture.depths(), 1);
         // The depth buffer holds near plane / depth.
         for (float& value : depth.pixels) value = static_cast<float>(plan_.view.nearPlane / static_cast<double>(value));
         return depth;
@@ -127,12 +143,11 @@ public:
         RenderStats stats = stats_;
         stats.samples = samples();
         clock_.fill(stats);
-        stats.wave = sum_->info().layers;
+        stats.wave = shape_.samples;
+        stats.threads = waves_.threads();
         stats.layerFormat = layerFormatName(sum_->info().format);
-        if (!shadows_->defines().empty()) stats.passes.push_back({"shadows", shadowTimer_.milliseconds()});
-        stats.passes.push_back({"opaque", opaqueTimer_.milliseconds()});
-        if (drawsSky()) stats.passes.push_back({"sky", skyTimer_.milliseconds()});
-        if (surfaces_->hasTranslucent()) stats.passes.push_back({"translucent", translucentTimer_.milliseconds()});
+        stats.passes = waves_.times();
+        for (const PassTime& pass : stats.passes) stats.gpuMilliseconds += pass.milliseconds;
         stats.passes.push_back({"sum", sumTimer_.milliseconds()});
         if (layers_) std::ranges::copy(layers_->times(), std::back_inserter(stats.passes));
         return stats;
@@ -152,57 +167,43 @@ private:
     void prepareFrame() {
         scene_.prepare(plan_);
         sum_->blurCells(cells_);
-        frame_.upload(scene_.world(), plan_, sum_->info().layers);
-        shadows_->prepare(plan_, frame_);
-        surfaces_->prepare(plan_, frame_, &*shadows_);
-        surfaces_->markBlended(blursCells());
-        if (leavesOutHidden()) surfaces_->findHidden(plan_);
-        stats_.peakBytes = std::max<std::uint64_t>(
-            stats_.peakBytes, scene_.bytes() + frame_.bytes() + surfaces_->bytes() + shadows_->bytes() + sum_->bytes() +
-                                  (layers_ ? layers_->bytes() : 0));
+        frame_.upload(scene_.world(), plan_, shape_.samples);
+        const LayerWindow window = layerWindow(plan_);
+        waves_.prepare({.plan = &plan_,
+                        .uniforms = &frame_,
+                        .layers = {window.layerWidth, window.layerHeight, shape_.samples, sum_->info().format},
+                        .window = plan_.tile ? std::optional(window) : std::nullopt,
+                        .skipsHidden = skipsHidden(),
+                        .countsSamples = countsSamples_,
+                        .marksBlended = blursCells(),
+                        .drawsSky = drawsSky()},
+                       shape_);
+        stats_.peakBytes =
+            std::max<std::uint64_t>(stats_.peakBytes, scene_.bytes() + frame_.bytes() + waves_.bytes() + sum_->bytes() +
+                                                          (layers_ ? layers_->bytes() : 0));
         clock_.beginFrame();
     }
 
     [[nodiscard]] bool blursCells() const { return cells_.classes() > 0; }
 
-    // Reallocates the sums if their size or format has changed, and the passes if the format has changed.
-    void prepareTarget() {
+    // Chooses the shape of waves, and reallocates the sums if their size or format has changed.
+    void prepareSums() {
         const LayerFormat format = chosenLayerFormat(scene_.world(), options_.layerFormat);
+        shape_ =
+            chosenShape(plan_, options_, limit_, maxLayers(*scene_.world().scene, plan_, options_, limit_, format));
         const LayerWindow window = layerWindow(plan_);
-        const LayerSumInfo info{.width = window.layerWidth,
-                                .height = window.layerHeight,
-                                .layers = chosenWave(*scene_.world().scene, plan_, options_, wave_, format),
-                                .format = format,
-                                .shaderFolder = options_.shaderFolder,
-                                .sumWidth = window.width,
-                                .sumHeight = window.height};
+        const LayerSumInfo info{window.width, window.height, format, options_.shaderFolder};
         const std::vector<Layer>& layers = plan_.settings.layers;
         const bool countsSamples = plan_.view.lens.catEye > 0;
-        const bool sameLayers = drawnLayers_ == layers && countsSamples_ == countsSamples;
-        const bool sameFormat = sum_ && sum_->info().format == format && sameLayers;
-        const bool sameTarget = sameFormat && sameSizes(sum_->info(), info);
-        if (!sameTarget) {
+        const bool same = sum_ && sum_->info() == info && drawnLayers_ == layers && countsSamples_ == countsSamples;
+        if (!same) {
             layers_.reset();
             sum_.reset();  // free the old sums first, because memory may not suffice for both
             sum_.emplace(info);
-            if (!layers.empty()) layers_.emplace(layers, *sum_, countsSamples);
+            if (!layers.empty())
+                layers_.emplace(layers, countsSamples, glm::ivec2(info.width, info.height), options_.shaderFolder);
             drawnLayers_ = layers;
             countsSamples_ = countsSamples;
-        }
-        SurfacePassInfo pass{.fragmentShader = "accumulation/object.frag",
-                             .defines = layerFormatDefines(format),
-                             .stochasticAlpha = true,
-                             .vertexShaderLayers = vertexShaderMayPickLayer() && !options_.geometryShaderLayers,
-                             .shaderFolder = options_.shaderFolder};
-        if (layers_) {
-            pass.fragmentShader = "accumulation/layers.frag";
-            for (const auto& define : LensLayers::defines(layers, countsSamples)) pass.defines.push_back(define);
-            pass.readsOwnBlur = pass.writesLayers = true;
-            pass.writesNumbers = layers_->countsNumbers();
-        }
-        if (!sameFormat) {
-            shadows_.emplace(scene_, pass.vertexShaderLayers, pass.shaderFolder);
-            surfaces_.emplace(scene_, pass);
         }
         sum_->reset(plan_.tile ? std::optional(window) : std::nullopt);
     }
@@ -222,56 +223,28 @@ private:
         timer.end();
     }
 
-    // Draws the plan's samples [first, first + count) into the layers and adds them to the sum.
-    void drawWave(std::uint32_t first, std::uint32_t count) {
-        if (!shadows_->defines().empty()) timed(shadowTimer_, [&] { shadows_->draw(first, count); });
-        timed(opaqueTimer_, [&] {
-            sum_->beginWave();
-            if (layers_) layers_->beginWave();
-            drawOpaque(first, count);
-        });
-        if (drawsSky()) timed(skyTimer_, [&] { drawSky(first, count); });
-        if (surfaces_->hasTranslucent())
-            timed(translucentTimer_, [&] { surfaces_->drawTranslucent(first, count, sum_->layerColors()); });
-        timed(sumTimer_, [&] { sum_->endWave(frame_, first, count); });
-        if (layers_) layers_->endWave(frame_, first, count);
-        stats_.trianglesDrawn += trianglesDrawn(plan_, first, count);
-    }
-
-    // Draws the sky into the picture's layers, but not into the data layers.
-    void drawSky(std::uint32_t first, std::uint32_t count) {
-        if (layers_) sum_->layers().bind();
-        surfaces_->drawSky(first, count);
-        if (layers_) layers_->bind();
-    }
-
-    void drawOpaque(std::uint32_t first, std::uint32_t count) {
-        if (!leavesOutHidden()) return surfaces_->drawOpaque(first, count);
-        const std::uint32_t layer = first % blockSamples % sum_->info().layers;
-        stats_.trianglesHidden += surfaces_->drawOpaqueVisible(first, count, sum_->layerDepths(), layer);
-    }
-
     // Returns whether to cull hidden triangles. On a GPU, drawing them is faster than reading back the depths for the
     // occlusion test.
-    [[nodiscard]] bool leavesOutHidden() const { return currentIsSoftware() && !plan_.settings.keepAll; }
+    [[nodiscard]] bool skipsHidden() const { return currentIsSoftware() && !plan_.settings.keepAll; }
 
     RendererOptions options_;
-    std::uint32_t wave_;  // requested samples per wave K; 0: as many as fit into waveBytes
+    WaveLimit limit_;
     CellUse cellUse_;
     GpuScene scene_;
     FramePlan plan_;
     LensCells cells_;                  // lens cells of plan_; without blur classes, images are not blurred
     std::uint32_t samplesBefore_ = 0;  // samples in the sum when plan_ was started
     FrameUniforms frame_;
+    WaveShape shape_;
     std::optional<LayerSum> sum_;
-    std::vector<Layer> drawnLayers_;  // layers of layers_ and surfaces_
+    std::vector<Layer> drawnLayers_;  // layers of layers_
     bool countsSamples_ = false;      // whether layers_ counts the samples of each pixel
     mutable std::optional<LensLayers> layers_;
-    std::optional<ShadowMaps> shadows_;
-    std::optional<SurfacePass> surfaces_;
     mutable FrameClock clock_;
-    mutable GpuTimer shadowTimer_, opaqueTimer_, skyTimer_, translucentTimer_, sumTimer_;
+    mutable GpuTimer sumTimer_;
     RenderStats stats_;
+    const WaveTargets* latest_ = nullptr;  // layers of the latest wave
+    mutable WaveQueue waves_;              // last, because its threads use the members above
 };
 
 }  // namespace

@@ -6,12 +6,7 @@ namespace defocus::engine {
 
 void BlockMerge::add(const BlockSum& block) {
     const Image& image = block.sum;
-    if (!sum_)
-        sum_.emplace(LayerSumInfo{.width = image.width,
-                                  .height = image.height,
-                                  .layers = 1,
-                                  .format = LayerFormat::rgba16f,
-                                  .shaderFolder = {}});
+    if (!sum_) sum_.emplace(LayerSumInfo{.width = image.width, .height = image.height, .format = LayerFormat::rgba16f});
     if (block.samples < 1 || block.samples > blockSamples || sum_->samples() % blockSamples != 0)
         fail("only the last block of a frame may have fewer than {} samples, and none may have more", blockSamples);
     for (const Image* each : {&block.sum, &block.compensation})

@@ -9,15 +9,6 @@
 
 namespace defocus::engine {
 
-namespace {
-
-GlTexture layerTexture(const LayerSumInfo& info, TextureFormat format) {
-    return GlTexture(
-        {.format = format, .width = info.width, .height = info.height, .layers = static_cast<int>(info.layers)});
-}
-
-}  // namespace
-
 LayerSum::Sum::Sum(int width, int height) {
     for (int i = 0; i < 2; ++i) {
         sum[i] = GlTexture({.format = TextureFormat::rgba32f, .width = width, .height = height});
@@ -28,12 +19,7 @@ LayerSum::Sum::Sum(int width, int height) {
 }
 
 LayerSum::LayerSum(const LayerSumInfo& info)
-    : info_(info),
-      layers_(layerTexture(info, layerTextureFormat(info.format))),
-      depth_(layerTexture(info, TextureFormat::depth32f)),
-      layerTarget_({&layers_}, &depth_),
-      block_(sumWidth(), sumHeight()),
-      frame_(sumWidth(), sumHeight()) {
+    : info_(info), block_(info.width, info.height), frame_(info.width, info.height) {
     const auto pass = [&](const char* fragment) {
         return Program({{fullscreenShader, fragment}, layerFormatDefines(info.format), info.shaderFolder});
     };
@@ -46,7 +32,7 @@ void LayerSum::reset(const std::optional<LayerWindow>& window) {
     meanIsCurrent_ = false;
     window_ = window;
     blursCells_ = false;
-    assert(!window || (window->width == sumWidth() && window->height == sumHeight()));
+    assert(!window || (window->width == info_.width && window->height == info_.height));
 }
 
 void LayerSum::blurCells(const LensCells& cells) {
@@ -58,22 +44,7 @@ void LayerSum::blurCells(const LensCells& cells) {
     cells_.emplace(cells, block_.sum, passes->second);
 }
 
-void LayerSum::beginWave() {
-    layerTarget_.bind();
-    if (window_) glViewport(-window_->imageLeft, -window_->imageBottom, window_->imageWidth, window_->imageHeight);
-    if (window_ && window_->cut) {
-        glScissor(window_->left, window_->bottom, window_->width, window_->height);
-        glEnable(GL_SCISSOR_TEST);
-    }
-    glDisable(GL_BLEND);
-    glDepthMask(GL_TRUE);
-    constexpr float farthest = 0;  // depth is reversed
-    constexpr float transparent[4] = {};
-    glClearNamedFramebufferfv(layerTarget_.name(), GL_DEPTH, 0, &farthest);
-    glClearNamedFramebufferfv(layerTarget_.name(), GL_COLOR, 0, transparent);
-}
-
-void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count) {
+void LayerSum::add(const WaveLayers& layers, const FrameUniforms& frame, std::uint32_t first, std::uint32_t count) {
     ShaderDefines defines = frame.defines();
     for (const auto& define : layerFormatDefines(info_.format)) defines.push_back(define);
     if (samples_ % blockSamples == 0) defines.emplace_back("startsBlock", "true");
@@ -82,14 +53,13 @@ void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t first, std::uin
     Program& addLayers = entry->second;
     const char* fragment = blursCells_ ? "accumulation/add_layers_to_cells.frag" : "accumulation/add_layers.frag";
     if (isNew) addLayers = Program({{fullscreenShader, fragment}, defines, info_.shaderFolder});
-    glDisable(GL_SCISSOR_TEST);
     const int next = 1 - block_.current;
     if (!blursCells_) block_.target[next].bind();
     frame.bind(first);
-    layers_.attach(0);
+    layers.colors().attach(0);
     block_.sum[block_.current].attach(1);
     block_.compensation[block_.current].attach(2);
-    if (blursCells_) cells_->bindForAdding(addLayers, depth_, cellBlur_, samples_ % blockSamples == 0, next);
+    if (blursCells_) cells_->bindForAdding(addLayers, layers.depths(), cellBlur_, samples_ % blockSamples == 0, next);
     glProgramUniform1i(addLayers.name(), 0, static_cast<GLint>(count));
     glProgramUniform1i(addLayers.name(), 1, static_cast<GLint>(samples_ % blockSamples));
     glProgramUniform2i(addLayers.name(), 2, window_ ? window_->left : 0, window_ ? window_->bottom : 0);
@@ -154,7 +124,7 @@ void LayerSum::makeMean() {
     if (samples_ == 0) fail("no samples have been accumulated yet");
     if (meanIsCurrent_) return;
     if (!mean_) {
-        mean_ = GlTexture({.format = TextureFormat::rgba32f, .width = sumWidth(), .height = sumHeight()});
+        mean_ = GlTexture({.format = TextureFormat::rgba32f, .width = info_.width, .height = info_.height});
         mean_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
         meanTarget_ = Target({&mean_});
     }
@@ -185,7 +155,7 @@ void LayerSum::divide(const Sum& total, int latest, float divisor) {
 }
 
 std::size_t LayerSum::bytes() const {
-    std::size_t total = layers_.bytes() + depth_.bytes() + mean_.bytes() + (cells_ ? cells_->bytes() : 0);
+    std::size_t total = mean_.bytes() + (cells_ ? cells_->bytes() : 0);
     for (const Sum* sum : {&block_, &frame_})
         for (int i = 0; i < 2; ++i) total += sum->sum[i].bytes() + sum->compensation[i].bytes();
     return total;

@@ -1,5 +1,5 @@
 #pragma once
-// The accumulation target: K layers, one per lens sample, and the compensated sum of all samples.
+// The compensated sum of the layers of all samples.
 //
 // Layers are added in sample order, with Neumaier's compensation, to the sum of a block of 64 samples. Complete blocks
 // are added to the frame's sum in the same way. The result is bit-identical for every K, and if blocks are rendered on
@@ -14,6 +14,7 @@
 #include "gl/target.h"
 #include "image/image.h"
 #include "render/accumulation/cell_sums.h"
+#include "render/accumulation/wave_layers.h"
 #include "render/gpu_scene/frame_uniforms.h"
 #include "render/gpu_scene/layer_window.h"
 #include "render/layer_format.h"
@@ -22,36 +23,26 @@
 namespace defocus::engine {
 
 struct LayerSumInfo {
-    int width = 1;  // size of the layers in px
+    int width = 1;  // size of the sums in px: that of the layers, or of the rectangle that is summed (see reset)
     int height = 1;
-    std::uint32_t layers = 1;                   // number of layers K, 1 … 64
-    LayerFormat format = LayerFormat::rgba16f;  // not LayerFormat::automatic
-    std::filesystem::path shaderFolder;
-    // Size of the sums in px, if only a rectangle of the layers is summed (see reset). 0: size of the layers.
-    int sumWidth = 0;
-    int sumHeight = 0;
+    LayerFormat format = LayerFormat::rgba16f;  // of the layers; not LayerFormat::automatic
+    std::filesystem::path shaderFolder = {};
+    bool operator==(const LayerSumInfo&) const = default;
 };
 
 class LayerSum {
 public:
     explicit LayerSum(const LayerSumInfo& info);
 
-    // Clears all sums. `window` is the rectangle of the layers to draw and sum. It must have the size of the sums;
+    // Clears all sums. `window` is the rectangle of the layers to sum. It must have the size of the sums;
     // nullopt: all pixels.
     void reset(const std::optional<LayerWindow>& window = {});
     // Turns the blur of lens cells on for all further blocks. Call it only when all samples so far form complete
     // blocks. reset() turns the blur off.
     void blurCells(const LensCells& cells);
-    // Clears the layers to transparent black and infinite depth, and binds them as the render target.
-    void beginWave();
-    // Returns the render target that beginWave binds.
-    [[nodiscard]] const Target& layers() const { return layerTarget_; }
-    // Return the colour and depth textures of layers().
-    [[nodiscard]] const GlTexture& layerColors() const { return layers_; }
-    [[nodiscard]] const GlTexture& layerDepths() const { return depth_; }
     // Composites layers [0, count) over the environment and adds them to the sum. The layers contain samples [first,
-    // first + count) of `frame`, which must belong to the same block; `count` is at most the number of layers.
-    void endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count);
+    // first + count) of `frame`, which must belong to the same block.
+    void add(const WaveLayers& layers, const FrameUniforms& frame, std::uint32_t first, std::uint32_t count);
     [[nodiscard]] std::uint32_t samples() const { return samples_; }
     // Returns the sum of the latest wave's block, which may be incomplete. Needs at least one sample.
     [[nodiscard]] BlockSum block();
@@ -86,14 +77,8 @@ private:
     // Writes copy `latest` of a sum to mean_, divided by `divisor`; 0 divides by the pixel's alpha.
     void divide(const Sum& total, int latest, float divisor);
 
-    [[nodiscard]] int sumWidth() const { return info_.sumWidth > 0 ? info_.sumWidth : info_.width; }
-    [[nodiscard]] int sumHeight() const { return info_.sumHeight > 0 ? info_.sumHeight : info_.height; }
-
     LayerSumInfo info_;
     std::optional<LayerWindow> window_;
-    GlTexture layers_;
-    GlTexture depth_;
-    Target layerTarget_;
     Sum block_;
     Sum frame_;
     GlTexture mean_;  // allocated on first use

@@ -134,32 +134,52 @@ std::uint64_t LensLayers::sumBytes(const std::vector<Layer>& layers) {
            tables * tableEntries * pixelBytes(TextureFormat::r32ui);
 }
 
-LensLayers::LensLayers(const std::vector<Layer>& layers, const LayerSum& picture, bool countsSamples)
-    : layers_(layers), info_(picture.info()) {
-    const auto image = [&](TextureFormat format, int depth) {
-        return GlTexture({.format = format, .width = info_.width, .height = info_.height, .layers = depth});
-    };
-    std::vector<const GlTexture*> colors = {&picture.layerColors()};
-    for (const Slot& slot : slotsOf(layers, countsSamples)) {
-        Attachment& attachment = attachments_[slot.name];
-        attachment.layers = image(slot.format, static_cast<int>(info_.layers));
-        if (slot.name != std::string_view(numberSlot)) {
-            attachment.sum = image(TextureFormat::rgba32f, 0);
-            attachment.compensation = image(TextureFormat::rgba32f, 0);
-        }
-        colors.push_back(&attachment.layers);
-    }
-    for (const Layer layer : numberLayers(layers)) tables_[layer].entries = image(TextureFormat::r32ui, tableEntries);
-    target_ = Target(colors, &picture.layerDepths());
-    unused_ = image(TextureFormat::rgba8, 0);
-    sums_ = Target({&unused_});
+bool LensLayers::countNumbers(const std::vector<Layer>& layers) {
+    return !numberLayers(layers).empty();
 }
 
-void LensLayers::beginWave() {
+WaveDataLayers::WaveDataLayers(const std::vector<Layer>& layers, bool countsSamples, const WaveLayers& picture) {
+    const WaveLayersInfo& info = picture.info();
+    std::vector<const GlTexture*> colors = {&picture.colors()};
+    for (const Slot& slot : slotsOf(layers, countsSamples)) {
+        GlTexture& texture = textures_[slot.name];
+        texture = GlTexture({.format = slot.format,
+                             .width = info.width,
+                             .height = info.height,
+                             .layers = static_cast<int>(info.count)});
+        colors.push_back(&texture);
+    }
+    target_ = Target(colors, &picture.depths());
+}
+
+void WaveDataLayers::begin() const {
     constexpr float transparent[4] = {};
-    for (GLint i = 1; i <= static_cast<GLint>(attachments_.size()); ++i)
+    for (GLint i = 1; i <= static_cast<GLint>(textures_.size()); ++i)
         glClearNamedFramebufferfv(target_.name(), GL_COLOR, i, transparent);
     target_.bind();
+}
+
+std::size_t WaveDataLayers::bytes() const {
+    std::size_t total = 0;
+    for (const auto& [slot, texture] : textures_) total += texture.bytes();
+    return total;
+}
+
+LensLayers::LensLayers(const std::vector<Layer>& layers, bool countsSamples, const glm::ivec2& size,
+                       std::filesystem::path shaderFolder)
+    : layers_(layers), size_(size), shaderFolder_(std::move(shaderFolder)) {
+    const auto image = [&](TextureFormat format, int depth) {
+        return GlTexture({.format = format, .width = size.x, .height = size.y, .layers = depth});
+    };
+    for (const Slot& slot : slotsOf(layers, countsSamples)) {
+        if (slot.name == std::string_view(numberSlot)) continue;
+        SlotSum& sum = slots_[slot.name];
+        sum.sum = image(TextureFormat::rgba32f, 0);
+        sum.compensation = image(TextureFormat::rgba32f, 0);
+    }
+    for (const Layer layer : numberLayers(layers)) tables_[layer].entries = image(TextureFormat::r32ui, tableEntries);
+    unused_ = image(TextureFormat::rgba8, 0);
+    sums_ = Target({&unused_});
 }
 
 const Program& LensLayers::program(const char* fragment, const FrameUniforms& frame, bool keepsNearest) {
@@ -167,30 +187,32 @@ const Program& LensLayers::program(const char* fragment, const FrameUniforms& fr
     if (keepsNearest) defines.emplace_back("keepsNearest", "true");
     defines.emplace_back("tableEntries", std::to_string(tableEntries));
     const auto [entry, isNew] = programs_.try_emplace(fragment + keyOf(defines));
-    if (isNew) entry->second = Program({{fullscreenShader, fragment}, defines, info_.shaderFolder});
+    if (isNew) entry->second = Program({{fullscreenShader, fragment}, defines, shaderFolder_});
     return entry->second;
 }
 
-void LensLayers::sumAttachment(const std::string& slot, Attachment& attachment, const FrameUniforms& frame,
-                               std::uint32_t first, std::uint32_t count) {
+void LensLayers::addSlot(const std::string& slot, const GlTexture& layers, const FrameUniforms& frame,
+                         std::uint32_t first, std::uint32_t count) {
     const Program& sum = program("accumulation/sum_layer.frag", frame, slot == depthSlot);
-    attachment.timer.begin();
-    attachment.layers.attach(0);
-    glBindImageTexture(0, attachment.sum.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
-    glBindImageTexture(1, attachment.compensation.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
+    SlotSum& sums = slots_.at(slot);
+    sums.timer.begin();
+    layers.attach(0);
+    glBindImageTexture(0, sums.sum.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
+    glBindImageTexture(1, sums.compensation.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
     glProgramUniform1i(sum.name(), 0, static_cast<GLint>(count));
     glProgramUniform1i(sum.name(), 1, static_cast<GLint>(samples_ % blockSamples));
     glProgramUniform1i(sum.name(), 3, samples_ == 0 ? 1 : 0);
     frame.bind(first);
     fullscreen_.draw(sum);
-    attachment.timer.end();
+    sums.timer.end();
 }
 
-void LensLayers::countNumbers(Layer layer, Table& table, const FrameUniforms& frame, std::uint32_t first,
-                              std::uint32_t count) {
+void LensLayers::addNumbers(Layer layer, const GlTexture& numbers, const FrameUniforms& frame, std::uint32_t first,
+                            std::uint32_t count) {
     const Program& counts = program("accumulation/count_numbers.frag", frame, false);
+    Table& table = tables_.at(layer);
     table.timer.begin();
-    attachments_.at(numberSlot).layers.attach(0);
+    numbers.attach(0);
     glBindImageTexture(0, table.entries.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
     glProgramUniform1i(counts.name(), 0, static_cast<GLint>(count));
     glProgramUniform1i(counts.name(), 1, static_cast<GLint>(samples_ % blockSamples));
@@ -201,13 +223,12 @@ void LensLayers::countNumbers(Layer layer, Table& table, const FrameUniforms& fr
     table.timer.end();
 }
 
-void LensLayers::endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count) {
+void LensLayers::add(const WaveDataLayers& wave, const FrameUniforms& frame, std::uint32_t first, std::uint32_t count) {
     glDisable(GL_BLEND);
     sums_.bind();
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    for (auto& [slot, attachment] : attachments_)
-        if (slot != numberSlot) sumAttachment(slot, attachment, frame, first, count);
-    for (auto& [layer, table] : tables_) countNumbers(layer, table, frame, first, count);
+    for (const auto& [slot, sum] : slots_) addSlot(slot, wave.of(slot), frame, first, count);
+    for (const auto& [layer, table] : tables_) addNumbers(layer, wave.of(numberSlot), frame, first, count);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     samples_ += count;
@@ -216,14 +237,14 @@ void LensLayers::endWave(const FrameUniforms& frame, std::uint32_t first, std::u
 LayerImages LensLayers::images(const glm::dvec3& camera) const {
     LayerImages result;
     std::map<std::string, Image> sums;
-    for (const auto& [slot, attachment] : attachments_)
-        if (slot != numberSlot && slot != depthSlot) sums[slot] = total(attachment.sum, attachment.compensation);
+    for (const auto& [slot, sum] : slots_)
+        if (slot != depthSlot) sums[slot] = total(sum.sum, sum.compensation);
 
     // In the depth layer, the third component is the nearest depth, and its compensation is the number of samples
     // (sum_layer.frag).
-    result.samples = Image(info_.width, info_.height, 1);
+    result.samples = Image(size_.x, size_.y, 1);
     std::ranges::fill(result.samples.pixels, static_cast<float>(samples_));
-    if (const auto depth = attachments_.find(depthSlot); depth != attachments_.end()) {
+    if (const auto depth = slots_.find(depthSlot); depth != slots_.end()) {
         const Image sum = readBack(depth->second.sum, 4);
         const Image lost = readBack(depth->second.compensation, 4);
         result.samples = channelOf(lost, 2);
@@ -255,8 +276,7 @@ LayerImages LensLayers::images(const glm::dvec3& camera) const {
 
 std::vector<PassTime> LensLayers::times() {
     std::vector<PassTime> times;
-    for (auto& [slot, attachment] : attachments_)
-        if (slot != numberSlot) times.push_back({"sum of " + slot, attachment.timer.milliseconds()});
+    for (auto& [slot, sum] : slots_) times.push_back({"sum of " + slot, sum.timer.milliseconds()});
     for (auto& [layer, table] : tables_)
         times.push_back(
             {layer == Layer::objects ? "count of objects" : "count of materials", table.timer.milliseconds()});
@@ -265,8 +285,7 @@ std::vector<PassTime> LensLayers::times() {
 
 std::size_t LensLayers::bytes() const {
     std::size_t total = unused_.bytes();
-    for (const auto& [slot, attachment] : attachments_)
-        total += attachment.layers.bytes() + attachment.sum.bytes() + attachment.compensation.bytes();
+    for (const auto& [slot, sum] : slots_) total += sum.sum.bytes() + sum.compensation.bytes();
     for (const auto& [layer, table] : tables_) total += table.entries.bytes();
     return total;
 }

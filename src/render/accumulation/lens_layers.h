@@ -2,6 +2,8 @@
 // Draws and sums the data layers of a frame (defocus/layers.h) in the same lens samples as the picture. The picture's
 // pass writes them as further colour attachments.
 
+#include <filesystem>
+#include <glm/vec2.hpp>
 #include <map>
 #include <string>
 #include <vector>
@@ -9,43 +11,60 @@
 #include "gl/fullscreen.h"
 #include "gl/target.h"
 #include "gl/timer.h"
-#include "render/accumulation/layer_sum.h"
+#include "render/accumulation/wave_layers.h"
+#include "render/gpu_scene/frame_uniforms.h"
 #include "render/layer_images.h"
 #include "render/renderer.h"
 
 namespace defocus::engine {
 
+// Data layers of a wave, which are drawn together with its picture.
+class WaveDataLayers {
+public:
+    // `picture` has the colours and depths of the wave. With `countsSamples`, the number of samples differs between
+    // pixels.
+    WaveDataLayers(const std::vector<Layer>& layers, bool countsSamples, const WaveLayers& picture);
+
+    // Clears the layers and binds them together with the picture's layers.
+    void begin() const;
+    // Binds the layers together with the picture's layers.
+    void bind() const { target_.bind(); }
+    // Returns the layers of a slot of shaders/accumulation/layers.frag.
+    [[nodiscard]] const GlTexture& of(const std::string& slot) const { return textures_.at(slot); }
+    [[nodiscard]] std::size_t bytes() const;
+
+private:
+    std::map<std::string, GlTexture> textures_;  // key: name of the slot
+    Target target_;
+};
+
 class LensLayers {
 public:
-    // `picture` has the colours and depths of the waves; it must outlive this object. With `countsSamples`, the number
-    // of samples differs between pixels.
-    LensLayers(const std::vector<Layer>& layers, const LayerSum& picture, bool countsSamples);
+    // `size`: of the layers, in px.
+    LensLayers(const std::vector<Layer>& layers, bool countsSamples, const glm::ivec2& size,
+               std::filesystem::path shaderFolder);
 
     // Returns the defines of the surface pass whose fragment shader is accumulation/layers.frag.
     [[nodiscard]] static ShaderDefines defines(const std::vector<Layer>& layers, bool countsSamples);
     // Return bytes per pixel: of the data layers of one lens sample, and of the sums over all samples.
     [[nodiscard]] static std::uint64_t layerBytes(const std::vector<Layer>& layers);
     [[nodiscard]] static std::uint64_t sumBytes(const std::vector<Layer>& layers);
+    // Returns whether the layers count objects or materials, whose numbers the surface pass then writes.
+    [[nodiscard]] static bool countNumbers(const std::vector<Layer>& layers);
 
     void reset() { samples_ = 0; }
-    // Clears the layers and binds them together with the picture's layers.
-    void beginWave();
-    // Binds the layers together with the picture's layers.
-    void bind() const { target_.bind(); }
-    // Adds the layers of samples [first, first + count); see LayerSum::endWave.
-    void endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count);
+    // Adds the layers of samples [first, first + count); see LayerSum::add.
+    void add(const WaveDataLayers& wave, const FrameUniforms& frame, std::uint32_t first, std::uint32_t count);
     // Returns the means of all samples so far, at least one. `camera`: position of the camera in m.
     [[nodiscard]] LayerImages images(const glm::dvec3& camera) const;
     [[nodiscard]] const std::vector<Layer>& layers() const { return layers_; }
-    [[nodiscard]] bool countsNumbers() const { return !tables_.empty(); }
     // Returns the GPU times of the sums.
     [[nodiscard]] std::vector<PassTime> times();
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    // Colour attachment of the surface pass with its sum.
-    struct Attachment {
-        GlTexture layers;
+    // Sum of a slot of shaders/accumulation/layers.frag.
+    struct SlotSum {
         GlTexture sum;
         GlTexture compensation;
         GpuTimer timer;
@@ -56,15 +75,16 @@ private:
     };
 
     const Program& program(const char* fragment, const FrameUniforms& frame, bool keepsNearest);
-    void sumAttachment(const std::string& slot, Attachment& attachment, const FrameUniforms& frame, std::uint32_t first,
-                       std::uint32_t count);
-    void countNumbers(Layer layer, Table& table, const FrameUniforms& frame, std::uint32_t first, std::uint32_t count);
+    void addSlot(const std::string& slot, const GlTexture& layers, const FrameUniforms& frame, std::uint32_t first,
+                 std::uint32_t count);
+    void addNumbers(Layer layer, const GlTexture& numbers, const FrameUniforms& frame, std::uint32_t first,
+                    std::uint32_t count);
 
     std::vector<Layer> layers_;
-    LayerSumInfo info_;
-    std::map<std::string, Attachment> attachments_;  // key: name of the slot in shaders/accumulation/layers.frag
+    glm::ivec2 size_;
+    std::filesystem::path shaderFolder_;
+    std::map<std::string, SlotSum> slots_;  // key: name of the slot
     std::map<Layer, Table> tables_;
-    Target target_;
     Target sums_;  // framebuffer for the sums; its colour is never written
     GlTexture unused_;
     std::map<std::string, Program> programs_;

@@ -17,15 +17,17 @@ namespace defocus::engine {
 AovPass::AovPass(const World& world, std::filesystem::path shaderFolder)
     : shaderFolder_(std::move(shaderFolder)),
       scene_(world),
-      surfaces_(scene_, {.fragmentShader = "aov/aov.frag",
-                         .defines = {},
-                         .look = SurfaceLook::flat,
-                         .readsOwnBlur = true,
-                         .shaderFolder = shaderFolder_}),
-      edges_(scene_, {.fragmentShader = "aov/wireframe.frag",
-                      .defines = {},
-                      .look = SurfaceLook::flat,
-                      .shaderFolder = shaderFolder_}) {}
+      surfaces_(scene_, scene_.pacer(),
+                {.fragmentShader = "aov/aov.frag",
+                 .defines = {},
+                 .look = SurfaceLook::flat,
+                 .readsOwnBlur = true,
+                 .shaderFolder = shaderFolder_}),
+      edges_(scene_, scene_.pacer(),
+             {.fragmentShader = "aov/wireframe.frag",
+              .defines = {},
+              .look = SurfaceLook::flat,
+              .shaderFolder = shaderFolder_}) {}
 
 void AovPass::makeTargets(int width, int height) {
     if (depth_ && depth_.info().width == width && depth_.info().height == height) return;

@@ -15,11 +15,12 @@ namespace defocus::engine {
 
 WorkPass::WorkPass(const World& world, std::filesystem::path shaderFolder)
     : scene_(world),
-      surfaces_(scene_, {.fragmentShader = "aov/work.frag",
-                         .defines = {},
-                         .look = SurfaceLook::flat,
-                         .vertexShaderLayers = vertexShaderMayPickLayer(),
-                         .shaderFolder = std::move(shaderFolder)}) {}
+      surfaces_(scene_, scene_.pacer(),
+                {.fragmentShader = "aov/work.frag",
+                 .defines = {},
+                 .look = SurfaceLook::flat,
+                 .vertexShaderLayers = vertexShaderMayPickLayer(),
+                 .shaderFolder = std::move(shaderFolder)}) {}
 
 void WorkPass::begin(const FramePlan& plan) {
     const int width = plan.view.width;

@@ -86,13 +86,15 @@ std::uint64_t shadowMapBytes(const Scene& scene, const FramePlan& plan) {
     return mapsPerSample(plan) * size * size * texel;
 }
 
-ShadowMaps::ShadowMaps(GpuScene& scene, bool vertexShaderLayers, std::filesystem::path shaderFolder)
+ShadowMaps::ShadowMaps(const GpuScene& scene, SubmissionPacer& pacer, bool vertexShaderLayers,
+                       std::filesystem::path shaderFolder)
     : scene_(&scene),
-      casters_(scene, {.fragmentShader = "shadows/caster.frag",
-                       .defines = {},
-                       .look = SurfaceLook::caster,
-                       .vertexShaderLayers = vertexShaderLayers,
-                       .shaderFolder = std::move(shaderFolder)}) {}
+      casters_(scene, pacer,
+               {.fragmentShader = "shadows/caster.frag",
+                .defines = {},
+                .look = SurfaceLook::caster,
+                .vertexShaderLayers = vertexShaderLayers,
+                .shaderFolder = std::move(shaderFolder)}) {}
 
 void ShadowMaps::prepare(const FramePlan& plan, const FrameUniforms& frame) {
     defines_.clear();

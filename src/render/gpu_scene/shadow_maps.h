@@ -12,8 +12,9 @@ namespace defocus::engine {
 
 class ShadowMaps {
 public:
-    // Needs a current OpenGL context.
-    ShadowMaps(GpuScene& scene, bool vertexShaderLayers, std::filesystem::path shaderFolder);
+    // `scene` and `pacer` must outlive this object. `pacer` must be that of the current OpenGL context.
+    ShadowMaps(const GpuScene& scene, SubmissionPacer& pacer, bool vertexShaderLayers,
+               std::filesystem::path shaderFolder);
 
     // Allocates the maps of `plan`, which may be without shadows. `frame` must hold the uniforms of `plan` and exist
     // until the last draw().
@@ -30,7 +31,7 @@ public:
     }
 
 private:
-    GpuScene* scene_;
+    const GpuScene* scene_;
     SurfacePass casters_;
     const FrameUniforms* frame_ = nullptr;
     EnvironmentDirections directions_;

@@ -41,7 +41,7 @@ double levelError(const World& world, const ObjectPlan& object) {
 
 }  // namespace
 
-UniformBlocks<GpuObject> objectBlocks(const FramePlan& plan, GpuScene& scene, std::vector<GpuPoses>& poses) {
+UniformBlocks<GpuObject> objectBlocks(const FramePlan& plan, const GpuScene& scene, std::vector<GpuPoses>& poses) {
     poses.clear();
     poses.reserve(plan.objects.size());
     return UniformBlocks<GpuObject>(plan.objects.size(), [&](std::size_t i) -> GpuObject {

@@ -23,7 +23,7 @@ struct GpuObject {
 
 // Returns one uniform block per object of the plan, whose meshes `scene` must hold. Sets `poses` to one entry per
 // object.
-UniformBlocks<GpuObject> objectBlocks(const FramePlan& plan, GpuScene& scene, std::vector<GpuPoses>& poses);
+UniformBlocks<GpuObject> objectBlocks(const FramePlan& plan, const GpuScene& scene, std::vector<GpuPoses>& poses);
 
 // Range of indices in MeshBuffers::indices.
 struct IndexRun {

@@ -306,7 +306,7 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
     const SampleSpan samples = samplesOf(item, first, count);
     if (samples.empty()) return;
     bindDraw(item, samples.begin, item.partial ? partIndices_ : scene_->mesh(item.mesh).buffers->indices);
-    for (const IndexRun& run : item.runs) submit(scene_->pacer(), modeOf(item.refinement), run, samples);
+    for (const IndexRun& run : item.runs) submit(*pacer_, modeOf(item.refinement), run, samples);
 }
 
 void SurfacePass::bindSolid(GLenum depthTest) {
@@ -347,29 +347,35 @@ void SurfacePass::drawOpaque(std::uint32_t first, std::uint32_t count) {
     drawSolid(dissolved_, first, count);
 }
 
-void SurfacePass::findHidden(const FramePlan& plan) {
+std::vector<OccludableDraw> SurfacePass::opaqueDraws() const {
     std::vector<OccludableDraw> draws;
     for (const Draw& draw : opaque_)
         draws.push_back({draw.object, draw.level, draw.primitive, draw.firstSample, draw.sampleCount});
-    occlusion_.prepare(plan, draws);
+    return draws;
 }
 
 std::uint64_t SurfacePass::drawOpaqueVisible(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
-                                             std::uint32_t layer) {
-    if (occlusion_.needsDepthsOf(first)) {
-        drawOpaque(first, 1);
-        occlusion_.sortBy(first, depths, layer);
-        return count == 1 ? 0 : drawOpaqueVisible(first + 1, count - 1, depths, layer + 1);
+                                             std::uint32_t layer, const Occlusion& occlusion, WaveVisibility& block) {
+    if (!occlusion.culls()) {
+        drawOpaque(first, count);
+        return 0;
     }
-    if (!occlusion_.hidesMuch()) {
+    if (block.made) {
+        drawOpaque(first, 1);
+        block.make(occlusion.visibilityIn(first, depths, layer));
+        return count == 1 ? 0 : drawOpaqueVisible(first + 1, count - 1, depths, layer + 1, occlusion, block);
+    }
+    const std::shared_ptr<const PieceVisibility> visibility = block.shared.get();
+    if (!visibility->hidesMuch) {
         drawOpaque(first, count);
         return 0;
     }
     std::uint64_t all = 0;
     for (const Draw& item : opaque_) all += std::uint64_t{item.triangleCount} * samplesOf(item, first, count).size();
     bindSolid(GL_GREATER);
-    const std::uint64_t shown = drawRemaining(occlusion_.shown(), first, count);
-    const std::uint64_t uncovered = drawRemaining(occlusion_.uncovered(first, count, depths, layer), first, count);
+    const std::uint64_t shown = drawRemaining(visibility->draws, first, count);
+    const std::uint64_t uncovered =
+        drawRemaining(occlusion.uncovered(*visibility, first, count, depths, layer), first, count);
     drawFronts(dissolved_, first, count);
     return all - shown - uncovered;
 }
@@ -385,7 +391,7 @@ std::uint64_t SurfacePass::drawRemaining(const RemainingDraws& remaining, std::u
         const Draw& item = opaque_[part.draw];
         setFaces(item);
         bindDraw(item, samples.begin, indices);
-        submit(scene_->pacer(), modeOf(item.refinement), {part.firstIndex, part.indexCount}, samples);
+        submit(*pacer_, modeOf(item.refinement), {part.firstIndex, part.indexCount}, samples);
         triangles += std::uint64_t{part.indexCount / 3} * samples.size();
     }
     return triangles;

@@ -35,8 +35,9 @@ class ShadowMaps;
 
 class SurfacePass {
 public:
-    SurfacePass(GpuScene& scene, SurfacePassInfo info)
-        : scene_(&scene), info_(std::move(info)), occlusion_(scene.world()) {}
+    // `scene` and `pacer` must outlive this object. `pacer` must be that of the current context.
+    SurfacePass(const GpuScene& scene, SubmissionPacer& pacer, SurfacePassInfo info)
+        : scene_(&scene), pacer_(&pacer), info_(std::move(info)) {}
 
     // Prepares the draws and programs of `plan`. `shadows` are the maps of the same plan to read, or to draw for
     // SurfaceLook::caster; null without shadows. `frame` and `shadows` must exist until the last draw.
@@ -44,13 +45,14 @@ public:
     // Draws the opaque, alpha-tested and stochastically transparent surfaces of samples [first, first + count), front
     // to back.
     void drawOpaque(std::uint32_t first, std::uint32_t count);
-    // drawOpaqueVisible draws the same image as drawOpaque, but skips hidden triangles if there are enough of them.
-    // Sample `first` is drawn with layer `layer` of `depths`, later samples with the layers after it. Returns the
-    // number of skipped triangles. Call findHidden first, with the plan of prepare(), which must exist until the last
-    // draw.
-    void findHidden(const FramePlan& plan);
+    // Returns the draws of drawOpaque, for Occlusion::prepare.
+    [[nodiscard]] std::vector<OccludableDraw> opaqueDraws() const;
+    // Draws the same image as drawOpaque, but skips hidden triangles if there are enough of them. `occlusion` must have
+    // been prepared with opaqueDraws(). Sample `first` is drawn with layer `layer` of `depths`, later samples with the
+    // layers after it. The wave with the block's first sample sets `block`; other waves wait until it is set. Returns
+    // the number of skipped triangles.
     std::uint64_t drawOpaqueVisible(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
-                                    std::uint32_t layer);
+                                    std::uint32_t layer, const Occlusion& occlusion, WaveVisibility& block);
     // Draws sorted alpha-blended and transmitting surfaces, in FramePlan::blendOrder. `colors` is the render
     // target and already contains the environment. A transmitting surface shows a copy of `colors` made before its
     // object is drawn. The number of copies is limited: with more transmitting objects, only the nearest are visible
@@ -144,7 +146,8 @@ private:
     void bindDraw(const Draw& item, std::uint32_t sample, const Buffer& indices);
     void bindVertices(const Draw& item, const Buffer& indices);
 
-    GpuScene* scene_;
+    const GpuScene* scene_;
+    SubmissionPacer* pacer_;
     SurfacePassInfo info_;
     std::map<std::string, Programs> programs_;  // key: defines of the pass
     std::array<ShaderDefines, 2>
@@ -170,7 +173,6 @@ private:
     std::size_t transmittingObjects_ = 0;
     bool blursBackdrop_ = false;  // true if a transmitting surface is rough
     Backdrop backdrop_;
-    Occlusion occlusion_;
 };
 
 }  // namespace defocus::engine

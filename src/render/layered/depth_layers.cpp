@@ -54,13 +54,14 @@ DepthLayers::DepthLayers(GpuScene& scene, const DepthLayersInfo& info)
       surfaces_(layersOf(info, TextureFormat::rgba32f, info.layers)),
       front_(layersOf(info, TextureFormat::rgba32f, 1)),
       depth_(layersOf(info, TextureFormat::depth32f, 0)),
-      shadows_(scene, vertexShaderMayPickLayer(), info.shaderFolder),
-      pass_(scene, {.fragmentShader = "layered/peel.frag",
-                    .defines = definesOf(info),
-                    .look = SurfaceLook::lit,
-                    .readsOwnBlur = true,
-                    .vertexShaderLayers = vertexShaderMayPickLayer(),
-                    .shaderFolder = info.shaderFolder}),
+      shadows_(scene, scene.pacer(), vertexShaderMayPickLayer(), info.shaderFolder),
+      pass_(scene, scene.pacer(),
+            {.fragmentShader = "layered/peel.frag",
+             .defines = definesOf(info),
+             .look = SurfaceLook::lit,
+             .readsOwnBlur = true,
+             .vertexShaderLayers = vertexShaderMayPickLayer(),
+             .shaderFolder = info.shaderFolder}),
       anyDrawn_(newQuery()) {
     for (std::uint32_t layer = 0; layer < info.layers; ++layer)
         targets_.push_back(Target({&colors_, &surfaces_}, depth_, layer));

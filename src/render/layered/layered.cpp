@@ -40,7 +40,7 @@ public:
     LayeredRenderer(const World& world, const RendererOptions& options)
         : options_(options), wave_(options.wave), scene_(world) {}
 
-    void setWave(std::uint32_t samples) override { wave_ = samples > 0 ? samples : options_.wave; }
+    void setWave(const WaveLimit& limit) override { wave_ = limit.withDefault(options_.wave); }
 
     void start(const FramePlan& plan) override {
         clock_.beginSetup();
@@ -67,15 +67,15 @@ public:
         scene_.prepare(pinholes_);
         pinholeFrame_.upload(scene_.world(), pinholes_, 1);
         layers_->prepare(pinholes_, pinholeFrame_);
-        frame_.upload(scene_.world(), plan_, sum_->info().layers);
+        frame_.upload(scene_.world(), plan_, waveLayers_->info().count);
         rays_->prepare(plan_, frame_);
         if (drawsSky()) prepareSky();
         peeled_.reset();
         maxLayers_ = 0;
         stats_.trianglesDrawn = 0;
-        stats_.peakBytes =
-            std::max<std::uint64_t>(stats_.peakBytes, scene_.bytes() + pinholeFrame_.bytes() + frame_.bytes() +
-                                                          layers_->bytes() + rays_->bytes() + sum_->bytes());
+        stats_.peakBytes = std::max<std::uint64_t>(
+            stats_.peakBytes, scene_.bytes() + pinholeFrame_.bytes() + frame_.bytes() + layers_->bytes() +
+                                  rays_->bytes() + waveLayers_->bytes() + sum_->bytes());
         clock_.beginFrame();
     }
 
@@ -86,11 +86,11 @@ public:
         clock_.beginWave();
         const std::uint32_t pinhole = pinholeOf(first);
         if (peeled_ != pinhole) peel(pinhole);
-        const std::uint32_t count = std::min(sum_->info().layers, total - first);
-        sum_->beginWave();
+        const std::uint32_t count = std::min(waveLayers_->info().count, total - first);
+        waveLayers_->begin();
         rays_->trace(*layers_, pinholes_.samples[pinhole].pixel, first, count);
         if (drawsSky()) drawSky(first, count);
-        sum_->endWave(frame_, first, count);
+        sum_->add(*waveLayers_, frame_, first, count);
         clock_.endWave();
         if (first + count == total) clock_.endFrame();
         return first + count < total;
@@ -107,7 +107,7 @@ public:
         RenderStats stats = stats_;
         stats.samples = samples();
         clock_.fill(stats);
-        stats.wave = sum_->info().layers;
+        stats.wave = waveLayers_->info().count;
         stats.layerFormat = layerFormatName(sum_->info().format);
         stats.figures = {{"depth layers", static_cast<double>(maxLayers_)}};
         return stats;
@@ -146,11 +146,12 @@ private:
             rays_.reset();
             rays_.emplace(rays);
         }
-        const std::uint32_t wave = chosenWave(plan_, options_, wave_, format, run_);
-        if (!sum_ || sum_->info().width != view.width || sum_->info().height != view.height ||
-            sum_->info().format != format || sum_->info().layers != wave) {
+        const WaveLayersInfo wave{view.width, view.height, chosenWave(plan_, options_, wave_, format, run_), format};
+        if (!waveLayers_ || waveLayers_->info() != wave) {
+            waveLayers_.reset();
             sum_.reset();
-            sum_.emplace(LayerSumInfo{view.width, view.height, wave, format, options_.shaderFolder});
+            waveLayers_.emplace(wave);
+            sum_.emplace(LayerSumInfo{view.width, view.height, format, options_.shaderFolder});
         }
         sum_->reset();
     }
@@ -176,10 +177,11 @@ private:
 
     void prepareSky() {
         if (!sky_)
-            sky_.emplace(scene_, SurfacePassInfo{.fragmentShader = "accumulation/object.frag",
-                                                 .defines = layerFormatDefines(sum_->info().format),
-                                                 .vertexShaderLayers = vertexShaderLayers(),
-                                                 .shaderFolder = options_.shaderFolder});
+            sky_.emplace(scene_, scene_.pacer(),
+                         SurfacePassInfo{.fragmentShader = "accumulation/object.frag",
+                                         .defines = layerFormatDefines(sum_->info().format),
+                                         .vertexShaderLayers = vertexShaderLayers(),
+                                         .shaderFolder = options_.shaderFolder});
         FramePlan empty = plan_;
         empty.objects.clear();
         empty.shadows = {};
@@ -204,6 +206,7 @@ private:
     FrameUniforms pinholeFrame_, frame_;
     std::optional<DepthLayers> layers_;
     std::optional<LensRays> rays_;
+    std::optional<WaveLayers> waveLayers_;
     std::optional<LayerSum> sum_;
     std::optional<SurfacePass> sky_;
     std::optional<std::uint32_t> peeled_;  // index of the pinhole of the current layers

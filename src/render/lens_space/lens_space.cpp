@@ -19,7 +19,7 @@ public:
     LensSpaceRenderer(const World& world, const RendererOptions& options, std::unique_ptr<VisibilityKernel> kernel)
         : options_(options), wave_(options.wave), kernel_(std::move(kernel)), scene_(world) {}
 
-    void setWave(std::uint32_t rays) override { wave_ = rays > 0 ? rays : options_.wave; }
+    void setWave(const WaveLimit& limit) override { wave_ = limit.withDefault(options_.wave); }
 
     void start(const FramePlan& plan) override {
         clock_.beginSetup();

@@ -51,18 +51,15 @@ std::vector<float> depthsOfLayer(const GlTexture& depths, std::uint32_t layer) {
 
 void Occlusion::prepare(const FramePlan& plan, const std::vector<OccludableDraw>& draws) {
     plan_ = &plan;
-    sorted_.clear();
-    sortedBlock_ = -1;
-    hidesMuch_ = false;
+    tested_.clear();
     const std::uint64_t triangles = trianglesOfSample(plan);
     if (triangles < minTriangles || triangles * (plan.samples.size() - 1) < minInAll || !seesBoxes(plan)) return;
     for (const OccludableDraw& draw : draws) {
         const ObjectPlan& object = plan.objects[draw.object];
         const VisibleLevel* visible = visibleLevel(object, draw.level);
-        Sorted& sorted = sorted_.emplace_back(Sorted{draw, {}, seesBoxes(object)});
+        Tested& tested = tested_.emplace_back(Tested{draw, {}, seesBoxes(object)});
         for (const IndexPiece& piece : piecesOf(draw))
-            if (visible == nullptr || isIn(visible->primitives[draw.primitive], piece))
-                sorted.pieces.push_back({&piece});
+            if (visible == nullptr || isIn(visible->primitives[draw.primitive], piece)) tested.pieces.push_back(&piece);
     }
 }
 
@@ -74,53 +71,53 @@ const std::vector<IndexPiece>& Occlusion::piecesOf(const OccludableDraw& draw) {
     return entry->second;
 }
 
-bool Occlusion::needsDepthsOf(std::uint32_t sample) const {
-    return !sorted_.empty() && sortedBlock_ != sample / blockSamples;
-}
-
-void Occlusion::sortBy(std::uint32_t sample, const GlTexture& depths, std::uint32_t layer) {
-    sortedBlock_ = sample / blockSamples;
+PieceVisibility Occlusion::visibilityIn(std::uint32_t sample, const GlTexture& depths, std::uint32_t layer) const {
     DepthTiles tiles;
     tiles.build(depthsOfLayer(depths, layer), depths.info().width, depths.info().height);
-    parallelFor(sorted_.size(), [&](std::size_t i) { sortPieces(sorted_[i], sample, tiles); });
-    gatherShown();
+    PieceVisibility visibility;
+    visibility.shown.resize(tested_.size());
+    parallelFor(tested_.size(), [&](std::size_t i) { visibility.shown[i] = shownPieces(tested_[i], sample, tiles); });
+    gatherShown(visibility);
+    return visibility;
 }
 
-void Occlusion::sortPieces(Sorted& sorted, std::uint32_t sample, const DepthTiles& tiles) const {
-    if (!sorted.canHide) return;
-    const LensSight sight(*plan_, plan_->objects[sorted.draw.object], sample);
-    for (Piece& piece : sorted.pieces) piece.shown = !hides(tiles, sight, *piece.piece);
+std::vector<bool> Occlusion::shownPieces(const Tested& tested, std::uint32_t sample, const DepthTiles& tiles) const {
+    std::vector<bool> shown(tested.pieces.size(), true);
+    if (!tested.canHide) return shown;
+    const LensSight sight(*plan_, plan_->objects[tested.draw.object], sample);
+    for (std::size_t p = 0; p < shown.size(); ++p) shown[p] = !hides(tiles, sight, *tested.pieces[p]);
+    return shown;
 }
 
-void Occlusion::gatherShown() {
-    shown_ = {};
+void Occlusion::gatherShown(PieceVisibility& visibility) const {
+    RemainingDraws& draws = visibility.draws;
     double shown = 0;
     double all = 0;
-    for (std::size_t i = 0; i < sorted_.size(); ++i) {
-        const Sorted& sorted = sorted_[i];
-        const auto first = static_cast<std::uint32_t>(shown_.indices.size());
+    for (std::size_t i = 0; i < tested_.size(); ++i) {
+        const Tested& tested = tested_[i];
+        const auto first = static_cast<std::uint32_t>(draws.indices.size());
         double whole = 0;
-        for (const Piece& piece : sorted.pieces) {
-            whole += piece.piece->indices.count;
-            if (piece.shown) append(sorted, *piece.piece, shown_.indices);
+        for (std::size_t p = 0; p < tested.pieces.size(); ++p) {
+            whole += tested.pieces[p]->indices.count;
+            if (visibility.shown[i][p]) append(tested, *tested.pieces[p], draws.indices);
         }
-        const auto count = static_cast<std::uint32_t>(shown_.indices.size() - first);
-        all += whole * sorted.draw.sampleCount;
-        shown += static_cast<double>(count) * sorted.draw.sampleCount;
-        if (count > 0) shown_.draws.push_back({i, sorted.draw.firstSample, sorted.draw.sampleCount, first, count});
+        const auto count = static_cast<std::uint32_t>(draws.indices.size() - first);
+        all += whole * tested.draw.sampleCount;
+        shown += static_cast<double>(count) * tested.draw.sampleCount;
+        if (count > 0) draws.draws.push_back({i, tested.draw.firstSample, tested.draw.sampleCount, first, count});
     }
-    hidesMuch_ = shown < maxShown * all;
+    visibility.hidesMuch = shown < maxShown * all;
 }
 
-RemainingDraws Occlusion::uncovered(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
-                                    std::uint32_t layer) const {
+RemainingDraws Occlusion::uncovered(const PieceVisibility& visibility, std::uint32_t first, std::uint32_t count,
+                                    const GlTexture& depths, std::uint32_t layer) const {
     std::vector<std::vector<float>> layers;
     for (std::uint32_t k = 0; k < count; ++k) layers.push_back(depthsOfLayer(depths, layer + k));
     std::vector<RemainingDraws> ofSamples(count);
     parallelFor(count, [&](std::size_t k) {
         DepthTiles tiles;
         tiles.build(layers[k], depths.info().width, depths.info().height);
-        ofSamples[k] = uncoveredBy(first + static_cast<std::uint32_t>(k), tiles);
+        ofSamples[k] = uncoveredBy(visibility, first + static_cast<std::uint32_t>(k), tiles);
     });
     RemainingDraws all;
     for (RemainingDraws& own : ofSamples) {
@@ -132,24 +129,26 @@ RemainingDraws Occlusion::uncovered(std::uint32_t first, std::uint32_t count, co
     return all;
 }
 
-RemainingDraws Occlusion::uncoveredBy(std::uint32_t sample, const DepthTiles& tiles) const {
+RemainingDraws Occlusion::uncoveredBy(const PieceVisibility& visibility, std::uint32_t sample,
+                                      const DepthTiles& tiles) const {
     RemainingDraws remaining;
-    for (std::size_t i = 0; i < sorted_.size(); ++i) {
-        const Sorted& sorted = sorted_[i];
-        const OccludableDraw& draw = sorted.draw;
-        if (!sorted.canHide || sample < draw.firstSample || sample >= draw.firstSample + draw.sampleCount) continue;
+    for (std::size_t i = 0; i < tested_.size(); ++i) {
+        const Tested& tested = tested_[i];
+        const OccludableDraw& draw = tested.draw;
+        if (!tested.canHide || sample < draw.firstSample || sample >= draw.firstSample + draw.sampleCount) continue;
         const LensSight sight(*plan_, plan_->objects[draw.object], sample);
         const auto first = static_cast<std::uint32_t>(remaining.indices.size());
-        for (const Piece& piece : sorted.pieces)
-            if (!piece.shown && !hides(tiles, sight, *piece.piece)) append(sorted, *piece.piece, remaining.indices);
+        for (std::size_t p = 0; p < tested.pieces.size(); ++p)
+            if (!visibility.shown[i][p] && !hides(tiles, sight, *tested.pieces[p]))
+                append(tested, *tested.pieces[p], remaining.indices);
         const auto count = static_cast<std::uint32_t>(remaining.indices.size() - first);
         if (count > 0) remaining.draws.push_back({i, sample, 1, first, count});
     }
     return remaining;
 }
 
-void Occlusion::append(const Sorted& sorted, const IndexPiece& piece, std::vector<std::uint32_t>& indices) const {
-    const int mesh = plan_->objects[sorted.draw.object].mesh;
+void Occlusion::append(const Tested& tested, const IndexPiece& piece, std::vector<std::uint32_t>& indices) const {
+    const int mesh = plan_->objects[tested.draw.object].mesh;
     const auto from = world_->pyramids[static_cast<std::size_t>(mesh)].indices.begin() + piece.indices.first;
     indices.insert(indices.end(), from, from + piece.indices.count);
 }

@@ -8,10 +8,17 @@
 // Source: Greene, Kass and Miller 1993, Hierarchical Z-Buffer Visibility, where the previous frame takes the role of
 // the first sample. Where two surfaces have equal depth, the visible surface may differ from that without culling,
 // because the order of draws differs.
+//
+// Several threads may draw the waves of a frame. The thread that draws the first sample of a block classifies the
+// pieces, and the threads that draw the block's other waves wait for the classification.
 
 #include <cstdint>
+#include <future>
 #include <map>
+#include <memory>
+#include <optional>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "gl/texture.h"
@@ -44,6 +51,27 @@ struct RemainingDraws {
     std::vector<std::uint32_t> indices;
 };
 
+// Classification of all pieces as visible or hidden in the first sample of a block.
+struct PieceVisibility {
+    std::vector<std::vector<bool>> shown;  // per draw of Occlusion::prepare: whether each piece is visible
+    RemainingDraws draws;                  // draws of the visible pieces, and of objects that cannot be tested
+    bool hidesMuch = false;                // whether enough triangles are hidden for culling to be faster
+};
+
+// A wave's access to the classification of its block, which the block's first wave makes and all waves of the block
+// use. If the first wave cannot make it, because of an error or because the frame is abandoned, it destroys `made`, and
+// the waiting waves throw std::future_error.
+struct WaveVisibility {
+    using Value = std::shared_ptr<const PieceVisibility>;
+    std::optional<std::promise<Value>> made;  // only in the block's first wave, until it has made the classification
+    std::shared_future<Value> shared;
+
+    void make(PieceVisibility visibility) {
+        made->set_value(std::make_shared<const PieceVisibility>(std::move(visibility)));
+        made.reset();
+    }
+};
+
 class Occlusion {
 public:
     // `world` must outlive this object.
@@ -52,49 +80,40 @@ public:
     // Prepares culling for `plan`, which must exist until the last draw. Culling is off with few triangles, and if the
     // lens or motion rules out the test.
     void prepare(const FramePlan& plan, const std::vector<OccludableDraw>& draws);
+    // Returns whether waves are culled. If so, all triangles of the first sample of each block must be drawn.
+    [[nodiscard]] bool culls() const { return !tested_.empty(); }
 
-    // Returns whether all triangles of `sample` must be drawn, because its depths are needed for sortBy().
-    [[nodiscard]] bool needsDepthsOf(std::uint32_t sample) const;
-    // Classifies the pieces as visible or hidden in sample `sample`, all of whose triangles were drawn into layer
-    // `layer` of `depths`.
-    void sortBy(std::uint32_t sample, const GlTexture& depths, std::uint32_t layer);
-    // Returns whether the latest sortBy() found enough hidden triangles for culling to be faster.
-    [[nodiscard]] bool hidesMuch() const { return hidesMuch_; }
+    // Any number of threads may call the functions below. Each needs a current OpenGL context.
 
-    // Returns the draws to submit first for all samples: the pieces classified as visible, and objects that cannot be
-    // tested.
-    [[nodiscard]] const RemainingDraws& shown() const { return shown_; }
-    // Returns the draws of hidden pieces that may be visible in samples [first, first + count), after shown() has been
-    // drawn. The depths of sample `first` are in layer `layer` of `depths`, and the depths of later samples are in the
-    // layers after it.
-    [[nodiscard]] RemainingDraws uncovered(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
-                                           std::uint32_t layer) const;
+    // Classifies the pieces in sample `sample`, all of whose triangles were drawn into layer `layer` of `depths`.
+    [[nodiscard]] PieceVisibility visibilityIn(std::uint32_t sample, const GlTexture& depths,
+                                               std::uint32_t layer) const;
+    // Returns the draws of hidden pieces that may be visible in samples [first, first + count), after the pieces
+    // classified as visible have been drawn. The depths of sample `first` are in layer `layer` of `depths`, and the
+    // depths of later samples are in the layers after it.
+    [[nodiscard]] RemainingDraws uncovered(const PieceVisibility& visibility, std::uint32_t first, std::uint32_t count,
+                                           const GlTexture& depths, std::uint32_t layer) const;
 
 private:
-    struct Piece {
-        const IndexPiece* piece = nullptr;
-        bool shown = true;  // whether the piece is classified as visible
-    };
-    struct Sorted {
+    struct Tested {
         OccludableDraw draw;
-        std::vector<Piece> pieces;  // pieces of the clusters that the plan draws
+        std::vector<const IndexPiece*> pieces;  // pieces of the clusters that the plan draws
         bool canHide = false;
     };
 
     [[nodiscard]] const std::vector<IndexPiece>& piecesOf(const OccludableDraw& draw);
-    void sortPieces(Sorted& sorted, std::uint32_t sample, const DepthTiles& tiles) const;
-    void gatherShown();
-    [[nodiscard]] RemainingDraws uncoveredBy(std::uint32_t sample, const DepthTiles& tiles) const;
-    void append(const Sorted& sorted, const IndexPiece& piece, std::vector<std::uint32_t>& indices) const;
+    [[nodiscard]] std::vector<bool> shownPieces(const Tested& tested, std::uint32_t sample,
+                                                const DepthTiles& tiles) const;
+    void gatherShown(PieceVisibility& visibility) const;
+    [[nodiscard]] RemainingDraws uncoveredBy(const PieceVisibility& visibility, std::uint32_t sample,
+                                             const DepthTiles& tiles) const;
+    void append(const Tested& tested, const IndexPiece& piece, std::vector<std::uint32_t>& indices) const;
 
     const World* world_;
     const FramePlan* plan_ = nullptr;
     // Pieces, keyed by mesh, level of detail and primitive.
     std::map<std::tuple<int, std::uint32_t, std::uint32_t>, std::vector<IndexPiece>> pieces_;
-    std::vector<Sorted> sorted_;  // empty if culling is off
-    std::int64_t sortedBlock_ = -1;
-    bool hidesMuch_ = false;
-    RemainingDraws shown_;
+    std::vector<Tested> tested_;  // empty if culling is off
 };
 
 }  // namespace defocus::engine

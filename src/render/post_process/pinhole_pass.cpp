@@ -52,18 +52,19 @@ FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t c
     return pinholes;
 }
 
-PinholePass::PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool ownBlur,
-                         int samples, const std::filesystem::path& shaderFolder)
+PinholePass::PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool ownBlur, int samples,
+                         const std::filesystem::path& shaderFolder)
     : format_(format),
       shaderFolder_(shaderFolder),
       image_(width, height, format, TextureFormat::depth32f, ownBlur),
       target_(targetOf(image_)),
-      shadows_(scene, vertexShaderMayPickLayer(), shaderFolder),
-      surfaces_(scene, {.fragmentShader = "accumulation/object.frag",
-                        .defines = layerFormatDefines(format),
-                        .readsOwnBlur = true,
-                        .vertexShaderLayers = vertexShaderMayPickLayer(),
-                        .shaderFolder = shaderFolder}) {
+      shadows_(scene, scene.pacer(), vertexShaderMayPickLayer(), shaderFolder),
+      surfaces_(scene, scene.pacer(),
+                {.fragmentShader = "accumulation/object.frag",
+                 .defines = layerFormatDefines(format),
+                 .readsOwnBlur = true,
+                 .vertexShaderLayers = vertexShaderMayPickLayer(),
+                 .shaderFolder = shaderFolder}) {
     if (samples == 1) return;
     multisampled_ = PinholeImage(width, height, format, TextureFormat::depth32f, ownBlur, samples);
     image_.multisampled = &multisampled_;

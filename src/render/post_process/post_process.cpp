@@ -31,8 +31,8 @@ public:
         process_->start(plan_, frame_);
         stats_.trianglesDrawn = 0;
         stats_.peakBytes = std::max<std::uint64_t>(
-            stats_.peakBytes, scene_.bytes() + frame_.bytes() + pinhole_->bytes() + process_->bytes() + sum_->bytes() +
-                                  coverage_.bytes() + radiance_.bytes());
+            stats_.peakBytes, scene_.bytes() + frame_.bytes() + pinhole_->bytes() + process_->bytes() +
+                                  layer_->bytes() + sum_->bytes() + coverage_.bytes() + radiance_.bytes());
         clock_.beginFrame();
     }
 
@@ -42,12 +42,12 @@ public:
         if (index >= total) return false;
         clock_.beginWave();
         pinhole_->draw(index);
-        sum_->beginWave();
-        process_->draw(pinhole_->image(), frame_, sum_->layers());
+        layer_->begin();
+        process_->draw(pinhole_->image(), frame_, layer_->target());
         if (plan_.needsAlpha) drawCoverage();
         for (std::size_t bucket = 0; bucket < pinhole_->buckets(); ++bucket)
             layOver(pinhole_->drawBucket(index, bucket));
-        sum_->endWave(frame_, index, 1);
+        sum_->add(*layer_, frame_, index, 1);
         clock_.endWave();
         stats_.trianglesDrawn += plan_.trianglesDrawn / total;
         if (index + 1 == total) clock_.endFrame();
@@ -80,7 +80,7 @@ private:
     // Writes the blurred coverage of the pinhole image into the layer's alpha.
     void drawCoverage() {
         blurCoverage(pinhole_->image());
-        sum_->layers().bind();
+        layer_->target().bind();
         coverage_.attach(0);
         glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
         fullscreen_.draw(coverageToAlpha_);
@@ -92,7 +92,7 @@ private:
         if (!process_->blursAsTheLens()) bucket.part.reset();
         process_->draw(bucket, frame_, radianceTarget_);
         blurCoverage(bucket);
-        sum_->layers().bind();
+        layer_->target().bind();
         radiance_.attach(0);
         coverage_.attach(1);
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, plan_.needsAlpha ? GL_TRUE : GL_FALSE);
@@ -123,10 +123,12 @@ private:
         const bool same = sum_ && sum_->info().width == view.width && sum_->info().height == view.height &&
                           sum_->info().format == format && pinhole_->hasOwnBlur() == plan_.usesOwnBlur;
         if (!same) {
-            sum_.reset();  // free the old sum first, because memory may not suffice for both
-            sum_.emplace(LayerSumInfo{view.width, view.height, 1, format, options_.shaderFolder});
-            pinhole_.emplace(scene_, view.width, view.height, format, plan_.usesOwnBlur,
-                             process_->samplesPerPixel(), options_.shaderFolder);
+            layer_.reset();  // free the old layer and sum first, because memory may not suffice for both
+            sum_.reset();
+            layer_.emplace(WaveLayersInfo{view.width, view.height, 1, format});
+            sum_.emplace(LayerSumInfo{view.width, view.height, format, options_.shaderFolder});
+            pinhole_.emplace(scene_, view.width, view.height, format, plan_.usesOwnBlur, process_->samplesPerPixel(),
+                             options_.shaderFolder);
         }
         sum_->reset();
         if (plan_.needsAlpha) prepareProgram(coverageToAlpha_, "post_process/coverage_to_alpha.frag");
@@ -141,6 +143,7 @@ private:
     GpuScene scene_;
     FramePlan plan_;
     FrameUniforms frame_;
+    std::optional<WaveLayers> layer_;
     std::optional<LayerSum> sum_;
     std::optional<PinholePass> pinhole_;
     GlTexture coverage_;  // blurred coverage; only with a transparent background or buckets

@@ -38,7 +38,7 @@ void ProgressiveImage::drawFrame(const View& view, const RenderSettings& setting
 void ProgressiveImage::drawFrame(FramePlan plan) {
     plan_ = withAllLevels(std::move(plan));
     finished_ = true;
-    renderer_->setWave(plan_.settings.sampleCount);
+    renderer_->setWave({.samples = plan_.settings.sampleCount});
     renderer_->start(plan_);
     while (renderer_->advance()) {
     }
@@ -57,7 +57,7 @@ void ProgressiveImage::begin(const View& view, const RenderSettings& settings, s
         schedule_.emplace(
             settings, StopSettings{.targetError = targetError, .timeLimit = {}, .sampleLimit = blocks_ * blockSamples});
     planBlock();
-    renderer_->setWave(growingWave_);
+    renderer_->setWave({.samples = growingWave_});
     renderer_->start(plan_);
     finished_ = false;
 }

@@ -145,7 +145,7 @@ TilingNeeds measuredNeeds(const World& world, const FramePlan& plan, const DrawL
                           std::uint64_t limit) {
     const Tile trial = trialTile(plan);
     const std::uint64_t drawn = trialBytes(currentNeeds(world, plan, limits, limit), trial);
-    renderer.setWave(1);
+    renderer.setWave({.samples = 1});
     renderer.start(tileOf(plan, trial));
     renderer.advance();
     static_cast<void>(renderer.image());  // drivers may keep layers until the result is read

@@ -35,9 +35,10 @@ RenderSettings sharpLevels(std::uint32_t samples) {
 }
 
 OpaqueDrawn opaqueDrawn(const char* method, const SmallWorld& small, const RenderSettings& settings,
-                        std::uint32_t wave = 0) {
+                        std::uint32_t wave = 0, std::uint32_t threads = 1) {
     RendererOptions options;
     options.wave = wave;
+    options.threads = threads;
     const auto renderer = methodNamed(method).make(small.world, options);
     const FramePlan plan = planFrame(small.world, small.view, settings);
     renderer->start(plan);
@@ -91,6 +92,19 @@ TEST_F(OccludedSurfaces, wavesChangeNoBit) {
         for (const std::uint32_t wave : {1u, 3u, 64u}) {
             const OpaqueDrawn other = opaqueDrawn(method, *small, sharpLevels(70), wave);
             EXPECT_TRUE(drawn.image.pixels == other.image.pixels) << method << ", K = " << wave;
+            EXPECT_EQ(drawn.hidden, other.hidden);
+        }
+    }
+}
+
+TEST_F(OccludedSurfaces, threadsChangeNoBit) {
+    const auto small = behindAWall();
+    for (const char* method : {"accumulation", "multirate"}) {
+        const OpaqueDrawn drawn = opaqueDrawn(method, *small, sharpLevels(140));
+        ASSERT_GT(drawn.hidden, 0.2);
+        for (const std::uint32_t threads : {2u, 5u}) {
+            const OpaqueDrawn other = opaqueDrawn(method, *small, sharpLevels(140), 0, threads);
+            EXPECT_TRUE(drawn.image.pixels == other.image.pixels) << method << ", " << threads << " threads";
             EXPECT_EQ(drawn.hidden, other.hidden);
         }
     }

@@ -1,0 +1,41 @@
+#pragma once
+// A point in the commands of a context. Other contexts that share objects can wait for it before they use results.
+
+#include <epoxy/gl.h>
+
+#include <utility>
+
+namespace defocus::engine {
+
+class Fence {
+public:
+    Fence() = default;
+    // Returns a fence after all commands of the current context so far.
+    static Fence here() { return Fence(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)); }
+    // Returns a fence and submits the commands before it, so that threads with other contexts can wait.
+    static Fence forOtherContexts();
+
+    Fence(Fence&& other) noexcept : sync_(std::exchange(other.sync_, nullptr)) {}
+    Fence& operator=(Fence&& other) noexcept {
+        std::swap(sync_, other.sync_);
+        return *this;
+    }
+    Fence(const Fence&) = delete;
+    Fence& operator=(const Fence&) = delete;
+    ~Fence() {
+        if (sync_ != nullptr) glDeleteSync(sync_);
+    }
+
+    // Blocks the thread until the commands before the fence are complete, at most `maxNanoseconds`. Returns false after
+    // the maximum time. An empty fence is complete. Needs a current context.
+    bool wait(GLuint64 maxNanoseconds) const;
+    // Blocks the thread until the commands before the fence are complete. Throws Error if the driver fails.
+    void wait() const;
+
+private:
+    explicit Fence(GLsync sync) : sync_(sync) {}
+
+    GLsync sync_ = nullptr;
+};
+
+}  // namespace defocus::engine

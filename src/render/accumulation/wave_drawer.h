@@ -1,0 +1,82 @@
+#pragma once
+// Draws waves of lens samples in one OpenGL context: owns all objects that contexts cannot share, and the layers.
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "gl/timer.h"
+#include "render/accumulation/lens_layers.h"
+#include "render/accumulation/wave_layers.h"
+#include "render/gpu_scene/shadow_maps.h"
+#include "render/gpu_scene/surface_pass.h"
+#include "render/methods.h"
+
+namespace defocus::engine {
+
+// Inputs that all waves of a frame share. `plan` and `uniforms` must exist until the last wave is drawn.
+struct WaveFrame {
+    const FramePlan* plan = nullptr;
+    const FrameUniforms* uniforms = nullptr;
+    WaveLayersInfo layers;
+    std::optional<LayerWindow> window;  // rectangle of the layers to draw; nullopt: all pixels
+    bool skipsHidden = false;           // hidden triangles are skipped
+    bool countsSamples = false;         // the number of samples differs between pixels
+    bool marksBlended = false;          // see SurfacePass::markBlended
+    bool drawsSky = false;              // the environment is drawn into the layers
+};
+
+// Layers of one wave. `data` has values only with RenderSettings::layers.
+struct WaveTargets {
+    explicit WaveTargets(const WaveFrame& frame);
+    [[nodiscard]] std::size_t bytes() const { return picture.bytes() + (data ? data->bytes() : 0); }
+
+    WaveLayers picture;
+    std::optional<WaveDataLayers> data;
+};
+
+class WaveDrawer {
+public:
+    // `scene` and `occlusion` must outlive this object. `pendingBytes`: see SubmissionPacer.
+    WaveDrawer(const GpuScene& scene, const Occlusion& occlusion, const RendererOptions& options,
+               std::uint64_t pendingBytes);
+
+    // Prepares the programs and draws of a frame, and targets for `targets` waves. The plan's data must be in the
+    // scene's buffers and textures.
+    void prepare(const WaveFrame& frame, std::size_t targets);
+    // Returns the draws for Occlusion::prepare, which must be called before draw() if hidden triangles are skipped.
+    [[nodiscard]] std::vector<OccludableDraw> opaqueDraws() const { return surfaces_->opaqueDraws(); }
+    // Draws samples [first, first + count) into the layers of target `target`. Returns the number of hidden triangles
+    // that it skipped.
+    std::uint64_t draw(std::uint32_t first, std::uint32_t count, std::size_t target, WaveVisibility visibility);
+    void freeTargets() { targets_.clear(); }
+    [[nodiscard]] const WaveTargets& target(std::size_t index) const { return targets_[index]; }
+    // Returns GPU times of the frame's passes. Waits for the GPU.
+    [[nodiscard]] std::vector<PassTime> times();
+    [[nodiscard]] std::size_t bytes() const;  // needs a prepared frame
+    // Sets the times of all passes to 0.
+    void resetTimes();
+
+private:
+    void makePasses(const WaveFrame& frame);
+    std::uint64_t drawOpaque(std::uint32_t first, std::uint32_t count, const WaveTargets& to,
+                             WaveVisibility& visibility);
+    void drawSky(std::uint32_t first, std::uint32_t count, const WaveTargets& to);
+
+    const GpuScene* scene_;
+    const Occlusion* occlusion_;
+    bool geometryShaderLayers_;
+    std::filesystem::path shaderFolder_;
+    SubmissionPacer pacer_;
+    WaveFrame frame_;
+    // Inputs for which the passes and the targets were made.
+    LayerFormat format_ = LayerFormat::automatic;
+    std::vector<Layer> drawnLayers_;
+    bool countsSamples_ = false;
+    std::vector<WaveTargets> targets_;
+    std::optional<ShadowMaps> shadows_;
+    std::optional<SurfacePass> surfaces_;
+    GpuTimer shadowTimer_, opaqueTimer_, skyTimer_, translucentTimer_;
+};
+
+}  // namespace defocus::engine

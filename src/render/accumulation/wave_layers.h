@@ -1,0 +1,43 @@
+#pragma once
+// Render target of a wave: K layers of colours and depths, one per lens sample.
+
+#include <cstdint>
+#include <optional>
+
+#include "gl/target.h"
+#include "render/gpu_scene/layer_window.h"
+#include "render/layer_format.h"
+
+namespace defocus::engine {
+
+struct WaveLayersInfo {
+    int width = 1;  // px
+    int height = 1;
+    std::uint32_t count = 1;                    // number of layers K, 1 … 64
+    LayerFormat format = LayerFormat::rgba16f;  // not LayerFormat::automatic
+    bool operator==(const WaveLayersInfo&) const = default;
+};
+
+class WaveLayers {
+public:
+    explicit WaveLayers(const WaveLayersInfo& info);
+
+    // Clears the layers to transparent black and infinite depth, and binds them as the render target. Only `window` is
+    // drawn; nullopt: all pixels.
+    void begin(const std::optional<LayerWindow>& window = {}) const;
+    // Ends the drawing that begin() has started: pixels outside the window can be drawn again.
+    static void end();
+    [[nodiscard]] const Target& target() const { return target_; }
+    [[nodiscard]] const GlTexture& colors() const { return colors_; }
+    [[nodiscard]] const GlTexture& depths() const { return depths_; }
+    [[nodiscard]] const WaveLayersInfo& info() const { return info_; }
+    [[nodiscard]] std::size_t bytes() const { return colors_.bytes() + depths_.bytes(); }
+
+private:
+    WaveLayersInfo info_;
+    GlTexture colors_;
+    GlTexture depths_;
+    Target target_;
+};
+
+}  // namespace defocus::engine

@@ -1,0 +1,89 @@
+#pragma once
+// Draws the waves of a frame, in the caller's OpenGL context or in several threads with contexts of their own, and
+// returns them in the order of their samples. Software drivers process vertices in the thread that calls OpenGL, so
+// that several threads use more cores. The layers of a wave do not depend on the thread that draws it.
+
+#include <atomic>
+#include <cstdint>
+#include <future>
+#include <memory>
+#include <vector>
+
+#include "gl/context_thread.h"
+#include "gl/fence.h"
+#include "render/accumulation/wave_drawer.h"
+
+namespace defocus::engine {
+
+// Numbers of waves and samples that are in memory at once.
+struct WaveShape {
+    std::uint32_t threads = 1;  // threads that draw; 1: the caller's thread
+    std::uint32_t targets = 1;  // waves in memory per thread: 2, so that a thread does not wait for a wave's sum
+    std::uint32_t samples = 1;  // samples per wave K, a power of two, at most blockSamples
+    [[nodiscard]] std::uint32_t waves() const { return threads * targets; }
+};
+
+struct DrawnWave {
+    std::uint32_t first = 0;  // first sample, as an index within the plan
+    std::uint32_t count = 0;
+    std::uint64_t hiddenTriangles = 0;  // triangles that were skipped because they are hidden
+    const WaveTargets* layers = nullptr;
+};
+
+class WaveQueue {
+public:
+    // `scene` must outlive this object, and the current OpenGL context must remain that of all calls.
+    WaveQueue(const GpuScene& scene, const RendererOptions& options);
+    ~WaveQueue();
+    WaveQueue(const WaveQueue&) = delete;
+    WaveQueue& operator=(const WaveQueue&) = delete;
+
+    // Abandons the waves of the previous frame and prepares the waves of `frame`, whose data must be in the scene's
+    // buffers and textures.
+    void prepare(const WaveFrame& frame, const WaveShape& shape);
+    // Returns the next wave, at most `shape.samples` samples of one block. Its layers can be read in the current
+    // context until the next call. The plan must have samples left. Throws Error if a thread failed.
+    DrawnWave next();
+    // Abandons the waves that have not been returned.
+    void stop();
+
+    // Returns GPU times of the frame's passes, summed over all threads. Waits for the waves that are being drawn.
+    [[nodiscard]] std::vector<PassTime> times();
+    void resetTimes();
+    [[nodiscard]] std::size_t bytes() const { return bytes_; }       // of all threads, when the frame was prepared
+    [[nodiscard]] std::uint32_t threads() const { return active_; }  // threads that draw the frame
+
+private:
+    class Lane;
+    struct Drawn {
+        std::uint64_t hiddenTriangles = 0;
+        Fence complete;
+    };
+    // A wave in memory. Wave number w of a frame uses place w mod places_.size().
+    struct Place {
+        std::future<Drawn> drawn;
+        Fence summed;  // complete when the layers may be drawn again
+    };
+
+    void makeLanes(std::uint32_t threads);
+    void draw(std::uint32_t wave);
+    [[nodiscard]] WaveVisibility visibilityFor(std::uint32_t firstSample);
+    [[nodiscard]] Lane& laneOf(std::uint32_t wave) { return *lanes_[wave % active_]; }
+
+    const GpuScene* scene_;
+    RendererOptions options_;
+    Occlusion occlusion_;
+    std::vector<std::unique_ptr<Lane>> lanes_;
+    std::uint32_t active_ = 0;      // the frame uses the first lanes
+    bool severalContexts_ = false;  // lanes_ have contexts of their own
+    WaveFrame frame_;
+    WaveShape shape_;
+    std::vector<Place> places_;
+    std::uint32_t started_ = 0;                                  // waves of the frame that were given to a thread
+    std::uint32_t returned_ = 0;                                 // waves of the frame that next() has returned
+    std::shared_future<WaveVisibility::Value> blockVisibility_;  // of the block of the wave that was started last
+    std::shared_ptr<std::atomic<bool>> abandoned_;               // set when the frame's remaining waves are not needed
+    std::size_t bytes_ = 0;
+};
+
+}  // namespace defocus::engine
