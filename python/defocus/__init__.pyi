@@ -106,6 +106,7 @@ class Keywords(TypedDict, total=False):
     keep_all: Optional[bool]
     memory: Optional[str]
     wave: Optional[int]
+    threads: Optional[int]
     coc: Optional[Literal["published", "thin-lens"]]
     taps: Optional[int]
     max_coc: Optional[Literal["published", "unlimited"]]

@@ -13,6 +13,10 @@
 
 namespace defocus::engine {
 
+std::uint32_t availableCores() {
+    return static_cast<std::uint32_t>(std::max(1, tbb::info::default_concurrency()));
+}
+
 // TBB's threads keep running between calls: a call with 64 empty bodies takes 1 µs on two cores, instead of 28 µs with
 // new threads.
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body) {

@@ -3,10 +3,14 @@
 // process. Results must not depend on the execution order.
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 
 namespace defocus::engine {
+
+// Returns the number of cores available to the process.
+std::uint32_t availableCores();
 
 // Runs body(0) … body(count - 1) on all cores and returns when all are done. Indices start in order, so put the most
 // expensive bodies first. Rethrows the first exception of a body. Bodies may call parallelFor; a thread that waits for

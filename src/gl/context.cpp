@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <string_view>
 
 #include "core/error.h"
@@ -238,6 +239,17 @@ bool currentIsSoftware() {
     const std::string device = currentDevice();
     return device.find("llvmpipe") != std::string::npos || device.find("softpipe") != std::string::npos ||
            device.find("SWR") != std::string::npos;
+}
+
+bool drawsInThreads(const std::string& device, const std::string& driver) {
+    if (device.find("llvmpipe") == std::string::npos) return true;
+    if (device.find("zink") != std::string::npos) return false;  // llvmpipe draws for Vulkan; not tested
+    constexpr std::string_view mesa = "Mesa ";
+    const std::size_t at = driver.find(mesa);
+    int version = 0;
+    if (at != std::string::npos)
+        std::from_chars(driver.data() + at + mesa.size(), driver.data() + driver.size(), version);
+    return version >= 25;
 }
 
 std::unique_ptr<GlContext> createHeadlessContext() {

@@ -47,5 +47,8 @@ std::string currentDevice();
 std::string currentDriver();
 // Returns whether the current context renders on the CPU.
 bool currentIsSoftware();
+// Returns whether contexts of a driver can draw in several threads at the same time. llvmpipe before Mesa 25.0 reads
+// the other contexts' lists of textures without a lock, and crashes. `device` and `driver`: GL_RENDERER and GL_VERSION.
+bool drawsInThreads(const std::string& device, const std::string& driver);
 
 }  // namespace defocus::engine

@@ -157,6 +157,7 @@ void FrameRun::keepStats() {
     before_.renderMilliseconds += block.renderMilliseconds;
     before_.setupMilliseconds += block.setupMilliseconds;
     before_.gpuMilliseconds += block.gpuMilliseconds;
+    before_.cpuTime += block.cpuTime;
 }
 
 std::uint32_t FrameRun::sampleTotal() const {
@@ -175,6 +176,7 @@ RenderStats FrameRun::stats() const {
     stats.renderMilliseconds += before_.renderMilliseconds;
     stats.setupMilliseconds += before_.setupMilliseconds;
     stats.gpuMilliseconds += before_.gpuMilliseconds;
+    stats.cpuTime += before_.cpuTime;
     stats.stopped = schedule_->stopped().value_or(StopReason::sampleCount);
     stats.estimatedError = schedule_->estimatedError();
     return stats;

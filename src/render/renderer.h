@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/thread_times.h"
 #include "image/image.h"
 #include "plan/frame_plan.h"
 #include "render/layer_images.h"
@@ -30,6 +31,7 @@ struct RenderStats {
     std::uint32_t samples = 0;
     double setupMilliseconds = 0;       // uploads and compilation of shaders
     double renderMilliseconds = 0;      // from the end of the setup until the image is complete
+    CpuTime cpuTime;                    // from the end of the setup until the image is complete
     double gpuMilliseconds = 0;         // measured by timer queries; excludes vertex work with software drivers
     std::uint64_t trianglesDrawn = 0;   // triangles in the plan, summed over all samples
     std::uint64_t trianglesHidden = 0;  // triangles of the plan that were skipped because they are hidden
@@ -57,6 +59,7 @@ struct BlockSum {
 struct WaveLimit {
     std::uint32_t samples = 0;  // max samples in memory, of all waves that are drawn at once; 0: RendererOptions::wave
     std::uint32_t perWave = 0;  // max samples per wave, so that a wave takes little time; 0: no limit
+    std::uint32_t threads = 0;  // max threads that draw; 0: RendererOptions::threads
     // Returns the max samples of a method that draws one wave at a time; `otherwise` is RendererOptions::wave.
     [[nodiscard]] std::uint32_t withDefault(std::uint32_t otherwise) const {
         const std::uint32_t max = samples > 0 ? samples : otherwise;

@@ -83,6 +83,7 @@ TEST_F(BadInput, valuesOutOfRange) {
     expectFault(2, "--iso", {"--iso", "0"});
     expectFault(2, "excludes", {"--exposure-time", "1", "--exposure", "2"});
     expectFault(2, "--wave", {"--wave", "65"});
+    expectFault(2, "--threads", {"--threads", "0"});
     expectFault(2, "--seed", {"--seed", "4294967296"});
     expectFault(2, "--target-error", {"--target-error", "0"});
     expectFault(2, "--target-error", {"--target-error=-0.1"});

@@ -234,6 +234,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
         {"keepAll", {{"--keep-all"}, {"--focal-length", "1500", "--lod", "off"}, true}},
         {"wave", {{"--wave", "1"}, {}, true}},
         {"memory", {{"--memory", "3GiB"}, {}, true}},
+        {"threads", {{"--threads", "3"}, {}, true}},
         {"toneMap", {{"--tonemap", "agx"}, {}}},
         {"exposure", {{"--exposure", "1"}, {}}},
     };

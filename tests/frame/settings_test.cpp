@@ -36,6 +36,7 @@ std::string otherValue(const Setting& setting) {
         {"bladeCount", "7"},
         {"wave", "3"},
         {"memory", "3000000000B"},
+        {"threads", "3"},
     };
     if (const auto found = own.find(setting.name); found != own.end()) return found->second;
     switch (setting.kind) {

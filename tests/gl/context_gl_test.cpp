@@ -34,5 +34,15 @@ TEST_F(Context, anotherThreadMayHaveItsOwn) {
     EXPECT_EQ(context().device(), currentDevice());
 }
 
+TEST(DrivingThreads, needALaterMesaForLlvmpipe) {
+    const auto llvmpipe = [](const char* driver) { return drawsInThreads("llvmpipe (LLVM 15.0.6, 256 bits)", driver); };
+    EXPECT_FALSE(llvmpipe("4.5 (Core Profile) Mesa 22.3.6"));
+    EXPECT_FALSE(llvmpipe("4.5 (Core Profile) Mesa 24.3.4"));
+    EXPECT_TRUE(llvmpipe("4.5 (Core Profile) Mesa 25.0.7-2~bpo12+1"));
+    EXPECT_FALSE(llvmpipe("4.5"));
+    EXPECT_FALSE(drawsInThreads("zink Vulkan 1.4(llvmpipe (LLVM 19))", "4.5 (Core Profile) Mesa 25.0.7"));
+    EXPECT_TRUE(drawsInThreads("NVIDIA H200/PCIe/SSE2", "4.5.0 NVIDIA 550.54"));
+}
+
 }  // namespace
 }  // namespace defocus::engine

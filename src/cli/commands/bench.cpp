@@ -123,7 +123,7 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"samples", "quality", "targetError", "timeLimit", "lod", "method",
                                          "cacheFolder", "noCache", "exposureTime", "iso"}));
-    addDeveloperSettings(*command, arguments->request, {"memory"});
+    addDeveloperSettings(*command, arguments->request, {"memory", "threads"});
     command->footer(
         "Examples:\n"
         "  defocus bench speedup --counts 16,64 -o bench-fish\n"

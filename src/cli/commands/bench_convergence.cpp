@@ -354,7 +354,7 @@ void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global) {
                                          "noCache", "exposureTime", "iso"}));
     addMeasurement(*command, *arguments);
     addOutput(*command, *arguments);
-    addDeveloperSettings(*command, arguments->request, {"lodMetric", "memory"});
+    addDeveloperSettings(*command, arguments->request, {"lodMetric", "memory", "threads"});
     command->footer(
         "Examples:\n"
         "  defocus bench convergence scene.glb --report report\n"

@@ -120,7 +120,7 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
     addReport(*command, output, arguments->report);
     addAllowChanged(*command, arguments->allowChanged);
     addDeveloperSettings(*command, arguments->request,
-                         {"keepAll", "memory", "wave"});  // these settings don't affect the results
+                         {"keepAll", "memory", "wave", "threads"});  // these settings don't affect the results
     command->footer(
         "Examples:\n"
         "  defocus bench popping --fish 6 --fish-triangles 20000 -o popping\n"

@@ -166,7 +166,7 @@ void addBenchViewCommand(CLI::App& bench, const GlobalOptions& global) {
         ->type_name("FOLDER")
         ->group("Output");
     addAllowChanged(*command, arguments->allowChanged);
-    addDeveloperSettings(*command, arguments->request, {"keepAll", "memory"});
+    addDeveloperSettings(*command, arguments->request, {"keepAll", "memory", "threads"});
     command->footer(
         "Examples:\n"
         "  defocus bench view\n"

@@ -52,7 +52,7 @@ void addPlanCommand(CLI::App& program, const GlobalOptions& global) {
                 settingsOf(frameGroups, {"environment", "environmentRotation", "targetError", "timeLimit", "method",
                                          "layerFormat", "exposureTime", "iso", "multipleScattering"}));
     addSettings(*command, arguments->request, {"exrLayers"});
-    addDeveloperSettings(*command, arguments->request, {"memory", "wave"});
+    addDeveloperSettings(*command, arguments->request, {"memory", "wave", "threads"});
     command->footer("Example:\n  defocus plan scene.glb --fstop 1.4 --focus-node Bottle --json");
     command->callback([arguments, &global] { runPlan(*arguments, global); });
 }

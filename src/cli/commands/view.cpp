@@ -48,7 +48,7 @@ void addViewCommand(CLI::App& program, const GlobalOptions& global) {
                  ->group(group));
     addSettings(*command, options->request, settingsOf(pictureGroups, {"timeLimit", "exrLayers", "exrNames"}));
     addMethodSettings(*command, options->request);
-    addDeveloperSettings(*command, options->request, {"memory"});
+    addDeveloperSettings(*command, options->request, {"memory", "threads"});
     command->footer(
         "Press ? in the window for the keys.\n\nExamples:\n"
         "  defocus view scene.glb --fstop 1.4\n"

@@ -215,7 +215,7 @@ private:
 
 DriverOptions driverOptions(const Request& request, std::filesystem::path shaderFolder, std::uint64_t keptPixelBytes) {
     return {chosenMethod(request),
-            {request.memory, request.wave.value_or(0), request.layerFormat},
+            {request.memory, request.wave.value_or(0), request.layerFormat, request.threads},
             std::move(shaderFolder),
             keptPixelBytes};
 }
@@ -230,7 +230,8 @@ void FrameDriver::makeRenderer() {
     RendererOptions options;
     options.layerFormat = options_.limits.layerFormat;
     options.wave = options_.limits.wave;
-    options.waveBytes = waveBytesWithin(limit_);
+    options.threads = wantedThreads(options_.limits, *options_.method.method);
+    options.waveBytes = waveBytesWithin(limit_, options.threads);
     options.pendingBytes = pendingBytesWithin(limit_);
     options.shaderFolder = options_.shaderFolder;
     options.settings = options_.method.settings;
@@ -272,7 +273,9 @@ void FrameDriver::fit(const FrameOrder& order) {
     const bool mapsPossible = shadows == Shadows::on || (shadows == Shadows::automatic && hasGround(*world_->scene));
     if (!order.rows && surelyFits(order.view.width, order.view.height, mapsPossible, limits, limit_)) {
         if (!renderer_) makeRenderer();
-        return renderer_->setWave({.perWave = shortWave(order)});
+        return renderer_->setWave(
+            {.perWave = shortWave(order),
+             .threads = threadsWithin(order.view.width, order.view.height, limit_, wantedThreads(limits, method))});
     }
 
     // Free the memory of the previous frame before the remaining memory is measured.
@@ -288,7 +291,10 @@ void FrameDriver::fit(const FrameOrder& order) {
         return fitTiles(order, plan, order.rows.value_or(std::vector<RowRange>{{0, plan.view.height}}));
     TilingNeeds needs = needsBeforeUpload(*world_, plan, limits, limit_);
     makeRenderer();
-    renderer_->setWave({.samples = limits.memory ? waveWithin(needs) : 0, .perWave = shortWave(order)});
+    const std::uint32_t threads = threadsWithin(needs, wantedThreads(limits, method));
+    reserveThreads(needs, threads);
+    renderer_->setWave(
+        {.samples = limits.memory ? waveWithin(needs) : 0, .perWave = shortWave(order), .threads = threads});
     if (!limits.memory) return;
     needs.keptBytes = std::uint64_t(needs.width) * std::uint64_t(needs.height) * options_.keptPixelBytes;
     crowded_ = !fitsInOnePiece(needs);
@@ -301,10 +307,12 @@ void FrameDriver::fitTiles(const FrameOrder& order, const FramePlan& plan, const
     TilingNeeds needs = measuredNeeds(*world_, plan, options_.limits, *renderer_, limit_);
     if (!order.takeRows)
         needs.keptBytes = std::uint64_t(needs.width) * std::uint64_t(needs.height) * options_.keptPixelBytes;
+    const std::uint32_t threads = threadsWithin(needs, wantedThreads(options_.limits, *options_.method.method));
+    reserveThreads(needs, threads);
     for (const RowRange& range : rows) {
         needs.rows = range;
         Tiling tiling = chosenTiling(needs);
-        renderer_->setWave({.samples = tiling.wave});
+        renderer_->setWave({.samples = tiling.wave, .threads = threads});
         bands_->insert(bands_->end(), tiling.bands.begin(), tiling.bands.end());
     }
 }

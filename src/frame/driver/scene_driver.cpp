@@ -36,7 +36,7 @@ bool sameSurroundings(const Request& a, const Request& b) {
 // Returns whether one FrameDriver can draw both requests.
 bool sameDriver(const Request& a, const Request& b) {
     return chosenMethod(a).text() == chosenMethod(b).text() && a.layerFormat == b.layerFormat && a.wave == b.wave &&
-           a.memory == b.memory && sameSurroundings(a, b);
+           a.threads == b.threads && a.memory == b.memory && sameSurroundings(a, b);
 }
 
 std::size_t pyramidKind(const Request& request) {
@@ -232,6 +232,11 @@ std::vector<std::string> SceneDriver::warnings() const {
         add(planWarnings(driver_->plan(), driver_->method(), counted ? 0 : driver_->samples()));
         if (driver_->inTiles() && stop.automatic) add(tiledSamplesNote(driver_->plan()));
     }
+    if (request_.threads.value_or(1) > 1 && !drawsInThreads(context_->device(), context_->driver()))
+        lines.push_back(
+            fmt::format("--threads {} has no effect: contexts of {} ({}) cannot draw in several threads; use "
+                        "Mesa 25.0 or later",
+                        *request_.threads, context_->device(), context_->driver()));
     add(clipped_);
     return lines;
 }

@@ -154,6 +154,8 @@ std::string statsJson(const RenderReport& report) {
         {"setupMilliseconds", stats.setupMilliseconds},
         {"renderMilliseconds", stats.renderMilliseconds},
         {"totalMilliseconds", report.totalMilliseconds},
+        {"cpuMilliseconds", stats.cpuTime.milliseconds},
+        {"busiestThreadMilliseconds", stats.cpuTime.busiestMilliseconds},
         {"gpuMilliseconds", stats.gpuMilliseconds},
         {"gpuMillisecondsNote",
          report.softwareDriver ? "timer queries of a software driver; they exclude vertex work, so do not compare them"
@@ -168,6 +170,7 @@ std::string statsJson(const RenderReport& report) {
         {"tiles", report.tiles},
         {"gpuBytes", stats.peakBytes},
         {"wave", stats.wave},
+        {"threads", stats.threads},
         {"layerFormat", stats.layerFormat},
         {"device", stats.device},
         {"driver", stats.driver},

@@ -19,6 +19,11 @@ std::string methodWithoutLensPoints(const SettingContext& context) {
     return fmt::format("method {} uses the same lens for all colours and pixels", context.method.name);
 }
 
+std::string methodWithoutThreads(const SettingContext& context) {
+    if (context.method.usesThreads) return {};
+    return fmt::format("method {} draws in a single OpenGL context", context.method.name);
+}
+
 std::string methodWithoutMotion(const SettingContext& context) {
     if (context.method.drawsMotion) return {};
     return fmt::format("method {} does not support motion blur", context.method.name);

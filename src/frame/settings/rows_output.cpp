@@ -126,8 +126,13 @@ Rows developerRows() {
         rows::integer(
             "wave", "--wave", 1, 64, MEMBER(wave),
             "Maximum number of samples drawn at once; does not affect the image. Default: as many as fit into "
-            "memory, at most 16")
+            "memory, at most 16 for each thread")
             .effect(SettingEffect::run),
+        rows::integer("threads", "--threads", 1, 64, MEMBER(threads),
+                      "Number of threads that draw lens samples at the same time, each with an OpenGL context of its "
+                      "own; does not affect the image. Default: all cores with llvmpipe of Mesa 25.0 or later, else 1")
+            .effect(SettingEffect::run)
+            .unused(methodWithoutThreads),
     };
 }
 

@@ -31,6 +31,10 @@ namespace {
 constexpr std::uint32_t maxWave = 16;
 // Max samples per wave if several threads draw. Small waves divide the samples evenly between threads.
 constexpr std::uint32_t maxSharedWave = 4;
+// Max triangles per wave of more than 4 samples with a software driver. The driver keeps all triangles of a wave in
+// memory, which returns to the system after each wave; its page faults can take longer than the draw.
+constexpr std::uint64_t maxWaveTriangles = 400'000;
+constexpr std::uint64_t minWaveOfTriangles = 4;  // smaller waves cost more for their sums than they save
 
 // Returns the max number of layers in memory. If `limit` sets none, as many as fit into RendererOptions::waveBytes.
 std::uint64_t maxLayers(const Scene& scene, const FramePlan& plan, const RendererOptions& options,
@@ -50,9 +54,14 @@ std::uint64_t maxLayers(const Scene& scene, const FramePlan& plan, const Rendere
 WaveShape chosenShape(const FramePlan& plan, const RendererOptions& options, const WaveLimit& limit,
                       std::uint64_t layers) {
     const std::uint64_t samples = std::max<std::uint64_t>(1, plan.samples.size());
-    const std::uint64_t longest = limit.perWave > 0 ? limit.perWave : maxWave;
+    std::uint64_t longest = limit.perWave > 0 ? limit.perWave : maxWave;
+    if (currentIsSoftware()) {
+        const std::uint64_t triangles = std::max<std::uint64_t>(1, plan.trianglesDrawn);
+        longest = std::min(longest, std::max(minWaveOfTriangles, maxWaveTriangles * samples / triangles));
+    }
     WaveShape shape;
-    shape.threads = static_cast<std::uint32_t>(std::min<std::uint64_t>({options.threads, layers, samples}));
+    const std::uint32_t threads = limit.threads > 0 ? limit.threads : options.threads;
+    shape.threads = static_cast<std::uint32_t>(std::min<std::uint64_t>({threads, layers, samples}));
     shape.targets = shape.threads > 1 && 2 * shape.threads <= std::min(layers, samples) ? 2 : 1;
     const auto power = [](std::uint64_t max) { return std::bit_floor(static_cast<std::uint32_t>(max)); };
     if (shape.threads <= 1) {
@@ -143,7 +152,7 @@ public:
         RenderStats stats = stats_;
         stats.samples = samples();
         clock_.fill(stats);
-        stats.wave = shape_.samples;
+        stats.wave = waves_.layers();
         stats.threads = waves_.threads();
         stats.layerFormat = layerFormatName(sum_->info().format);
         stats.passes = waves_.times();

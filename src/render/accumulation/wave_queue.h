@@ -52,6 +52,7 @@ public:
     void resetTimes();
     [[nodiscard]] std::size_t bytes() const { return bytes_; }       // of all threads, when the frame was prepared
     [[nodiscard]] std::uint32_t threads() const { return active_; }  // threads that draw the frame
+    [[nodiscard]] std::uint32_t layers() const { return active_ * shape_.targets * shape_.samples; }  // in memory
 
 private:
     class Lane;

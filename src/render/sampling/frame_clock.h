@@ -1,9 +1,10 @@
 #pragma once
-// Measures the times of a frame for RenderStats: wall-clock times of setup and drawing, after waiting for the GPU, and
-// GPU times of waves.
+// Measures the times of a frame for RenderStats: wall-clock times of setup and drawing, after waiting for the GPU, CPU
+// times of drawing, and GPU times of waves.
 
 #include <chrono>
 
+#include "core/thread_times.h"
 #include "gl/timer.h"
 #include "render/renderer.h"
 
@@ -28,6 +29,8 @@ private:
     Clock::time_point begin_;
     double setupMilliseconds_ = 0;
     double renderMilliseconds_ = 0;
+    CpuClock cpuClock_;
+    CpuTime cpuTime_;  // of drawing
     GpuTimer timer_;
 };
 

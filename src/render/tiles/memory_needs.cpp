@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/memory_limits.h"
+#include "core/parallel.h"
 #include "gl/context.h"
 #include "gl/device_memory.h"
 #include "render/gpu_scene/frame_uniforms.h"
@@ -15,6 +16,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint64_t programBytes = 80u << 20;     // bytes of a software driver's compiled programs
+constexpr std::uint64_t contextBytes = 144u << 20;    // bytes of a thread: programs and pending triangles, measured
 constexpr std::uint64_t outputBytes = 16u << 20;      // bytes of the libraries that write the image, measured
 constexpr std::uint64_t occlusionTriangleBytes = 12;  // bytes per triangle of Occlusion, measured
 
@@ -95,6 +97,12 @@ void reserve(TilingNeeds& needs, std::uint64_t bytes) {
     needs.hostMemory = needs.deviceMemory = remainder(needs.hostMemory, bytes);
 }
 
+// Returns how many of `wanted` threads fit into half of `bytes`, beside which the first thread has memory. `layer`:
+// bytes of a layer.
+std::uint32_t threadsIn(std::uint64_t bytes, std::uint64_t layer, std::uint32_t wanted) {
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, 1 + bytes / 2 / (contextBytes + 2 * layer)));
+}
+
 // Returns a tile of one row at the top of the image's first cell (plan/visible/tiles.h). Drawing it allocates all
 // memory that a tile needs except for its pixels.
 Tile trialTile(const FramePlan& plan) {
@@ -115,8 +123,29 @@ std::uint64_t memoryLimit(const DrawLimits& limits) {
     return limits.memory.value_or(residentMemory() + threeQuarters(freeMemory()));
 }
 
-std::uint64_t waveBytesWithin(std::uint64_t limit) {
-    return std::min(RendererOptions{}.waveBytes, remainder(limit, residentMemory()) / 4);
+std::uint32_t wantedThreads(const DrawLimits& limits, const Method& method) {
+    if (!method.usesThreads || !drawsInThreads(currentDevice(), currentDriver())) return 1;
+    return limits.threads.value_or(currentIsSoftware() ? availableCores() : 1);
+}
+
+std::uint64_t waveBytesWithin(std::uint64_t limit, std::uint32_t threads) {
+    return std::min(RendererOptions{}.waveBytes * threads, remainder(limit, residentMemory()) / 4);
+}
+
+std::uint32_t threadsWithin(const TilingNeeds& needs, std::uint32_t wanted) {
+    const std::uint64_t pixels = pixelsOf(needs.width, needs.height);
+    const std::uint64_t layer = pixels * needs.layerPixel + needs.layerMaps;
+    const std::uint64_t others = pixels * (sumPixelBytes + (needs.shared ? wholePixelBytes : 0)) + layer;
+    return threadsIn(remainder(needs.deviceMemory, others), layer, wanted);
+}
+
+std::uint32_t threadsWithin(int width, int height, std::uint64_t limit, std::uint32_t wanted) {
+    const std::uint64_t layer = pixelsOf(width, height) * 2 * layerPixelBytes(LayerFormat::rgba32f);
+    return threadsIn(remainder(limit, residentMemory()), layer, wanted);
+}
+
+void reserveThreads(TilingNeeds& needs, std::uint32_t threads) {
+    if (needs.shared && threads > 1) reserve(needs, threads * contextBytes);
 }
 
 std::uint64_t pendingBytesWithin(std::uint64_t limit) {

@@ -16,14 +16,28 @@ struct DrawLimits {
     std::optional<std::uint64_t> memory;  // max bytes of the process; nullopt: 3/4 of the free memory
     std::uint32_t wave = 0;               // lens samples per wave K; 0: as many as fit into memory
     LayerFormat layerFormat = LayerFormat::automatic;
+    std::optional<std::uint32_t> threads;  // threads that draw; see wantedThreads()
 };
 
 // Returns the max bytes of the process: limits.memory, or its present memory plus 3/4 of the free memory.
 std::uint64_t memoryLimit(const DrawLimits& limits);
 
-// Returns RendererOptions::waveBytes for a frame without tiles: the default, or a quarter of the memory still available
-// within `limit` if this is less.
-std::uint64_t waveBytesWithin(std::uint64_t limit);
+// Returns the number of threads that draw if memory suffices; 1 with drivers that cannot draw in several threads. Needs
+// a current OpenGL context if the method uses threads.
+std::uint32_t wantedThreads(const DrawLimits& limits, const Method& method);
+
+// Returns RendererOptions::waveBytes for a frame without tiles: the default for each of `threads` threads, or a quarter
+// of the memory still available within `limit` if this is less.
+std::uint64_t waveBytesWithin(std::uint64_t limit, std::uint32_t threads);
+
+// Returns how many of `wanted` threads fit into half of the memory that a frame of one thread leaves. The context and
+// layers of each further thread take memory.
+std::uint32_t threadsWithin(const TilingNeeds& needs, std::uint32_t wanted);
+// Returns the same for a frame that surely fits.
+std::uint32_t threadsWithin(int width, int height, std::uint64_t limit, std::uint32_t wanted);
+
+// Subtracts the memory of the contexts of `threads` threads from the available memory.
+void reserveThreads(TilingNeeds& needs, std::uint32_t threads);
 
 // Returns RendererOptions::pendingBytes for a frame: the default, or a twelfth of `limit` if this is less.
 std::uint64_t pendingBytesWithin(std::uint64_t limit);

@@ -190,6 +190,7 @@ TEST_F(Library, valuesOutOfRangeAreUsageErrorsThatNameThem) {
         {"sequence", [](Request& r) { r.sequence = static_cast<Sequence>(-1); }},
         {"layerFormat", [](Request& r) { r.layerFormat = static_cast<LayerFormat>(99); }},
         {"wave", [](Request& r) { r.wave = 65; }},
+        {"threads", [](Request& r) { r.threads = 65; }},
         {"memory", [](Request& r) { r.memory = 0; }},
         {"time", [](Request& r) { r.time = infinity; }},
         {"shutter", [](Request& r) { r.shutter = -1; }},

@@ -33,8 +33,8 @@ TEST(SettingsHash, changesWithWhatChangesThePicture) {
         setByName(request, name, value);
         EXPECT_NE(hashOf(request), standard) << name;
     }
-    for (const auto& [name, value] :
-         std::vector<std::pair<const char*, const char*>>{{"wave", "3"}, {"noCache", "true"}, {"strict", "true"}}) {
+    for (const auto& [name, value] : std::vector<std::pair<const char*, const char*>>{
+             {"wave", "3"}, {"threads", "5"}, {"noCache", "true"}, {"strict", "true"}}) {
         Request request;
         setByName(request, name, value);
         EXPECT_EQ(hashOf(request), standard) << name;
