@@ -64,7 +64,7 @@ void main() {
     readSurface();
     layerOut = surfaceLight();
 #ifdef TRANSMISSIVE
-    float alpha = 1.0;   // the surface's data replace the data behind the surface, as its light does
+    float alpha = 1.0;   // data behind a transmissive surface are hidden
 #else
     float alpha = alphaBlended ? surfaceBase.a : 1.0;
 #endif

@@ -77,7 +77,7 @@ Image mean(const Image& sum, const Image& samples, int first, int channels) {
     return result;
 }
 
-// Returns for each pixel the share of the samples that show any object or material.
+// Returns for each pixel the fraction of the samples that show any object or material.
 Image coverageOf(const NumberCounts& counts, const Image& samples) {
     Image coverage(counts.width, counts.height, 1);
     const auto entries = static_cast<std::size_t>(counts.entries);

@@ -270,7 +270,7 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
         bound_.sample = sample;
     }
     objectBlocks_.bind(1, item.object);
-    if (info_.writesNumbers) {  // the default material, −1, has the last number
+    if (info_.writesNumbers) {  // the default material, −1, follows all others
         const auto last = static_cast<int>(scene_->world().scene->materials.size());
         glUniform1f(materialNumberLocation, static_cast<float>((item.material >= 0 ? item.material : last) + 1));
     }

@@ -27,7 +27,7 @@ struct SurfacePassInfo {
     bool readsOwnBlur = false;       // the fragment shader reads the blur modifiers of surfaces
     bool vertexShaderLayers = true;  // false: geometry shaders select the layer
     bool writesLayers = false;       // the fragment shader is accumulation/layers.frag
-    bool writesNumbers = false;      // the fragment shader reads the number of the material
+    bool writesNumbers = false;      // the fragment shader reads the material's index
     std::filesystem::path shaderFolder;
 };
 
