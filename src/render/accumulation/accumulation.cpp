@@ -197,7 +197,10 @@ private:
         if (layers_) {
             pass.fragmentShader = "accumulation/layers.frag";
             for (const auto& define : LensLayers::defines(layers, countsSamples)) pass.defines.push_back(define);
-            pass.readsOwnBlur = pass.writesLayers = true;
+            const bool drawsCoc = std::ranges::find(layers, Layer::coc) != layers.end();
+            pass.readsOwnBlur = drawsCoc;
+            pass.readsPosition = drawsCoc || std::ranges::find(layers, Layer::position) != layers.end();
+            pass.writesLayers = true;
             pass.writesNumbers = layers_->countsNumbers();
         }
         if (!sameFormat) {

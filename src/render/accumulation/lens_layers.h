@@ -55,7 +55,7 @@ private:
         GpuTimer timer;
     };
 
-    const Program& program(const char* fragment, const FrameUniforms& frame, bool keepsNearest);
+    const Program& program(const char* fragment, ShaderDefines defines);
     void sumAttachment(const std::string& slot, Attachment& attachment, const FrameUniforms& frame, std::uint32_t first,
                        std::uint32_t count);
     void countNumbers(Layer layer, Table& table, const FrameUniforms& frame, std::uint32_t first, std::uint32_t count);

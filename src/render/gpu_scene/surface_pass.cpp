@@ -194,7 +194,7 @@ const Program& SurfacePass::program(const Draw& draw) {
         if (condition) defines.emplace_back(name, "true");
     };
     const bool receivesShadows = shadows_ != nullptr && shaded() && !material.unlit;
-    if (receivesShadows || info_.writesLayers) defines.emplace_back("PLACED", "");
+    if (receivesShadows || info_.readsPosition) defines.emplace_back("PLACED", "");
     const bool colored = mesh.has(colorLocation);
     set(colored && shaded() && draw.level == 0, "colorRanges");
     set(colored && shaded() && draw.level > 0, "levelColorRange");
