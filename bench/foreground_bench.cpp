@@ -129,7 +129,7 @@ void measureStochastic(const Figure& figure) {
         view.lens.foregroundLimit = limit;
         rows.push_back({.limit = limit, .plan = planFrame(frame.world, view, frame.settings)});
     }
-    RendererOptions linear;  // as in preset munkberg2012: divided triangles would add work to the limits alone
+    RendererOptions linear;  // as in munkberg2012: dividing triangles would add work only to limited frames
     linear.settings = {{"coc-interpolation", "linear"}};
     const auto renderer = methodNamed("stochastic").make(frame.world, linear);
     std::vector<double> tests(rows.size());

@@ -560,7 +560,7 @@ int run(int argc, char** argv) {
         "\nmean distance over meshoptimizer's, of each mesh that has levels\n{:<44} {:>9} {:>6} {:>6} {:>6} {:>6}\n",
         "mesh", "triangles", "levels", "mean", "worst", "<= 1.1");
     DistanceRatios all;
-    std::vector<std::vector<glm::vec3>> seen;  // to skip repeated meshes
+    std::vector<std::vector<glm::vec3>> seen;  // positions of the meshes so far, to skip duplicates
     for (const auto& [name, scene] : scenes)
         for (const Mesh& mesh : scene.meshes) {
             if (std::find(seen.begin(), seen.end(), mesh.vertices.positions) != seen.end()) continue;

@@ -16,6 +16,12 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATAD
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME defocus)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "renderer of glTF scenes with the depth of field of a real lens")
+set(CPACK_PACKAGE_DESCRIPTION
+    "defocus draws glTF scenes as a camera with a real lens sees them: with an
+aperture of any shape, focus breathing, aberrations and motion blur. It
+renders images and films from the command line, shows scenes in a window,
+and has a Python module.")
 set(CPACK_PACKAGE_CONTACT "the defocus authors <defocus@localhost>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
@@ -35,4 +41,6 @@ set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "fonts-dejavu-core")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "ffmpeg, blender")
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+# Debian's policy asks for a compressed man page and for a changelog.
+set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_LIST_DIR}/DebianPages.cmake")
 include(CPack)

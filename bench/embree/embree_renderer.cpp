@@ -135,7 +135,7 @@ private:
     bool castsShadows_ = false;
     std::vector<LensSample> planned_;  // samples of the plan; used only with EmbreeSampling::planned
     LensCamera camera_;
-    std::optional<ApertureMask> mask_;  // none if ApertureMask::isNeeded is false
+    std::optional<ApertureMask> mask_;  // nullopt if ApertureMask::isNeeded is false
     ApertureMap aperture_{Lens{}};      // used if there is no mask_
     std::unique_ptr<TracedScene> scene_;
     std::unique_ptr<PacketShading> shading_;
@@ -201,7 +201,7 @@ WaveSample EmbreeRenderer::waveSample(std::uint32_t number) const {
     return sample;
 }
 
-// Returns the stream number of a packet's first pixel. Pixels are numbered packet by packet; `place` is the packet's
+// Returns the stream index of a packet's first pixel. Pixels are numbered packet by packet; `place` is the packet's
 // index in the tile.
 std::uint32_t EmbreeRenderer::firstStream(const Tile& tile, int place) const {
     const int column = tile.left / packetSide + place % packetsPerTileRow;

@@ -57,8 +57,8 @@ LensRay refractedRay(const LensCamera& camera, const glm::dvec2& image, const Le
 // Selects the lens's or the pixel's pair of dimensions.
 enum class SamplePair : std::uint32_t { lens, pixel };
 
-// Returns point `index` ∈ [0, 1)² of a scrambled sequence. `stream` selects the scramble: a pixel's number, or one
-// number for all pixels.
+// Returns point `index` ∈ [0, 1)² of a scrambled sequence. `stream` selects the scramble: a pixel's index, or one value
+// for all pixels.
 glm::dvec2 scrambledPoint(std::uint32_t index, std::uint32_t stream, SamplePair pair, std::uint32_t seed);
 
 // Maps (r, s) ∈ [0, 1)² uniformly to the aperture: the unit disk, or the inscribed polygon with its first corner at the

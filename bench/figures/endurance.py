@@ -3,6 +3,7 @@
     scripts/fuzz --minutes 10 >fuzz.txt
     scripts/figures endurance --fuzz fuzz.txt [--before PROGRAM] [--program build/release/defocus] [--frames 2500]
                               [--kills 20] [--output bench/results/endurance.md]
+    scripts/figures endurance --only "A long film"
 
 PROGRAM is a build of commit FIRST. Its processor times are compared with those of the current program.
 Takes about half an hour on two cores. Exits with 1 if a part falls short.
@@ -129,15 +130,17 @@ def resident(process):
 
 
 def write_shot(folder, frames):
-    shot = {"scene": str(ROOT / "meshes/bokeh.gltf"), "range": [0, frames - 1], "size": [64, 48], "samples": 4,
-            "focus": {"keys": [{"frame": 0, "distance": 1.5}, {"frame": frames, "distance": 4}]}}
+    """Writes a shot whose focus moves back and forth every 25 frames. Thus the first 100 frames need all levels of detail that the film needs."""
+    keys = [{"frame": frame, "distance": 4 if frame % 50 else 1.5} for frame in range(0, frames + 25, 25)]
+    shot = {"scene": str(ROOT / "meshes/bokeh.gltf"), "range": [0, frames - 1], "size": [64, 48], "samples": 4, "focus": {"keys": keys}}
     (folder / "shot.json").write_text(json.dumps(shot))
 
 
 def long_film(program, folder, arguments):
     """Captures a long film. Returns the lines of the page, and whether its memory stays within 1 %."""
     write_shot(folder, arguments.frames)
-    child = subprocess.Popen([program, "capture", "shot.json", "--quiet", "-o", "film/####.exr"], cwd=folder)
+    child = subprocess.Popen([program, "capture", "shot.json", "--quiet", "-o", "film/####.exr"], cwd=folder,
+                             env=dict(os.environ, LP_NUM_THREADS="0"))
     frame = 0
     held = {}  # MiB by frame
     begin = time.monotonic()
@@ -152,13 +155,14 @@ def long_film(program, folder, arguments):
     complete = child.returncode == 0 and len(list((folder / "film").glob("*.exr"))) == arguments.frames
 
     def around(first, end):
-        values = sorted(memory for at, memory in held.items() if first <= at < end)
-        return values[len(values) // 2]
+        return statistics.median(memory for at, memory in held.items() if first <= at < end)
 
     early, late = around(90, 111), around(arguments.frames - 20, arguments.frames + 1)
     growth = 100 * (late / early - 1)
-    return [f"A film of {arguments.frames:,} frames of 64 × 48 px took {seconds:.0f} s. At its 100th frame the program held "
-            f"{early:.1f} MiB, at its last {late:.1f} MiB ({growth:+.2f} %; median of 20 frames, without file pages)."], complete and abs(growth) <= 1
+    return [f"A film of {arguments.frames:,} frames of 64 × 48 px, whose focus moves back and forth every 25 frames, took {seconds:.0f} s. "
+            f"At its 100th frame the program held {early:.1f} MiB, at its last {late:.1f} MiB ({growth:+.2f} %; medians of 20 frames, "
+            f"without file pages). llvmpipe rasterized in the program's thread: with threads of its own, it allocates a further scene "
+            f"whenever they fall behind. {made(program)}"], complete and abs(growth) <= 1
 
 
 def kills(program, folder, arguments):
@@ -218,30 +222,44 @@ def fuzzing(_, __, arguments):
 PARTS = [("Extreme cases", stability), ("A long film", long_film), ("Kills", kills), ("Fuzzing", fuzzing), ("Files of many parts", costs)]
 
 
-def heading(program):
-    """Returns the line that says when and how the page was made."""
+def made(program):
+    """Returns the sentence that says when and with which version the program ran."""
     driver = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout.split("\n")[0]
     commit = subprocess.run(["git", "rev-parse", "--short=12", "HEAD"], capture_output=True, text=True, cwd=ROOT, check=True).stdout.strip()
-    return f"Made on {datetime.date.today()} at commit {commit} ({driver}), on {os.cpu_count()} shared CPU cores with Mesa's llvmpipe."
+    return f"Made on {datetime.date.today()} at commit {commit} ({driver})."
+
+
+def replaced(page, title, lines):
+    """Returns the page with other lines in the section of this title."""
+    begin = page.index(f"## {title}\n")
+    end = page.find("\n## ", begin)
+    return page[:begin] + "\n".join([f"## {title}", "", *lines, ""]) + (page[end:] if end >= 0 else "")
 
 
 def main(words):
     parser = parser_of("endurance", __doc__)
     add_program(parser)
-    parser.add_argument("--fuzz", type=path, required=True, help="output of scripts/fuzz")
+    parser.add_argument("--fuzz", type=path, help="output of scripts/fuzz")
     parser.add_argument("--before", type=executable, help=f"program of commit {FIRST}, to compare with (default: none)")
     parser.add_argument("--frames", type=int, default=2500, help="of the long film (default: %(default)s)")
     parser.add_argument("--kills", type=int, default=20, help="captures to kill (default: %(default)s)")
+    parser.add_argument("--only", choices=[title for title, _ in PARTS], help="measure this part and leave the others as the page has them")
     parser.add_argument("--output", type=path, default=ROOT / "bench/results/endurance.md", help="page (default: bench/results/endurance.md)")
     arguments = parser.parse_args(words)
-    lines = ["# Endurance", "", "This page says how defocus endures long runs, kills, broken files and files of many parts. "
-             "`scripts/figures endurance` writes it. The cores were shared with other work, so times vary by half.", "", heading(arguments.program)]
+    if arguments.fuzz is None and arguments.only in (None, "Fuzzing"):
+        parser.error("the table of the fuzzer needs --fuzz")
+    page = arguments.output.read_text() if arguments.only else "\n".join(
+        ["# Endurance", "", "This page says how defocus endures long runs, kills, broken files and files of many parts. "
+         "`scripts/figures endurance` writes it, on shared CPU cores with Mesa's llvmpipe, so times vary by half.", "",
+         made(arguments.program), *(f"\n## {title}\n" for title, _ in PARTS)])
     good = True
     for title, measure in PARTS:
+        if arguments.only not in (None, title):
+            continue
         with tempfile.TemporaryDirectory() as folder:
             more, passed = measure(arguments.program, pathlib.Path(folder), arguments)
         print(f"{title}: {'passed' if passed else 'FAILED'}", *more, sep="\n", flush=True)
-        lines += ["", f"## {title}", "", *more]
+        page = replaced(page, title, more)
         good &= passed
-    arguments.output.write_text("\n".join(lines) + "\n")
+    arguments.output.write_text(page.rstrip("\n") + "\n")
     sys.exit(0 if good else 1)

@@ -60,7 +60,7 @@ Mesh ballMesh() {
     return mesh;
 }
 
-// A white ball on black: without antialiasing over samples, each sample of a pixel is 0 or 1.
+// A white ball on black. A lens sample draws each pixel without antialiasing, as 0 or 1.
 struct Ball : BoardScene {
     Ball() : BoardScene(boardView(), {{5, {0, 0}, {1, 1}, glm::vec3(1)}}) {
         scene->meshes[0] = ballMesh();

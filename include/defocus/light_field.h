@@ -61,7 +61,7 @@ public:
     // its images.
     explicit LightField(const std::filesystem::path& path);
     // Render the lens images of a request to a file with the extension .exr, and open it. `range`: focus distances that
-    // can be chosen later, in addition to the request's own distance; none: from the nearest to the farthest visible
+    // can be chosen later, in addition to the request's own distance; nullopt: from the nearest to the farthest visible
     // surface. Throw UsageError if the request's method, samples or target error don't suit lens images. Throw Error if
     // a change of focus would do more to the images of this lens than shift them, and under the conditions of
     // SceneRenderer. A failure leaves no file.
@@ -74,7 +74,7 @@ public:
     LightField& operator=(LightField&&) noexcept;
 
     [[nodiscard]] LightFieldInfo info() const;
-    // Returns warnings about the scene and the request, one line each; none if the file was opened.
+    // Returns warnings about the scene and the request, one line each; empty if the file was opened.
     [[nodiscard]] std::vector<std::string> warnings() const;
 
     // Returns a picture: linear, premultiplied RGBA. Throws Error if the focus distance or the f-number is outside the

@@ -1,6 +1,6 @@
 // Counts for each pixel how many samples show each object or material. An entry of the pixel's table is
-// (number of the object or material) · 2¹⁶ + (number of samples); 0 marks a free entry. Objects and materials for which
-// no entry is free are not counted.
+// (1 + index of the object or material) · 2¹⁶ + (number of samples); 0 marks a free entry. Objects and materials for
+// which no entry is free are not counted.
 #include "accumulation/layer_light.glsl"
 
 layout(r32ui, binding = 0) uniform restrict uimage2DArray table;

@@ -8,7 +8,7 @@
 
 layout(location = 0) out vec4 layerOut;
 #ifdef DEPTH_SLOT
-layout(location = DEPTH_SLOT) out vec4 depthOut;         // depth (m), CoC (px)
+layout(location = DEPTH_SLOT) out vec4 depthOut;         // depth (m), alpha, CoC (px); see drawnDepth()
 #endif
 #ifdef POSITION_SLOT
 layout(location = POSITION_SLOT) out vec4 positionOut;   // relative to the camera (m)
@@ -35,11 +35,24 @@ vec4 covering(vec3 data, float alpha) {
     return vec4(any(isnan(data)) || any(isinf(data)) ? vec3(0.0) : data * alpha, alpha);
 }
 
-#ifdef DEPTH_SLOT
+#ifdef DRAWS_COC
 // Returns the signed CoC in px of the surface at its position in the pinhole image.
 float pinholeCoc() {
     vec3 place = transpose(mat3(frame.worldFromView)) * surface.position;
     return circleOfConfusion(gl_FragCoord.z, place.xy * frame.projection.xy / -place.z, surface.ownBlur);
+}
+#endif
+
+#ifdef DEPTH_SLOT
+// Returns the premultiplied depth, alpha, and the CoC. Without the CoC, the layer has two channels. Blending reads alpha
+// from the fourth component even then.
+vec4 drawnDepth(float alpha) {
+    float coc = 0.0;
+#ifdef DRAWS_COC
+    coc = pinholeCoc();
+#endif
+    vec4 data = covering(vec3(1.0 / gl_FragCoord.w, 0.0, coc), alpha);
+    return vec4(data.r, alpha, data.ba);
 }
 #endif
 
@@ -64,12 +77,12 @@ void main() {
     readSurface();
     layerOut = surfaceLight();
 #ifdef TRANSMISSIVE
-    float alpha = 1.0;   // the surface's data replace the data behind the surface, as its light does
+    float alpha = 1.0;   // data behind a transmissive surface are hidden
 #else
     float alpha = alphaBlended ? surfaceBase.a : 1.0;
 #endif
 #ifdef DEPTH_SLOT
-    depthOut = covering(vec3(1.0 / gl_FragCoord.w, pinholeCoc(), 0.0), alpha);
+    depthOut = drawnDepth(alpha);
 #endif
 #ifdef POSITION_SLOT
     positionOut = covering(surface.position, alpha);

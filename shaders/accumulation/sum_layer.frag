@@ -5,6 +5,7 @@
 
 layout(rgba32f, binding = 0) uniform restrict image2D sumImage;
 layout(rgba32f, binding = 1) uniform restrict image2D compensationImage;
+layout(LAYER_FORMAT, binding = 2) uniform restrict readonly image2DArray drawn;   // one layer per sample
 layout(location = 3) uniform bool startsFrame;
 
 void main() {
@@ -12,21 +13,21 @@ void main() {
     vec4 sum = startsFrame ? vec4(0.0) : imageLoad(sumImage, pixel);
     vec4 compensation = startsFrame ? vec4(0.0) : imageLoad(compensationImage, pixel);
     vec2 rim = barrelRim(pixelOnImagePlane());
-    float nearest = startsFrame ? uintBitsToFloat(0x7f800000u) : sum.b;
-    float seen = compensation.b;
-    for (int layer = 0; layer < layerCount; ++layer) {
+    float nearest = startsFrame ? uintBitsToFloat(0x7f800000u) : sum.a;
+    float seen = compensation.a;
+    for (int layer = 0; layer < waveSamples; ++layer) {
         if (catEye > 0.0 && isClipped(layer, rim)) continue;
         seen += 1.0;
-        vec4 value = texelFetch(layers, ivec3(pixel, layer), 0);
-        if (keepsNearest && value.a > 0.0) nearest = min(nearest, value.r / value.a);
+        vec4 value = imageLoad(drawn, ivec3(pixel, layer));
+        if (keepsNearest && value.g > 0.0) nearest = min(nearest, value.r / value.g);
         addCompensated(sum.rgb, compensation.rgb, value.rgb);
         addCompensated(sum.a, compensation.a, value.a);
     }
-    // In the depth layer, the third component of the sum is the nearest depth, and the third component of the
-    // compensation is the number of samples.
+    // In the depth layer, alpha is the second component. The fourth component of the sum is the nearest depth, and the
+    // fourth component of the compensation is the number of samples.
     if (keepsNearest) {
-        sum.b = nearest;
-        compensation.b = seen;
+        sum.a = nearest;
+        compensation.a = seen;
     }
     imageStore(sumImage, pixel, sum);
     imageStore(compensationImage, pixel, compensation);

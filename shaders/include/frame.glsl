@@ -18,7 +18,7 @@ layout(std140, binding = 1) uniform ObjectBlock {
     mat4 viewFromObject;
     mat4 normalMatrix;    // inverse transpose of the upper 3×3 of viewFromObject
     // Fractional level of detail λ; fraction of the pixels of the boundary sample (the lens sample that mixes two
-    // levels) that draw the coarser level; object number; blur factor.
+    // levels) that draw the coarser level; object index; blur factor.
     vec4 values;
     // Texels per pose; number of joints; number of active morph targets; texels per attribute of a morph target.
     ivec4 posing;
@@ -39,6 +39,6 @@ layout(std140, binding = 2) uniform MaterialBlock {
     vec4 film;            // iridescence: factor, ior, min and max thickness (nm)
     vec4 through;         // diffuse transmission: rgb colour; w: factor
 #ifdef UV_TRANSFORMS
-    vec4 uvRows[38];      // per texture slot: two rows of a 2×3 matrix; w of the first row: number of the UV set
+    vec4 uvRows[38];      // per texture slot: two rows of a 2×3 matrix; w of the first row: index of the UV set
 #endif
 } material;

@@ -29,7 +29,7 @@ Rows rowsAt(int texel) {
 void addJoints(inout Rows sum, inout float weightSum, int firstTexel, vec4 joints, vec4 weights) {
     for (int i = 0; i < 4; ++i) {
         if (!(weights[i] > 0.0)) continue;
-        int joint = joints[i] < float(object.posing.y) ? int(joints[i]) : 0;   // numbers out of range select joint 0
+        int joint = joints[i] < float(object.posing.y) ? int(joints[i]) : 0;   // indices out of range select joint 0
         Rows rows = rowsAt(firstTexel + 3 * joint);
         sum.x += weights[i] * rows.x;
         sum.y += weights[i] * rows.y;
@@ -81,7 +81,7 @@ Posed morphedVertex(int firstTexel, Posed vertex) {
     return vertex;
 }
 
-// Returns the vertex `vertex`, which is in the rest pose, transformed to pose number `pose`.
+// Returns the vertex `vertex`, which is in the rest pose, transformed to the pose with index `pose`.
 Posed posedVertex(int pose, Posed vertex) {
     int firstTexel = pose * object.posing.x;
     if (morphed) vertex = morphedVertex(firstTexel, vertex);

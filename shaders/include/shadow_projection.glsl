@@ -2,7 +2,7 @@
 // for one point on each light; shadowPoints: number of points on each light.
 
 layout(binding = 30) uniform samplerBuffer shadowProjections;
-layout(location = 2) uniform int firstShadowSample;   // number of the lens sample of layer 0
+layout(location = 2) uniform int firstShadowSample;   // index of layer 0's lens sample
 
 int shadowTexel(int layer, int slot) {
     return ((firstShadowSample + layer) * (shadowPoints * shadowMapCount) + slot) * 6;

@@ -73,8 +73,7 @@ int cubeFace(vec3 direction) {
     return direction.z > 0.0 ? 4 : 5;
 }
 
-// Returns the fraction of light number i that reaches the facet, per colour channel. `toLight`: unit vector to the
-// light.
+// Returns the fraction of light i that reaches the facet, per colour channel. `toLight`: unit vector to the light.
 vec3 lightShare(int i, Facet facet, vec3 toLight) {
     if (shadowFirst[i] < 0) return vec3(1.0);
     int map = shadowFirst[i] + (shadowFaces[i] > 1 ? cubeFace(-toLight) : 0);

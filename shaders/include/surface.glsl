@@ -14,8 +14,8 @@ struct Surface {
     vec4 uv;              // both UV sets
     vec4 tangent;
     vec2 ownBlur;         // the surface's blur factor, and its added blur as a fraction of the image's width
-    int facet;            // number of the triangle's last vertex; only if choosesByAlpha
-    float sampleNumber;   // number of the lens sample within the frame
+    int facet;            // index of the triangle's last vertex, as the triangle's id; only if choosesByAlpha
+    float sampleNumber;   // index of the lens sample within the frame
     float layer;
     vec3 opening;         // clip-space (x, y, w) through a pinhole when the shutter opens; only with MOTION_SLOT
     vec3 closing;         // clip-space (x, y, w) through a pinhole when the shutter closes

@@ -28,7 +28,7 @@ uint behindTriangle = noTriangle;
 float nearest = 3e38;
 uint triangle = noTriangle;
 
-// At equal depth, triangles are hit in the order of their numbers.
+// At equal depth, triangles are hit in the order of their indices.
 bool comesAfter(float w, uint candidate) { return w > behindDepth || (w == behindDepth && candidate > behindTriangle); }
 bool comesBefore(float w, uint candidate) { return w < nearest || (w == nearest && candidate < triangle); }
 

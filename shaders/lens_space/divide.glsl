@@ -1,4 +1,4 @@
-// Division of a triangle into parts² small triangles. Vertex (row r, column c) with 0 ≤ c ≤ r ≤ parts has the number
+// Division of a triangle into parts² small triangles. Vertex (row r, column c) with 0 ≤ c ≤ r ≤ parts has the index
 // r·(r + 1)/2 + c. Row 0 is the first corner, and the last row is the edge opposite to it.
 
 uint verticesPerTriangle(uint parts) { return (parts + 1u) * (parts + 2u) / 2u; }

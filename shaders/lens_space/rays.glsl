@@ -24,8 +24,8 @@ uint mixedBits(uint x) {   // finaliser of MurmurHash3 (Appleby)
     return x ^ (x >> 16);
 }
 
-// Returns the number of a pixel's ray set. Bayer's matrix (1973) assigns successive sets to distant pixels of a square,
-// and each square of 8 × 8 pixels flips random bits of the number.
+// Returns the index of a pixel's ray set. Bayer's matrix (1973) assigns successive sets to distant pixels of a square,
+// and each square of 8 × 8 pixels flips random bits of the index.
 uint variantOf(uvec2 pixel) {
     uint order = 0u;
     for (uint bit = 0u; bit < 3u; ++bit) {
@@ -40,8 +40,8 @@ uint variantOf(uvec2 pixel) {
 // Sampling). Points of a net in base 2 remain a net.
 float shifted(float x, uint flips) { return float(min(uint(x * 16777216.0), 16777215u) ^ (flips >> 8)) / 16777216.0; }
 
-// Returns ray number `ray` of the wave for a pixel. A point sample passes through a random one of the lens points that
-// all sets have for this ray. These points lie in the same small part of the lens.
+// Returns ray `ray` of the wave for a pixel. A point sample passes through one of the lens points that the sets have
+// for this ray, chosen at random. These points lie in the same small part of the lens.
 Ray rayOf(uint ray, uvec2 pixel) {
     uint first = (firstRay + ray) * rayVariants;
     Ray own = rays[first + variantOf(pixel)];

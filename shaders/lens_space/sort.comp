@@ -1,5 +1,5 @@
 // Sorts each tile's triangles by min depth, so that rays finish before the hidden triangles at the end of the list.
-// Triangles of equal depth are sorted by number, which makes the result deterministic. In this bitonic sort (Batcher
+// Triangles of equal depth are sorted by index, which makes the result deterministic. In this bitonic sort (Batcher
 // 1968) the first step of each block is mirrored. All steps therefore put the smaller value first, and positions beyond
 // the end of the list can be skipped.
 

@@ -39,8 +39,8 @@ vec4 surfaceTexel(int unit, int slot) {
                        uvOf(slot, surface.uvUp) - uvOf(slot, surface.uv));
 }
 
-// Returns the same number for all samples of a block. In the first block, the number is 12.5, because 1/(12.5 + 1) is
-// the mean of 1/(n + 1), the fraction of a pixel that sample n represents, over the first 64 samples.
+// Returns the same fractional sample index for all samples of a block. Sample n represents the fraction 1/(n + 1) of a
+// pixel. In the first block the index is 12.5, for which this fraction equals its mean over the block's 64 samples.
 float sampleNumber() { return wave.firstOfBlock + 12.5; }
 
 bool showsFront() { return surface.showsFront; }

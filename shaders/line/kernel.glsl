@@ -54,7 +54,7 @@ const uint maxKept = 64u;
 // entry per thread.
 const uint maxScans = 1024u;
 shared vec4 keptCorners[maxKept * 3u];
-shared uvec2 kept[maxKept];    // triangles that the tile's lines may see: number; 1 if double-sided, else 0
+shared uvec2 kept[maxKept];    // triangles that the tile's lines may see; x: index, y: 1 if double-sided, else 0
 shared uint keptHere[2];        // one bit per thread: set if its candidate is added to `kept`
 shared uint keptCount;
 shared uint nextBase;

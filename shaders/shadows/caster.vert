@@ -1,4 +1,4 @@
-// Draws one instance of a shadow caster per lens sample, into the sample's shadow map number shadowSlot.
+// Draws one instance of a shadow caster per lens sample, into the shadow map `shadowSlot` of the sample.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"

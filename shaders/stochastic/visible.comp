@@ -30,7 +30,7 @@ layout(location = 3) uniform uvec2 part;
 const uint threads = uint(tileSize * tileSize);
 const uint stride = moving ? 6u : 3u;
 shared vec4 keptCorners[threads * stride];
-shared uvec2 kept[threads];   // triangles that the tile's rays may hit: number; 1 if double-sided, else 0
+shared uvec2 kept[threads];   // triangles that the tile's rays may hit; x: index, y: 1 if double-sided, else 0
 shared uint keptCount;
 shared uint open;             // 1 if a ray may still hit a later triangle of the list, else 0
 
@@ -119,7 +119,7 @@ void main() {
             if (moving)
                 for (uint k = 0u; k < 3u; ++k) corners[k] = mix(corners[k], keptCorners[slot + k + 3u], mine.values.x);
             float w = depthMet(corners[0], corners[1], corners[2], kept[i].y != 0u, lens, place);
-            // At equal depth the triangle with the smaller number wins, so that the result is deterministic.
+            // At equal depth the triangle with the smaller index wins, so that the result is deterministic.
             if (w > 0.0 && (w < nearest || (w == nearest && kept[i].x < triangle))) {
                 nearest = w;
                 triangle = kept[i].x;

@@ -36,14 +36,14 @@ std::vector<Key<glm::dvec3>> pointsOf(const std::vector<Key<Place>>& keys, const
 }
 
 // Returns the finished fraction of a camera movement at `frame`: 0 at its first frame, 1 at its last. `own`: the
-// movement's range; none: the shot's.
+// movement's range; nullopt: the shot's.
 double placeIn(const std::optional<FrameRange>& own, const FrameRange& shot, double frame) {
     const FrameRange range = own.value_or(shot);
     const double length = std::max(1, range.last - range.first);
     return std::clamp((frame - range.first) / length, 0.0, 1.0);
 }
 
-// Returns the file's camera, as its node's animation places it; none for the default camera, which frames the scene.
+// Returns the file's camera, as its node's animation places it; nullopt for the default camera, which frames the scene.
 std::optional<PlacedCamera> cameraOfFile(const SequenceBase& base, const Pose& pose) {
     const bool none = base.scene->cameras.empty() && !base.scene->cameraTrack;
     if (none || std::holds_alternative<FramingCamera>(base.camera)) return {};

@@ -42,7 +42,7 @@ public:
     [[nodiscard]] std::string text() const;  // throws Error unless the value is a non-empty string
     // Returns the index of the value in `choices`. Throws Error if `choices` doesn't contain the value.
     [[nodiscard]] std::size_t choice(const std::vector<std::string>& choices) const;
-    // Returns the value if it is an array of three finite numbers, else none.
+    // Returns the value if it is an array of three finite numbers, else nullopt.
     [[nodiscard]] std::optional<std::vector<double>> threeNumbers() const;
 
 private:

@@ -53,8 +53,8 @@ StillFrame stillFrame(const Shot& shot, const SequenceBase& base, const FilmSett
     return still;
 }
 
-// Returns the run of frames [first, end) of `stills`, whose first frame has the number `number`; none if one set of
-// lens images cannot serve them.
+// Returns the run of frames [first, end) of `stills`, whose first frame has the number `number`; nullopt if no single
+// set of lens images covers these frames.
 std::optional<RefocusRun> runOver(const std::vector<StillFrame>& stills, std::size_t first, std::size_t end, int number,
                                   std::uint32_t samples) {
     const Lens& lens = stills[first].lens;
@@ -80,7 +80,7 @@ std::optional<RefocusRun> runOver(const std::vector<StillFrame>& stills, std::si
     return run;
 }
 
-// Returns the run beginning with frame `first` that saves the most lens samples; none if no run saves any.
+// Returns the run beginning with frame `first` that saves the most lens samples; nullopt if no run saves any.
 std::optional<RefocusRun> bestRun(const std::vector<StillFrame>& stills, std::size_t first, int number,
                                   std::uint32_t samples) {
     std::optional<RefocusRun> best;

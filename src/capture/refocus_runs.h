@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 struct RefocusRun {
     FrameRange frames;
-    Lens lens;                  // lens of the lens images: the run's widest aperture, and the middle of its focus range
+    Lens lens;                  // the run's widest aperture, focused at the middle of `range` in 1/distance
     FocusRange range;           // focus distances of the frames, m
     std::uint32_t samples = 0;  // number of lens images; each frame uses at least the samples of a rendered frame
 
@@ -50,7 +50,7 @@ public:
         bool rendered = false;      // whether the lens images were rendered for this picture
     };
     // Returns the picture of a frame of `run`. Renders the run's lens images if the previous picture was of another
-    // run. `driver` draws the world of the frame. `step` gets the finished share.
+    // run. `driver` draws the world of the frame. `step` receives the finished fraction.
     Picture picture(const RefocusRun& run, const FrameMoment& moment, FrameDriver& driver,
                     const std::function<void(double)>& step);
 

@@ -52,15 +52,15 @@ struct CameraKeys {
 // the camera is at its original position.
 struct Turntable {
     double turns = 1;                  // number of rotations; > 0: counter-clockwise seen from above
-    std::optional<Place> centre;       // none: the centre of the scene
-    std::optional<FrameRange> frames;  // duration of all turns; none: the shot's range
+    std::optional<Place> centre;       // nullopt: the centre of the scene
+    std::optional<FrameRange> frames;  // duration of all turns; nullopt: the shot's range
 };
 
 // Moves the camera along its view axis. At the first frame of the movement, the camera is at its original position.
 struct Dolly {
     double distance = 0;  // m; > 0: forward
     Easing easing = Easing::smooth;
-    std::optional<FrameRange> frames;  // duration of the movement; none: the shot's range
+    std::optional<FrameRange> frames;  // duration of the movement; nullopt: the shot's range
 };
 
 // Movement of the camera during the shot; std::monostate: none. Shot::request selects the camera.

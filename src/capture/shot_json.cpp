@@ -58,7 +58,7 @@ FrameRange rangeOf(const JsonReader& reader) {
     return range;
 }
 
-// Returns the frame range of a camera movement, at least two frames; none if the shot doesn't give it.
+// Returns the frame range of a camera movement, at least two frames; nullopt if the shot doesn't give it.
 std::optional<FrameRange> movementFrames(const JsonReader& reader) {
     const auto given = reader.find("frames");
     if (!given) return {};
@@ -237,7 +237,7 @@ std::map<std::string, LensTrack, std::less<>> methodKeysOf(const JsonReader& rea
 
 // ---- settings, output, document
 
-// Returns the member of the document at a JSON pointer; none if it is missing.
+// Returns the member of the document at a JSON pointer; nullopt if it is missing.
 std::optional<JsonReader> findPlace(const JsonReader& reader, std::string_view place) {
     std::optional<JsonReader> found = reader;
     while (found && !place.empty()) {

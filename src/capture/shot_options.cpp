@@ -19,7 +19,7 @@ bool cameraPlaced(const Request& request) {
 }
 
 // Removes a focus on a node, a pixel or the image's centre from the request and returns it, because a shot evaluates
-// such a focus in each frame; none for any other focus.
+// such a focus in each frame; nullopt for any other focus.
 std::optional<FocusTarget> takeFocusTarget(Request& request) {
     const Focus focus = request.focus;
     std::optional<FocusTarget> target;

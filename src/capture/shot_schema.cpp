@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Returns an example value of a setting; none if the setting has neither an example nor choices.
+// Returns an example value of a setting; nullopt if the setting has neither an example nor choices.
 std::optional<Json> exampleOf(const Setting& setting) {
     if (!setting.example.empty()) return settingJson(setting, setting.example);
     if (!setting.choices.empty()) return Json(setting.choices.front());

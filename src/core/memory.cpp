@@ -1,6 +1,7 @@
 #include "core/memory.h"
 
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstdint>
@@ -30,10 +31,23 @@ void giveBackFreedMemory() {
 #endif
 }
 
+// All blocks come from the heap, whose first part is asked for huge pages while it is one block. The fence behind this
+// block keeps free() from returning it to the system. None of these pages is in memory before it is used, but they count
+// as address space, which is left alone if it is limited.
 void keepFreedMemory() {
-#ifdef __GLIBC__
+#if defined(__GLIBC__) && defined(MADV_HUGEPAGE)
     mallopt(M_TRIM_THRESHOLD, 128 << 20);
-    mallopt(M_MMAP_THRESHOLD, 8 << 20);  // bytes; larger blocks return to the system when freed
+    mallopt(M_MMAP_MAX, 0);
+    constexpr std::size_t room = std::size_t{1} << 30;
+    static void* fence = nullptr;
+    rlimit addresses{};
+    if (fence != nullptr || getrlimit(RLIMIT_AS, &addresses) != 0 || addresses.rlim_cur != RLIM_INFINITY) return;
+    void* const block = std::malloc(room);
+    fence = std::malloc(room / 8);  // too large for a gap in front of the block
+    if (fence != nullptr) fence = std::realloc(fence, sizeof(void*));
+    const std::size_t before = bytesTo(block, hugePage);
+    if (block != nullptr) madvise(static_cast<std::byte*>(block) + before, room - before, MADV_HUGEPAGE);
+    std::free(block);
 #endif
 }
 

@@ -12,8 +12,9 @@ namespace defocus::engine {
 // megabytes.
 void giveBackFreedMemory();
 
-// Makes malloc keep up to 128 MiB of freed memory for later allocations, in all threads (glibc only). Software
-// rasterizers free vertex memory after each draw; getting the pages back from the system can take longer than the draw.
+// Makes malloc keep freed memory for later allocations, in huge pages where the system has them (glibc only). A software
+// rasterizer's textures, and the vertices that it frees after each draw, then cost few page faults; getting new pages
+// from the system can take longer than drawing. Call it once, before the program's first large allocation.
 void keepFreedMemory();
 
 // Size of a huge page in bytes. On a system with huge pages of another size, blocks may get small pages instead.

@@ -58,7 +58,7 @@ Header headerOf(std::span<const std::byte> data, const std::string& name) {
     const auto byte = [&](std::size_t i) { return std::to_integer<unsigned>(data[i]); };
     const Header header{bigEndian(data), bigEndian(data.subspan(4)), byte(8), byte(9), byte(12) == 1};
     if (std::min(header.width, header.height) == 0 || std::max(header.width, header.height) > maxSide)
-        fail("{}: damaged PNG image: {} x {} px", name, header.width, header.height);
+        fail("{}: damaged PNG image: its header has the invalid size {} x {} px", name, header.width, header.height);
     // Valid combinations of colour type and bits per channel: table 11.1 of the PNG specification.
     const unsigned bits = header.bits, colour = header.colour;
     const bool small = bits == 1 || bits == 2 || bits == 4;

@@ -4,7 +4,7 @@
 // glTF gives a camera's vertical field of view. The image's aspect k gives the horizontal one: tan(θx/2) =
 // k·tan(yfov/2). The image always shows this field of view. Only the camera's physical scale remains to be chosen:
 //   - a file with the draft extension EXT_camera_physical gives the focal length f. The image uses the sensor width
-//   2·f·tan(θx/2), which may be part of the sensor;
+//   2·f·tan(θx/2), which may be less than the sensor's full width;
 //   - otherwise the sensor's width is horizontalAperture, and f = horizontalAperture / (2 tan(θx/2)).
 // A focal length that the user sets changes the field of view instead.
 

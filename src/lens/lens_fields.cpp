@@ -80,7 +80,8 @@ const LensField fields[] = {
     {"astigmatism", "--astigmatism", LensSection::aperture, "MM", -100, 100, &Lens::astigmatism,
      &LensSettings::astigmatism,
      "Astigmatism: length, in mm on the sensor, of the radial streak that a point in focus becomes at the left and "
-     "right edges. The perpendicular streak is sharp in front of the focus plane above 0, behind it below 0",
+     "right edges. Points at another depth become streaks across this direction: in front of the focus plane if the "
+     "length is positive, behind it if negative",
      "0.2", LensFeature::lensPoint},
     {"coma", "--coma", LensSection::aperture, "MM", -100, 100, &Lens::coma, &LensSettings::coma,
      "Coma: length of the tail, in mm on the sensor, that a point gets at the left and right edges. Above 0, the tail "
@@ -92,10 +93,10 @@ const LensField fields[] = {
      &LensSettings::backgroundLimit, "Maximum blur behind the focus plane, in px", "40"},
     {"focusRangeFront", "--focus-range-front", LensSection::focus, "M", 0, 1e12, &Lens::focusRangeFront,
      &LensSettings::focusRangeFront,
-     "Depth in m in front of the focus distance that stays sharp; the blur starts in front of it", "0.5"},
+     "Length in m of the range in front of the focus distance in which everything stays sharp", "0.5"},
     {"focusRangeBehind", "--focus-range-behind", LensSection::focus, "M", 0, 1e12, &Lens::focusRangeBehind,
      &LensSettings::focusRangeBehind,
-     "Depth in m behind the focus distance that stays sharp; the blur starts behind it", "1"},
+     "Length in m of the range behind the focus distance in which everything stays sharp", "1"},
     {"focusRangeRefocuses", "--focus-range-refocuses", LensSection::focus, "", 0, 1, &Lens::focusRangeRefocuses,
      &LensSettings::focusRangeRefocuses,
      "Blur behind the focus range as if the lens were focused at the range's far end. Without it, the blur at infinity "

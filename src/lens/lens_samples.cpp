@@ -41,7 +41,7 @@ double seedShift(std::uint32_t seed, std::size_t dimension) {
 constexpr std::array<std::uint32_t, dimensionCount> bases = {2, 3, 5, 7, 11, 13, 17, 19};
 
 // Returns a coordinate of Halton point index + 1, because point 0 is a corner of the unit cube. With seed 0, a shift
-// moves the point of index 0 to the middle of the cube.
+// moves the point of index 0 to the centre of the cube.
 double shiftedHalton(std::uint64_t index, std::size_t dimension, std::uint32_t seed) {
     const std::uint32_t base = bases[dimension];
     return fraction(radicalInverse(base, index + 1) - 1.0 / base + 0.5 + seedShift(seed, dimension));

@@ -55,7 +55,7 @@ int marginOf(const LightFieldInfo& info) {
     return static_cast<int>(std::ceil(std::min(largestMove(info), 1e6) + 0.5));  // see wholeMove
 }
 
-// Returns a number of a file's metadata; none if it is missing, of another type, or not finite.
+// Returns a number of a file's metadata; nullopt if it is missing, of another type, or not finite.
 std::optional<double> numberIn(const Metadata& metadata, const char* name) {
     const auto found = metadata.find(name);
     if (found == metadata.end()) return {};

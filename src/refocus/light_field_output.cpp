@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the range from the nearest to the farthest surface in an image of depths; none if there is no surface.
+// Returns the range from the nearest to the farthest surface in an image of depths; nullopt if there is no surface.
 std::optional<FocusRange> visibleRange(const Image& depth) {
     FocusRange range{std::numeric_limits<double>::infinity(), 0};
     for (const float value : depth.pixels) {

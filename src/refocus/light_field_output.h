@@ -20,7 +20,7 @@ public:
     static constexpr std::uint32_t defaultSamples = 64;
 
     // `driver` must outlive the output. `range`: focus distances that the file must allow, in addition to the
-    // request's own; none: from the nearest to the farthest visible surface. Throws UsageError unless
+    // request's own; nullopt: from the nearest to the farthest visible surface. Throws UsageError unless
     // 0 < nearest ≤ farthest.
     LightFieldOutput(SceneDriver& driver, std::filesystem::path path, std::optional<FocusRange> range);
 
@@ -38,7 +38,7 @@ public:
     // Completes the file.
     void finish();
 
-    [[nodiscard]] const LightFieldInfo& info() const { return info_; }  // after start()
+    [[nodiscard]] const LightFieldInfo& info() const { return info_; }  // valid after start()
 
 private:
     SceneDriver& driver_;

@@ -10,9 +10,9 @@
 
 namespace defocus::engine {
 
-// Returns the aperture's shape in lens settings; none if they give no shape. Throws UsageError, with the setting's name
-// in its message, for a value that cannot be chosen after rendering or is out of range, and Error if the aperture image
-// cannot be read.
+// Returns the aperture's shape in lens settings; nullopt if they give no shape. Throws UsageError, with the setting's
+// name in its message, for a value that cannot be chosen after rendering or is out of range, and Error if the aperture
+// image cannot be read.
 std::optional<Lens> apertureShape(const LensSettings& settings);
 
 // Returns the choices of `settings`, and the rendered values for settings without a value. Throws in the cases of

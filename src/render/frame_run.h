@@ -34,8 +34,8 @@ public:
     // Returns the final number of samples of the frame. With StopSettings, this is an estimate that is updated after
     // each block.
     [[nodiscard]] std::uint32_t sampleTotal() const;
-    // Returns the share of the work that is done, 0 … 1. While no estimate has confirmed an automatic number of
-    // samples, the share stays below one half.
+    // Returns the finished fraction of the work, 0 … 1. While no estimate has confirmed an automatic number of samples,
+    // the fraction stays below one half.
     [[nodiscard]] double share() const;
     // Returns the plan of the frame. With StopSettings, it is the plan of the latest block, which has the finest
     // levels, but its triangle counts are sums over all blocks.

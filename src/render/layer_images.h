@@ -15,17 +15,17 @@ struct NumberCounts {
     int width = 0;
     int height = 0;
     int entries = 0;  // max number of different objects or materials in a pixel
-    // `entries` values per pixel, row 0 at the top: (number of the object or material) · 2¹⁶ + (number of samples).
+    // `entries` values per pixel, row 0 at the top: (1 + index of the object or material) · 2¹⁶ + (number of samples).
     // Unused entries of a pixel are at the end, and are 0.
     std::vector<std::uint32_t> values;
 };
 
 struct LayerImages {
-    Image coverage;                         // 1 channel: share of the samples that show a surface
+    Image coverage;                         // 1 channel: fraction of the samples that show a surface
     std::map<Layer, Image> means;           // premultiplied; 1 to 3 channels
     Image nearestDepth;                     // with Layer::depth: m, +∞ where no sample shows a surface
     Image samples;                          // 1 channel: number of lens samples that the pixel counts
-    std::map<Layer, NumberCounts> numbers;  // Layer::objects and materials; number i + 1 is object or material i
+    std::map<Layer, NumberCounts> numbers;  // key: Layer::objects or Layer::materials
 };
 
 }  // namespace defocus::engine

@@ -54,22 +54,47 @@ double crossing(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const 
     return u >= 0 && v >= 0 && u + v <= 1 && t >= 0 ? t : miss;
 }
 
-// Returns the ray parameter of the first hit of the mesh, or `nearest` if that is smaller. `place(index)` returns the
-// position of vertex `index`.
+// A run is up to runLength consecutive triangles of a primitive. Its box saves the tests of its triangles.
+constexpr std::size_t runLength = 64;
+
+// Returns the boxes of the mesh's runs. `place(index)` returns the position of vertex `index`.
 template <typename Place>
-double nearestCrossing(const Mesh& mesh, const Ray& ray, double nearest, const Place& place) {
+std::vector<Bounds> boxesOfRuns(const Mesh& mesh, const Place& place) {
+    std::vector<Bounds> boxes;
     for (const Primitive& primitive : mesh.primitives)
         for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-            const auto corner = [&](std::size_t k) { return place(primitive.indices[i + k]); };
-            nearest = std::min(nearest, crossing(ray, corner(0), corner(1), corner(2)));
+            if (i % (3 * runLength) == 0) boxes.emplace_back();
+            for (std::size_t k = 0; k < 3; ++k) boxes.back().extend(place(primitive.indices[i + k]));
+        }
+    return boxes;
+}
+
+// Returns the ray parameter of the first hit of the mesh, or `nearest` if that is smaller. `boxes` are the boxes of its
+// runs; without boxes, all triangles are tested. `place(index)` returns the position of vertex `index`.
+template <typename Place>
+double nearestCrossing(const Mesh& mesh, const std::vector<Bounds>& boxes, const Ray& ray, double nearest,
+                       const Place& place) {
+    auto box = boxes.begin();
+    for (const Primitive& primitive : mesh.primitives)
+        for (std::size_t run = 0; run + 2 < primitive.indices.size(); run += 3 * runLength) {
+            if (!boxes.empty() && !reaches(ray, *box++, nearest)) continue;
+            const std::size_t end = std::min(run + 3 * runLength, primitive.indices.size());
+            for (std::size_t i = run; i + 2 < end; i += 3) {
+                const auto corner = [&](std::size_t k) { return place(primitive.indices[i + k]); };
+                nearest = std::min(nearest, crossing(ray, corner(0), corner(1), corner(2)));
+            }
         }
     return nearest;
 }
 
+auto placesOf(const Mesh& mesh) {
+    return [&mesh](std::uint32_t vertex) { return glm::dvec3(mesh.vertices.positions[vertex]); };
+}
+
 // Returns the ray parameter of the first hit of an object that is not deformed, or `nearest` if that is smaller. The
 // ray is transformed to object space if the matrix is invertible; otherwise the triangles are transformed to world
-// space.
-double nearestCrossing(const Mesh& mesh, const Bounds& bounds, const glm::dmat4& worldFromObject,
+// space. `boxes` are the boxes of the mesh's runs.
+double nearestCrossing(const Mesh& mesh, const std::vector<Bounds>& boxes, const glm::dmat4& worldFromObject,
                        const glm::dmat4& objectFromWorld, const Ray& world, double nearest) {
     const Ray ray{glm::dvec3(objectFromWorld * glm::dvec4(world.origin, 1)),
                   glm::dvec3(objectFromWorld * glm::dvec4(world.direction, 0))};
@@ -77,13 +102,11 @@ double nearestCrossing(const Mesh& mesh, const Bounds& bounds, const glm::dmat4&
                             std::isfinite(glm::dot(ray.direction, ray.direction)) &&
                             glm::dot(ray.direction, ray.direction) > 0;
     if (!invertible) {
-        return nearestCrossing(mesh, world, nearest, [&](std::uint32_t vertex) {
+        return nearestCrossing(mesh, {}, world, nearest, [&](std::uint32_t vertex) {
             return glm::dvec3(worldFromObject * glm::dvec4(mesh.vertices.positions[vertex], 1));
         });
     }
-    if (!reaches(ray, bounds, nearest)) return nearest;
-    return nearestCrossing(mesh, ray, nearest,
-                           [&](std::uint32_t vertex) { return glm::dvec3(mesh.vertices.positions[vertex]); });
+    return nearestCrossing(mesh, boxes, ray, nearest, placesOf(mesh));
 }
 
 // Bounding sphere in world space.
@@ -109,36 +132,46 @@ bool misses(const Ray& ray, const Ball& ball) {
     return square - along * along > ball.radius * ball.radius * (1 + rounding) + rounding * square;
 }
 
+Bounds unionOf(const std::vector<Bounds>& boxes) {
+    Bounds all;
+    for (const Bounds& box : boxes) all.extend(box);
+    return all;
+}
+
 // Triangles of one object, prepared for intersection with many rays.
 class Target {
 public:
-    Target(const Mesh& mesh, const Bounds& meshBounds, const Object& object)
-        : mesh_(mesh), bounds_(meshBounds), object_(object), deformed_(deformed(object)) {
+    // `meshBoxes` are the boxes of the runs of the undeformed mesh.
+    Target(const Mesh& mesh, const std::vector<Bounds>& meshBoxes, const Object& object)
+        : mesh_(mesh), meshBoxes_(meshBoxes), object_(object), deformed_(deformed(object)) {
         if (deformed_) {
             positions_ = posedPositions(mesh, object);
-            bounds_ = {};
-            for (const glm::dvec3& position : positions_) bounds_.extend(position);
+            posedBoxes_ = boxesOfRuns(mesh, [&](std::uint32_t vertex) { return positions_[vertex]; });
         }
-        ball_ = ballAround(bounds_, deformed_ ? glm::dmat4(1) : object.worldFromObject);
+        ball_ = ballAround(unionOf(deformed_ ? posedBoxes_ : meshBoxes_),
+                           deformed_ ? glm::dmat4(1) : object.worldFromObject);
         objectFromWorld_ = deformed_ ? glm::dmat4(1) : glm::inverse(object.worldFromObject);
     }
 
     [[nodiscard]] double nearestCrossing(const Ray& world, double nearest) const {
         if (misses(world, ball_)) return nearest;
         if (!deformed_)
-            return engine::nearestCrossing(mesh_, bounds_, object_.worldFromObject, objectFromWorld_, world, nearest);
-        if (!reaches(world, bounds_, nearest)) return nearest;
-        return engine::nearestCrossing(mesh_, world, nearest, [&](std::uint32_t vertex) { return positions_[vertex]; });
+            return engine::nearestCrossing(mesh_, meshBoxes_, object_.worldFromObject, objectFromWorld_, world,
+                                           nearest);
+        return engine::nearestCrossing(mesh_, posedBoxes_, world, nearest,
+                                       [&](std::uint32_t vertex) { return positions_[vertex]; });
     }
 
 private:
     const Mesh& mesh_;
-    Bounds bounds_;  // object space; world space if the object is deformed
+    const std::vector<Bounds>& meshBoxes_;
     Ball ball_{};
     glm::dmat4 objectFromWorld_{1};
     const Object& object_;
     bool deformed_;
-    std::vector<glm::dvec3> positions_;  // world space; empty unless the object is deformed
+    // Positions and boxes of runs in world space; empty unless the object is deformed.
+    std::vector<glm::dvec3> positions_;
+    std::vector<Bounds> posedBoxes_;
 };
 
 }  // namespace
@@ -148,14 +181,14 @@ std::vector<std::optional<Hit>> firstHits(const Scene& scene, const Pose& pose, 
     std::vector<Ray> rays;
     for (const glm::dvec3& direction : directions) rays.push_back({origin, glm::normalize(direction)});
     std::vector<Hit> nearest(rays.size(), {std::numeric_limits<double>::infinity(), -1});
-    std::vector<std::optional<Bounds>> meshBounds(scene.meshes.size());
+    std::vector<std::vector<Bounds>> boxes(scene.meshes.size());  // per mesh; computed when first needed
     for (std::size_t i = 0; i < pose.objects.size(); ++i) {
         const Object& object = pose.objects[i];
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
-        std::optional<Bounds>& bounds = meshBounds[static_cast<std::size_t>(object.mesh)];
-        if (!bounds) bounds = mesh.bounds();
-        if (bounds->empty()) continue;
-        const Target target(mesh, *bounds, object);
+        std::vector<Bounds>& meshBoxes = boxes[static_cast<std::size_t>(object.mesh)];
+        if (meshBoxes.empty()) meshBoxes = boxesOfRuns(mesh, placesOf(mesh));
+        if (meshBoxes.empty()) continue;
+        const Target target(mesh, meshBoxes, object);
         for (std::size_t ray = 0; ray < rays.size(); ++ray) {
             const double distance = target.nearestCrossing(rays[ray], nearest[ray].distance);
             if (distance < nearest[ray].distance) nearest[ray] = {distance, static_cast<int>(i)};

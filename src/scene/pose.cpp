@@ -24,7 +24,7 @@ struct NodeState {
     glm::dquat rotation;
     glm::dvec3 scale;
     std::vector<double> morphWeights;  // one per morph target of the node's mesh
-    bool visible;                      // without its ancestors
+    bool visible;                      // the node's own visibility, without its ancestors'
     bool hides;                        // an animation hides the node at some times
 };
 

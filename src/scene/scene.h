@@ -93,8 +93,8 @@ struct Material {
     TextureUse sheenColor;      // sRGB-encoded
     TextureUse sheenRoughness;  // linear; uses A
 
-    // KHR_materials_anisotropy. The rotation turns the direction of stretched highlights, counter-clockwise from the
-    // tangent.
+    // KHR_materials_anisotropy. The rotation is the angle from the tangent to the direction of stretched highlights,
+    // counter-clockwise.
     float anisotropyStrength = 0.0f;
     float anisotropyRotation = 0.0f;  // rad
     TextureUse anisotropy;            // linear; direction in RG, strength in B

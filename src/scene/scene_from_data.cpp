@@ -141,8 +141,8 @@ Mesh meshOf(const std::string& label, const MeshData& data, Scene& scene) {
 
 // ---- materials ------------------------------------------------------------------------------------------------------
 
-// Returns a reference to texture number `texture`. Throws UsageError if the texture doesn't exist or its content is not
-// `content`.
+// Returns a reference to the texture with index `texture`. Throws UsageError if the texture doesn't exist or its
+// content is not `content`.
 TextureUse textureUse(const std::string& label, const char* name, int texture, TextureContent content,
                       std::span<const TextureData> textures) {
     checkIndex(label, "texture", texture, textures.size());

@@ -38,9 +38,9 @@ struct OptionCase {
 
 namespace option_cases {
 
-// Returns a glTF file: in front of a board, a ball of 700 triangles recedes within 2 s and turns right half-way. In a
-// second clip, the ball stands still. A second camera is closer and has its own focus distance. With `lamp`, a lamp
-// above lights the scene; with `pane`, the board is a glass pane.
+// Returns a glTF file: in front of a board, a ball of 700 triangles recedes for 2 s and, in the second half, also moves
+// to the right. In a second clip, the ball stands still. A second camera is closer and has its own focus distance. With
+// `lamp`, a lamp above lights the scene; with `pane`, the board is a glass pane.
 inline std::string movingBall(bool lamp, bool pane = false) {
     const Mesh ball = bumpySphere(24, 16, 0);
     GltfBuilder builder;

@@ -10,7 +10,7 @@ struct OwnOptionCase {
     Words words;                     // the option with its value
     Words more = {};                 // further options that both command lines have
     Words without = {};              // options of the command's usual line that both lines omit
-    std::vector<Words> before = {};  // command lines that run before
+    std::vector<Words> before = {};  // command lines to run before the case
 };
 
 // For each command, a command line that runs quickly, without the command's name. Options of a case replace the same

@@ -1,6 +1,6 @@
 #pragma once
 // Short shots of the two squares of two_quads.h with small frames: a focus pull from one square to the other, and a
-// camera that turns.
+// camera that orbits a square.
 
 #include <filesystem>
 #include <fstream>

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 namespace defocus::engine {
@@ -66,6 +68,31 @@ TEST(Memory, whatNoMachineHasIsRefused) {
     PageAllocator<std::uint64_t> allocator;
     EXPECT_THROW((void)allocator.allocate(std::numeric_limits<std::size_t>::max() / 4), std::bad_alloc);
     EXPECT_THROW((void)allocator.allocate(std::numeric_limits<std::size_t>::max() / 16), std::bad_alloc);
+}
+
+// Returns the number of minor page faults of this thread so far.
+long pageFaults() {
+    rusage usage{};
+    getrusage(RUSAGE_THREAD, &usage);
+    return usage.ru_minflt;
+}
+
+// A block as large as a picture's layers is written, freed and written again.
+TEST(Memory, aFreedBlockIsUsedAgainWithoutPageFaults) {
+#if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__)
+    GTEST_SKIP() << "needs glibc's malloc";
+#endif
+    keepFreedMemory();
+    constexpr std::size_t bytes = std::size_t{96} << 20;
+    constexpr std::size_t page = 4096;
+    const auto faultsOfABlock = [&] {
+        const long before = pageFaults();
+        const auto block = std::make_unique_for_overwrite<char[]>(bytes);
+        for (std::size_t i = 0; i < bytes; i += page) static_cast<volatile char*>(block.get())[i] = 1;
+        return pageFaults() - before;
+    };
+    EXPECT_GT(faultsOfABlock(), 0);
+    EXPECT_LT(faultsOfABlock(), static_cast<long>(bytes / page / 100));
 }
 
 }  // namespace

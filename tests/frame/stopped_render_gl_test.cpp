@@ -1,4 +1,4 @@
-// Tests that a target error or a time limit ends a frame whose number of samples is open. Requests that cannot be
+// Tests that a target error or a time limit ends a frame before its max number of samples. Requests that cannot be
 // stopped this way are rejected.
 
 #include <gtest/gtest.h>
@@ -58,7 +58,8 @@ TEST_F(StoppedRender, statisticsSayWhyAndHowFarOff) {
     EXPECT_LT(renderer.statistics().samples, 64u);
 }
 
-// At full detail, a frame with an open number of samples is bit-identical to a frame in which the same number is fixed.
+// At full detail, a frame drawn block by block towards a target error is bit-identical to a frame with the same fixed
+// number of samples.
 TEST_F(StoppedRender, blocksMakeTheImageOfAsManySamples) {
     Request request = twoFish();
     request.lod = LodMode::off;

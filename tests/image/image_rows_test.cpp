@@ -1,4 +1,4 @@
-// Tests that files written row by row equal files written at once, and that files with some of a frame's rows have
+// Tests that files written row by row equal files written in one call, and that files with some of a frame's rows have
 // these rows at the right position.
 
 #include "image/image_rows.h"

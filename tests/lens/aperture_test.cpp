@@ -35,7 +35,7 @@ std::size_t cellOf(const glm::dvec2& p) {
     return static_cast<std::size_t>(index(p.y) * cellCount + index(p.x));
 }
 
-// Returns each cell's share of the total light. `light` is evaluated at 40 × 40 points per cell.
+// Returns each cell's fraction of the total light. `light` is evaluated at 40 × 40 points per cell.
 template <typename Light>
 std::vector<double> expectedShares(const Light& light) {
     constexpr int fine = 40 * cellCount;
@@ -58,7 +58,7 @@ std::vector<double> sharesOf(const std::vector<glm::dvec2>& points) {
     return shares;
 }
 
-// Returns the share of light that lies in the wrong cell: half the sum over all cells of the absolute difference
+// Returns the fraction of the light that lies in the wrong cell: half the sum over all cells of the absolute difference
 // between a and b.
 double misplaced(const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0;

@@ -68,8 +68,8 @@ std::vector<Region> boxes() {
     return regions;
 }
 
-// Returns the largest value of n/log²n times the error of the share of points in a region. The max is over all regions
-// and all prefixes of n ≥ 16 points.
+// Returns the largest value of n/log²n times the error of the fraction of points in a region. The max is over all
+// regions and all prefixes of n ≥ 16 points.
 double worstPrefix(const std::vector<glm::dvec2>& points, const std::vector<Region>& regions) {
     double worst = 0;
     for (const Region& region : regions) {

@@ -178,7 +178,7 @@ TEST(EmbreeBokehShape, AnamorphicRatioMakesTallOvals) {
     EXPECT_NEAR(2 * std::sqrt(moments.variance.x - 10.0 / 12), radius / 2, 0.1);
 }
 
-// Returns the share of a disk of radius 1 that lies left of the chord at `x`.
+// Returns the fraction of a disk of radius 1 that lies left of the chord at `x`.
 double diskShareLeftOf(double x) {
     const double inside = std::clamp(x, -1.0, 1.0);
     return 0.5 + (inside * std::sqrt(1 - inside * inside) + std::asin(inside)) / std::numbers::pi;

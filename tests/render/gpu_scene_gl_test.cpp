@@ -62,7 +62,7 @@ TEST_F(GpuSceneTest, smallMeshesShareBuffersAndVertexArrays) {
     EXPECT_EQ(buffers.size(), 1u);
     EXPECT_EQ(arrays.size(), 1u);
     EXPECT_FALSE(buffers.contains(scene.mesh(quads).buffers.get()));
-    EXPECT_FALSE(arrays.contains(&vertexArrays.attach(scene.mesh(quads), 0)));  // the sphere has colours
+    EXPECT_FALSE(arrays.contains(&vertexArrays.attach(scene.mesh(quads), 0)));  // only the sphere has vertex colours
 }
 
 TEST_F(GpuSceneTest, sharedBuffersHoldEachMesh) {

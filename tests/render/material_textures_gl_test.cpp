@@ -175,7 +175,7 @@ TEST_F(MaterialTextures, coordinatesWrapAsTheTextureSays) {
                 [&](const glm::dvec2& uv) {
                     const glm::dvec2 wide = 6.0 * uv - 2.5;
                     // With clamping, the edge texel extends to infinity, so any point beyond the edge maps to the
-                    // middle of that texel.
+                    // centre of that texel.
                     const auto inside = [](double u, Wrap wrap) {
                         return wrap == Wrap::clampToEdge && (u < 0.25 || u > 0.75) ? (u < 0.5 ? 0.125 : 0.875) : u;
                     };

@@ -72,8 +72,8 @@ struct WhiteSquare : SmallWorld {
     }
 };
 
-// A square that moves past a pixel covers it for a share of the exposure; these shares form a trapezoid. A square of
-// width 2a that moves by D covers pixel x while |x − D(t − 1/2)| < a.
+// A square that moves past a pixel covers it for a fraction of the exposure; over the row, these fractions form a
+// trapezoid. A square of width 2a that moves by D covers pixel x while |x − D(t − 1/2)| < a.
 TEST_F(Motion, aSquareThatGoesByLeavesATrapezoid) {
     constexpr double a = 8, way = 40;
     WhiteSquare square(a);
@@ -126,8 +126,8 @@ TEST_F(Motion, postProcessMethodsDrawTheMiddle) {
     EXPECT_TRUE(sameBits(circular(), still));
 }
 
-// Motion segments follow a rotation. Over many segments, the corners of a turning square move along arcs; over a single
-// segment, they move along chords.
+// Motion segments follow a rotation. Over many segments, the corners of a rotating square move along arcs; over a
+// single segment, they move along chords.
 TEST_F(Motion, segmentsFollowARotation) {
     WhiteSquare square(16);
     const glm::dmat4 middle = square.world.pose.objects[0].worldFromObject;
@@ -151,8 +151,8 @@ TEST_F(Motion, segmentsFollowARotation) {
     // 16 segments of 11.25° deviate from the arc by 0.5 % of the radius, a tenth of a pixel.
     EXPECT_GT(compareImages(exact, sixteen).psnr, 35);
     EXPECT_LT(compareImages(exact, one).psnr, 20);
-    // Over a single segment, half a turn moves the corners along straight lines through the centre. The square shrinks
-    // to a point on the way and sends less light.
+    // Over a single segment, a rotation by 180° moves the corners along straight lines through the centre. The square
+    // shrinks to a point on the way and sends less light.
     EXPECT_LT(sumOf(one), 0.5 * sumOf(exact));
     EXPECT_NEAR(sumOf(exact), 32 * 32, 10);
 }
@@ -178,7 +178,7 @@ Image meanOfMoments(const World& world, const View& view, std::uint32_t samples)
 }
 
 // Expects motion blur to equal the mean of images without motion at the samples' times. The scene has a skinned figure,
-// a moving camera, defocus, and a lamp that does not turn with the camera. `fStop` and `candela` suit the size of the
+// a moving camera, defocus, and a lamp that does not rotate with the camera. `fStop` and `candela` suit the size of the
 // figure.
 void expectMeanOfMoments(const std::filesystem::path& path, int clip, double fStop, float candela) {
     constexpr std::uint32_t samples = 16;

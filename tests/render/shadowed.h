@@ -99,13 +99,13 @@ protected:
         return shares;
     }
 
-    // Returns the share of the unit disk left of x = a.
+    // Returns the fraction of the unit disk left of x = a.
     static double diskShare(double a) {
         a = std::clamp(a, -1.0, 1.0);
         return 0.5 + (a * std::sqrt(1 - a * a) + std::asin(a)) / std::numbers::pi;
     }
 
-    // Returns the share of the sun's disk that lights the position x on the wall. An edge is at x = `left`, at the
+    // Returns the fraction of the sun's disk that lights the position x on the wall. An edge is at x = `left`, at the
     // distance d in front of the wall. The sun stands 45° to the right, and t is the tangent of its angular radius. A
     // point of the sun's disk at a·t from the disk's centre casts the edge's shadow to left − d·(1 + t·a)/(1 − t·a).
     static double litShareBehindEdge(double x, double left, double d, double t) {

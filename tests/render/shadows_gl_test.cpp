@@ -218,7 +218,7 @@ TEST_F(Shadowed, colouredGlassTintsTheLight) {
     }
 }
 
-// Blended surfaces behind each other, here in one mesh, let the product of their shares pass.
+// Blended surfaces behind each other, here in one mesh, transmit the product of their transmittances.
 TEST_F(Shadowed, blendedLayersShadeByTheirProduct) {
     const auto small = wall();
     addSun(*small, {1, 0, 1}, 0.01);

@@ -14,7 +14,7 @@ namespace {
 constexpr glm::vec4 red(1, 0, 0, 0.4f);
 constexpr glm::vec4 green(0, 1, 0, 0.7f);
 
-// Two double-sided panes in one mesh that cross in the image's vertical middle, over a blue sky. The red pane is nearer
+// Two double-sided panes in one mesh that cross at the image's centre column, over a blue sky. The red pane is nearer
 // in the left half of the image.
 std::unique_ptr<SmallWorld> crossingPanes() {
     auto small = std::make_unique<SmallWorld>();

@@ -20,8 +20,8 @@ protected:
 
 constexpr double wallAway = 40;  // distance in m, so large that all of the wall has almost the same scale
 
-// Returns a wall turned about a vertical axis, with a texture of 1024² texels that is black above and white below.
-// Turned by 80°, the wall shows 5.8 times as many texels per pixel horizontally as vertically.
+// Returns a wall rotated about a vertical axis, with a texture of 1024² texels that is black above and white below.
+// Rotated by 80°, the wall shows 5.8 times as many texels per pixel horizontally as vertically.
 std::unique_ptr<SmallWorld> halfWhiteWall(double degrees) {
     Material material;
     material.unlit = true;

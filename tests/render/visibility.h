@@ -55,7 +55,7 @@ protected:
         return plan;
     }
 
-    // Expects the same image with and without culling. Returns the culled share of the triangles.
+    // Expects the same image with and without culling. Returns the culled fraction of the triangles.
     static double expectSameImage(const SmallWorld& small, LodMode lod) {
         const FramePlan seen = planFrame(small.world, small.view, settingsFor(lod, false));
         const FramePlan all = drawnWhole(small, seen);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
@@ -11,14 +12,35 @@
 namespace defocus::engine {
 namespace {
 
-// Returns the cube from −1 to 1, with twelve triangles.
+// Divides each triangle at the midpoints of its edges into four.
+Mesh divided(const Mesh& coarse) {
+    Mesh mesh;
+    Primitive& fine = mesh.primitives.emplace_back();
+    const auto add = [&](const glm::vec3& position) {
+        fine.indices.push_back(static_cast<std::uint32_t>(mesh.vertices.positions.size()));
+        mesh.vertices.positions.push_back(position);
+    };
+    const std::vector<std::uint32_t>& indices = coarse.primitives.front().indices;
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        std::array<glm::vec3, 3> p;
+        std::array<glm::vec3, 3> middle;
+        for (std::size_t k = 0; k < 3; ++k) p[k] = coarse.vertices.positions[indices[i + k]];
+        for (std::size_t k = 0; k < 3; ++k) middle[k] = 0.5f * (p[k] + p[(k + 1) % 3]);
+        for (std::size_t k = 0; k < 3; ++k)
+            for (const glm::vec3& corner : {p[k], middle[k], middle[(k + 2) % 3]}) add(corner);
+        for (const glm::vec3& corner : middle) add(corner);
+    }
+    return mesh;
+}
+
+// Returns the cube from −1 to 1, with 768 triangles.
 Mesh cube() {
     Mesh mesh;
     for (int i = 0; i < 8; ++i)
         mesh.vertices.positions.emplace_back((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
     mesh.primitives = {{-1, {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
                              2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5}}};
-    return mesh;
+    return divided(divided(divided(mesh)));
 }
 
 Scene cubes(const std::vector<glm::dmat4>& places) {

@@ -179,7 +179,7 @@ TEST(Animation, rotationsTurnEvenlyAlongTheShorterArc) {
                                     sign * static_cast<float>(q.z), sign * static_cast<float>(q.w)};
     };
     // The second key is the negated quaternion for 80°, which is the same rotation. Interpolation without a sign change
-    // would turn by 280° instead.
+    // would rotate by 280° instead.
     std::vector<float> values;
     for (const auto& key : {turn(0, 1), turn(80, -1)}) values.insert(values.end(), key.begin(), key.end());
     const AnimationChannel channel = channelOf(Interpolation::linear, ChannelPath::rotation, {0, 1}, values);

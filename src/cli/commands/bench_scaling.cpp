@@ -37,7 +37,7 @@ struct ScalingArguments {
 void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) {
     if (arguments.options.large &&
         std::ranges::find(arguments.options.axes, ScalingAxis::triangles) == arguments.options.axes.end())
-        throw UsageError("--large requires triangles in --axes");
+        throw UsageError("--large extends the axis triangles; add it to --axes");
     const fs::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
     refuseChangedSources(folder, arguments.allowChanged);
     makeOutputFolder(folder, {"scaling.csv", "scaling.json"});

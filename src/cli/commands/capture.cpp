@@ -156,7 +156,7 @@ void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const
 }
 
 // Returns a function that gives a frame's metadata: the metadata that `defocus render` writes, without values that
-// differ from run to run. `exposure`: EV of all frames; none: from each frame's lens.
+// differ from run to run. `exposure`: EV of all frames; nullopt: from each frame's lens.
 FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& prepared, const std::string& method,
                         std::optional<double> exposure) {
     return [&arguments, &prepared, method, exposure](const FrameMoment& frame, const FramePlan& plan,

@@ -26,7 +26,7 @@ struct MergeArguments {
     std::vector<std::filesystem::path> parts;
     std::vector<std::filesystem::path> outputs = {"out.exr"};
     ToneMap toneMap = Request{}.toneMap;
-    std::optional<double> exposure;  // exposure in EV; none: from the metadata of the parts
+    std::optional<double> exposure;  // exposure in EV; nullopt: from the metadata of the parts
 };
 
 // Returns the exposure (EV) in the metadata of a part; 0 if there is none.

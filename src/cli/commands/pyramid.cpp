@@ -56,14 +56,14 @@ struct PyramidArguments {
 };
 
 struct LevelReport {
-    std::optional<SurfaceDistance> measured;  // two-sided distance to level 0; none for level 0 itself
+    std::optional<SurfaceDistance> measured;  // two-sided distance to level 0; nullopt for level 0 itself
     fs::path file;                            // exported file; empty: not exported
 };
 
 struct MeshReport {
     std::size_t mesh = 0;  // index into Scene::meshes
     Pyramid pyramid;
-    std::optional<double> seconds;  // build time, s; none if read from the cache
+    std::optional<double> seconds;  // build time, s; nullopt if read from the cache
     std::vector<LevelReport> levels;
     fs::path turntable;  // file of the turntable; empty: not drawn
 };

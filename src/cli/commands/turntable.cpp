@@ -121,7 +121,7 @@ void writeLabels(TurntableSheet& sheet, const Pyramid& pyramid, const std::strin
 }  // namespace
 
 TurntableView turntableView(const Mesh& mesh, const Object& object) {
-    // The object turns about the vertical axis through the centre of its bounding box.
+    // The object rotates about the vertical axis through the centre of its bounding box.
     const std::vector<glm::dvec3> points = posedPositions(mesh, object);
     Bounds box = posedBounds(mesh, object);
     if (box.empty()) box = {glm::dvec3(-1), glm::dvec3(1)};

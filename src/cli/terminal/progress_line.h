@@ -9,15 +9,16 @@ namespace defocus::engine {
 
 // Returns a line such as "samples [####----]  42 %, 12 s left", shorter than `columns`, so that no terminal wraps it.
 // If space is short, omits in this order: the bar, the stage's name after its first word, the time, the first word.
-// `share`: finished fraction, 0 … 1. `left`: seconds; none: unknown.
+// `share`: finished fraction, 0 … 1. `left`: seconds; nullopt: unknown.
 std::string progressLine(std::string_view stage, double share, std::optional<double> left, int columns);
 
 // Estimates the remaining time of a task. Stages with the same first word, such as the frames of a film, count as one
 // task.
 class TimeLeft {
 public:
-    // Returns the remaining time in seconds, extrapolated from the average speed so far. None within the first second
-    // or the first hundredth of the work. `share`: finished fraction. `seconds`: current time since any fixed moment.
+    // Returns the remaining time in seconds, extrapolated from the average speed so far. Returns nullopt within the
+    // first second or the first hundredth of the work. `share`: finished fraction. `seconds`: current time since any
+    // fixed moment.
     std::optional<double> after(std::string_view stage, double share, double seconds);
 
 private:

@@ -274,7 +274,7 @@ private:
             return;
         }
         if (frame.image.width != view_.width || frame.image.height != view_.height)
-            return;  // a fault: the error stays unset
+            return;  // wrong image size: report no error value
         CompareOptions options;
         if (std::ranges::none_of(runs_, ofCase)) options.flipMap = &flipMap;
         run.error = errorOf(compareImages(reference_.image, frame.image, options));

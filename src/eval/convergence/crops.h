@@ -18,7 +18,7 @@ struct Crop {
 };
 
 // Returns the square with a side of `size` px that has the largest sum of values ≥ 0 in a 1-channel image. If several
-// are equal, returns the first in reading order. The square doesn't overlap `other`. Returns none if no square fits.
+// are equal, returns the first in reading order. The square doesn't overlap `other`. Returns nullopt if no square fits.
 std::optional<Crop> largestSquare(const Image& values, int size, const std::optional<Crop>& other = {});
 
 // Returns two squares whose side is a quarter of the image's shorter side: one where the error of accumulation at full

@@ -20,7 +20,7 @@ struct Competitor {
     std::string name;  // such as "accumulation with levels" or "embree"
     struct Time {
         double rmse = 0;
-        std::optional<double> milliseconds;  // time of a frame; none if no row reaches the error
+        std::optional<double> milliseconds;  // time of a frame; nullopt if no row reaches the error
         bool atMost = false;                 // true: upper bound, because the fastest row already has a smaller error
     };
     std::vector<Time> times;  // in the order of the requested errors

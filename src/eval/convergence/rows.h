@@ -24,7 +24,7 @@ struct ConvergenceRow {
     double pyramidMilliseconds = 0;   // build time of the pyramids; not part of `milliseconds`
     double gpuMilliseconds = 0;       // median, from timer queries
     ImageError error;                 // difference from the reference, mean over the seeds
-    std::optional<ImageError> bias;   // difference from full detail, mean over the seeds; none without levels
+    std::optional<ImageError> bias;   // difference from full detail, mean over the seeds; nullopt without levels
     std::vector<ImageError> ofSeeds;  // `error` of each measured seed
     std::uint64_t triangles = 0;
     std::uint64_t peakBytes = 0;

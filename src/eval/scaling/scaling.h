@@ -31,7 +31,7 @@ enum class ScalingAxis {
     instances,  // 1 … 10,000 instances of one fish
     samples,    // 2 … 64 lens samples
     pixels,     // 640 × 480 … 3840 × 2160 px
-    blur,       // largest circle of confusion, for f-numbers from 16 to 1
+    blur,       // largest circle of confusion; varied by f-numbers from 16 to 1
 };
 
 const char* scalingAxisName(ScalingAxis axis);  // name on the command line
@@ -110,7 +110,7 @@ struct PowerLaw {
     std::size_t points = 0;
 };
 
-// Fits a power law to the points with x at or above the geometric mean of the min and max x. Returns none if these
+// Fits a power law to the points with x at or above the geometric mean of the min and max x. Returns nullopt if these
 // points have fewer than two distinct x. All values must be > 0.
 std::optional<PowerLaw> fittedPowerLaw(std::span<const std::pair<double, double>> points);
 

@@ -47,8 +47,8 @@ struct FrameOrder {
     View view;
     RenderSettings settings;
     StopSettings stop = {};
-    std::optional<SampleRange> samples = {};         // draw only these lens samples, for sums(); none: all samples
-    std::optional<std::vector<RowRange>> rows = {};  // draw only these rows, in tiles; none: all rows
+    std::optional<SampleRange> samples = {};         // draw only these lens samples, for sums(); nullopt: all samples
+    std::optional<std::vector<RowRange>> rows = {};  // draw only these rows, in tiles; nullopt: all rows
     RowSink takeRows = {};                           // receives finished rows of tiles; empty: image() returns them
     SampleSink takeSample = {};                      // receives each lens sample's image; no mean is then computed
     std::string untiledReason = {};                  // reason why tiles are forbidden; empty: tiles are allowed
@@ -127,7 +127,7 @@ private:
     std::uint64_t limit_ = 0;  // maximum memory of the process, bytes
     bool crowded_ = false;
     std::optional<Fit> fitted_;               // inputs for which the wave size and bands_ were chosen
-    std::optional<std::vector<Band>> bands_;  // rows of tiles; none: frames are drawn untiled
+    std::optional<std::vector<Band>> bands_;  // rows of tiles; nullopt: frames are drawn untiled
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<Drawing> drawing_;
     mutable double share_ = 0;  // largest result of share(), so that progress never falls

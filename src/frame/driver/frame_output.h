@@ -1,6 +1,6 @@
 #pragma once
-// Draws a frame, or a part of a frame, and writes it to files: a complete image (in tiles if memory is short), a share
-// of the rows, or partial sums over some of the lens samples. Finished tiles of an interrupted run are kept on disk and
+// Draws a frame, or a part of a frame, and writes it to files: a complete image (in tiles if memory is short), part of
+// the rows, or partial sums over some of the lens samples. Finished tiles of an interrupted run are kept on disk and
 // can be resumed.
 //
 //   FrameOutput output(driver, files);
@@ -22,7 +22,7 @@ namespace defocus::engine {
 struct FrameFiles {
     std::vector<std::filesystem::path> outputs;  // at least one file; a part of a frame is written to the first
     std::optional<SampleRange> samples;          // write only the partial sums over these lens samples, for `merge`
-    std::optional<TileShare> share;              // write only this share of the rows, for `merge`
+    std::optional<TileShare> share;              // write only this part of the rows, for `merge`
     bool resume = false;                         // keep rows that an interrupted run with the same settings finished
     std::string untiledReason;                   // reason why tiles are forbidden; empty: tiles are allowed
     bool keepPartial = false;                    // if the run stops, return the image of the samples so far
@@ -41,8 +41,8 @@ public:
     void start(const Progress& progress = {});
     // Draws one wave, a batch of lens samples, and writes the finished rows. Returns false once the frame is complete.
     bool advance();
-    // Writes the partial sums, completes the file of the share, or joins the tiles into the output files. Returns the
-    // image of an untiled frame; the caller writes that image.
+    // Writes the partial sums, completes the file of FrameFiles::share, or joins the tiles into the output files.
+    // Returns the image of an untiled frame; the caller writes that image.
     std::optional<Image> finish();
 
     [[nodiscard]] double share() const;  // finished fraction of the work, 0 … 1, including rows of an earlier run
@@ -66,7 +66,7 @@ private:
     FrameFiles files_;
     FrameParts parts_;
     std::string settings_;  // SceneDriver::settingsHash; empty until a file needs it
-    RowRange wanted_;       // rows to draw: all rows of the frame, or the rows of the share
+    RowRange wanted_;       // rows to draw: all rows of the frame, or FrameFiles::share
     int rowsKept_ = 0;
     int rowsDone_ = 0;                      // rows that this run has written to files
     std::optional<ImageRowWriter> writer_;  // writes the file of FrameFiles::share

@@ -48,7 +48,7 @@ bool holds(const Metadata& metadata, const char* name, const std::string& text) 
     return found != metadata.end() && found->second == MetadataValue(text);
 }
 
-// Returns the image stored at `path`; none if the file is missing, damaged or has a hash other than `hash`.
+// Returns the image stored at `path`; nullopt if the file is missing, damaged or has a hash other than `hash`.
 std::optional<Part> stored(const fs::path& path, std::uint64_t hash, Metadata& metadata) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) return {};

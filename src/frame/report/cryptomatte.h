@@ -20,8 +20,8 @@ struct Cryptomatte {
     std::string manifest;      // JSON: name → id in hexadecimal digits
 };
 
-// Returns the masks of a frame. `names`: names of numbers 1, 2, …. Objects or materials with the same name share a
-// mask.
+// Returns the masks of a frame. `names`: names of the objects or materials, by index. Objects or materials with the
+// same name share a mask.
 Cryptomatte cryptomatte(const NumberCounts& counts, const Image& samples, const std::vector<std::string>& names);
 
 // Adds the metadata of a matte whose layers begin with `layer`, such as "CryptoObject".

@@ -79,7 +79,7 @@ Request requestOf(const RenderCommandText& text) {
     request.lens = lensOf(text);
     request.focus = FocusDistance{std::min(text.view.lens.focusDistance, lensFieldNamed("focusDistance")->max)};
     const double metresPerUnit = text.frame.scene->metresPerUnit;
-    if (metresPerUnit != 1) request.units = metresPerUnit;  // because `render` may otherwise guess another unit
+    if (metresPerUnit != 1) request.units = metresPerUnit;  // without --units, `render` may guess another unit
     request.toneMap = text.write.toneMap;
     // Give either the lens's exposure time or an exposure value: the options exclude each other.
     request.exposure = DefaultExposure{};

@@ -19,7 +19,7 @@ struct RenderReport {
     RenderStats stats;
     bool softwareDriver = false;
     double totalMilliseconds = 0;         // time since the command began
-    std::optional<double> exposure = {};  // exposure of 8-bit images, EV; none: from the lens
+    std::optional<double> exposure = {};  // exposure of 8-bit images, EV; nullopt: from the lens
     std::string command = {};             // the command line in shell syntax
     std::uint64_t memoryLimit = 0;        // memory limit of the process, bytes
     int tiles = 1;                        // number of tiles drawn; 1: untiled

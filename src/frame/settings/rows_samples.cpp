@@ -87,13 +87,13 @@ Rows sampleRows() {
                 return firstOf(context, {methodWithoutSamples, withFixedSamples});
             }),
         rows::number("targetError", "--target-error", "R", 1e-6, 1, MEMBER(targetError),
-                     "Add blocks of 64 samples until the estimated error is below R: the RMSE of display-encoded "
-                     "values from 0 to 1 at EV 0")
+                     "Add blocks of 64 samples until the estimated error is below this value: the RMSE of "
+                     "display-encoded values from 0 to 1 at EV 0")
             .example("0.003")
             .inShot("/targetError"),
         rows::number("timeLimit", "--time-limit", "S", 1e-3, 1e6, MEMBER(timeLimit),
-                     "Add blocks of 64 samples for S seconds, or until --target-error is reached. Loading does not "
-                     "count. capture starts no frame after S seconds instead")
+                     "Add blocks of 64 samples for this time, or until --target-error is reached. The time to load the "
+                     "scene does not count. With capture: start no further frame after this time")
             .unit("s")
             .effect(SettingEffect::run)
             .recorded(),
@@ -119,16 +119,16 @@ Rows sampleRows() {
             .inShot("/blurThreshold")
             .unused(withoutLevels),
         rows::number("sizeThreshold", "--size-threshold", "K", 0, 1e6, MEMBER(sizeThreshold),
-                     "For --lod-metric size and error: edge length, in px, that triangles may always have. Default: "
-                     "depends on the number of samples")
+                     "For --lod-metric size and error: edge length, in px, that triangles may have even where nothing is "
+                     "blurred. Default: depends on the number of samples")
             .unit("px")
             .example("1")
             .inShot("/sizeThreshold")
             .unused(withoutLevels),
         rows::number("lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(lightThreshold),
-                     "For --lod-metric measured: allowed error of the blurred shading; a larger value is coarser and "
-                     "faster. It is the product, in px, of a level's projected edge length and its relative error "
-                     "(docs/reference.md). Default: depends on the number of samples")
+                     "For --lod-metric measured: max product, in px, of a level's projected edge length and the relative "
+                     "error of its blurred shading (docs/reference.md); a larger value is coarser and faster. "
+                     "Default: depends on the number of samples")
             .unit("px")
             .example("0.1")
             .inShot("/lightThreshold")

@@ -64,7 +64,7 @@ struct Setting {
 
     // Sets the value from its text. Throws Error, with the allowed values in its message, for any other text.
     std::function<void(Request&, const std::string&)> set;
-    // Returns the value in the format that set() reads; none if the value is unset.
+    // Returns the value in the format that set() reads; nullopt if the value is unset.
     std::function<std::optional<std::string>(const Request&)> text;
     // Restores the default value.
     std::function<void(Request&)> clear;
@@ -89,7 +89,7 @@ bool dependsOnScene(const Setting& setting);
 // UsageError for a bad value or an unknown name; the message suggests the nearest known name.
 void setByName(Request& request, std::string_view name, const std::string& text);
 
-// Returns the text of the setting's value in a request; none if the value is unset or the default.
+// Returns the text of the setting's value in a request; nullopt if the value is unset or the default.
 std::optional<std::string> changedText(const Setting& setting, const Request& request);
 
 // Returns names and values of all settings that affect the pixels. Paths are left out, because file contents are hashed

@@ -127,8 +127,8 @@ glm::dmat4 wanderedCamera(const Request& request, const glm::dmat4& worldFromCam
     return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(position, 1)};
 }
 
-// Returns the tangent of half the horizontal angle of view that the request's focal length gives; none if the request
-// has no focal length.
+// Returns the tangent of half the horizontal angle of view that the request's focal length gives; nullopt if the
+// request has no focal length.
 std::optional<double> requestedTanHalfHorizontal(const LensSettings& given) {
     if (!given.focalLength) return {};
     Lens lens;
@@ -291,7 +291,7 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
     frame.settings = renderSettings(request);
     exposeMotion(request, placed, frame.settings, frame.world, frame.view);
     frame.memoryLimit = request.memory.value_or(0);
-    // Pyramids of full detail only are not worth caching.
+    // Without levels of detail, a pyramid holds only the mesh and is not worth caching.
     if (request.lod != LodMode::off) frame.cacheFolder = pyramidFolder(request);
     return frame;
 }

@@ -20,7 +20,7 @@ struct PreparedFrame {
     View view;
     RenderSettings settings;
     std::string sceneName;                 // file name, "fish school", or the name of a scene without a file
-    std::optional<std::string> scaleNote;  // names the guessed unit of the scene; none: no guess
+    std::optional<std::string> scaleNote;  // names the guessed unit of the scene; nullopt: no guess
     std::string cameraName;
     Lens cameraLens;                             // lens of the scene's camera, without the request's values
     std::vector<std::string> refusedLensValues;  // messages about invalid values in the camera's extras

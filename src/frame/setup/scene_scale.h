@@ -15,7 +15,7 @@ namespace defocus::engine {
 // scaled. Throws Error for a camera or an animation that the scene doesn't have.
 void setScale(const Request& request, Scene& scene);
 
-// Returns a note with the guessed unit of a scene; none if the unit is a metre or was given.
+// Returns a note with the guessed unit of a scene; nullopt if the unit is a metre or was given.
 std::optional<std::string> guessedScaleNote(const Request& request, const Scene& scene);
 
 }  // namespace defocus::engine

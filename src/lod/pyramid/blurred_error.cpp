@@ -138,12 +138,15 @@ double sumOfProducts(const Change& first, const Change& second, int count, float
     return double{sums[0]} + double{sums[1]} + double{sums[2]} + double{sums[3]} + double{rest};
 }
 
-// Returns the radiance minus the radiance of a grey background, so that the background becomes black.
-LargeVector<glm::vec3> before(float background, LargeVector<glm::vec3> light) {
-    if (background != 0)
-        for (glm::vec3& value : light)
-            if (value != glm::vec3(0)) value -= background;
-    return light;
+// Returns the radiance minus the radiance of the background, so that the background becomes black. The result is
+// `light` itself if the background is black, and otherwise stored in `shifted`, whose memory is reused.
+const LargeVector<glm::vec3>& before(float background, const LargeVector<glm::vec3>& light,
+                                     LargeVector<glm::vec3>& shifted) {
+    if (background == 0) return light;
+    shifted = light;
+    for (glm::vec3& value : shifted)
+        if (value != glm::vec3(0)) value -= background;
+    return shifted;
 }
 
 // Adds the squared differences between `seen` and `reference` to `sums`. If `reference` is null, the row `dark` of
@@ -237,19 +240,18 @@ struct Sight {
         // averaging.
         LargeVector<glm::vec3> points = cells;
         for (glm::vec3& value : points) value = glm::min(value, brightest);
-        std::array<LargeVector<glm::vec3>, surrounds.size()> references;
+        std::array<LargeVector<glm::vec3>, surrounds.size()> shifted;
         std::vector<Patches> full(surrounds.size(), Patches(eye));
         Patches seen(eye);
         const auto backgroundOf = [&](std::size_t b) { return surrounds[b] == Surround::grey ? unit : 0; };
-        for (std::size_t b = 0; b < surrounds.size(); ++b) {
-            references[b] = before(backgroundOf(b), cells);
-            full[b].measure(references[b]);
-        }
+        for (std::size_t b = 0; b < surrounds.size(); ++b)
+            full[b].measure(before(backgroundOf(b), cells, shifted[b]));
         seen.measure(points);
         addSquares(nullptr, seen, dark, brightest, light);
-        LargeVector<glm::vec3> squares = points = before(unit, points);
+        LargeVector<glm::vec3> onGrey;
+        LargeVector<glm::vec3> squares = before(unit, points, onGrey);
         for (glm::vec3& value : squares) value *= value;
-        seen.measure(points);
+        seen.measure(onGrey);
         Patches squared(eye);
         squared.measure(squares);
         addDeviations(seen, squared, deviations);
@@ -259,8 +261,7 @@ struct Sight {
         for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
             painter.draw(l, picture);
             for (std::size_t b = 0; b < surrounds.size(); ++b) {
-                const LargeVector<glm::vec3> own = before(backgroundOf(b), picture.light);
-                seen.measure(own);
+                seen.measure(before(backgroundOf(b), picture.light, onGrey));
                 addSquares(&full[b], seen, dark, brightest - backgroundOf(b), changes[l][b]);
             }
         }

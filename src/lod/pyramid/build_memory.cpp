@@ -69,10 +69,10 @@ void requireRoomToBuild(const Mesh& mesh, const PyramidOptions& options) {
     const std::uint64_t held = residentMemory();
     if (held + needed <= options.memoryLimit) return;
     fail(
-        "{} of memory are too little for mesh '{}': its {} triangles take up to {}, and the program holds {}; at least "
-        "{} are enough for this mesh{}",
+        "{} of memory are too little for mesh '{}': its {} triangles need up to {}, and the program already uses {}; "
+        "allow {}{}",
         bytesText(options.memoryLimit), mesh.name, grouped(mesh.triangleCount()), bytesText(needed), bytesText(held),
-        bytesText(held + needed), options.maxLevels > 1 ? ", and --lod off takes less" : "");
+        bytesText(held + needed), options.maxLevels > 1 ? ", or use --lod off, which needs less" : "");
 }
 
 void buildLargestFirst(const std::vector<Mesh>& meshes, const PyramidOptions& options, const BuildOne& build) {

@@ -43,7 +43,7 @@ struct Weights {
         stepC = inverse * glm::vec2(-ab.y, ab.x);
     }
 
-    // Returns the weights at cell centres. `x` and `y` are cell numbers; `x` may be a SIMD vector of four.
+    // Returns the weights at cell centres. `x` and `y` are cell indices; `x` may be a SIMD vector of four.
     template <typename X>
     [[nodiscard]] std::array<X, 2> at(const X& x, float y) const {
         const X dx = x + 0.5f - origin.x;

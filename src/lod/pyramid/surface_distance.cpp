@@ -26,7 +26,7 @@ constexpr std::size_t arity = 4;  // children per node
 // Rounding error of a single-precision difference of coordinates, relative to the largest coordinate of the surface and
 // the point.
 constexpr float rounding = 2.5e-7f;
-constexpr double mortonCells = 1023;  // max cell number per axis: 10 bits
+constexpr double mortonCells = 1023;  // max cell index per axis: 10 bits
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // Steps of the R2 sequence: 1/g and 1/g², where g³ = g + 1.
 constexpr double stepU = 0.7548776662466927;
@@ -104,7 +104,7 @@ LargeVector<Triangle> inMortonOrder(std::size_t count, const TriangleAt& triangl
     return sorted;
 }
 
-// Returns the first triangle of a leaf. For the number after the last leaf, returns the number of triangles.
+// Returns the first triangle of a leaf. For the index after the last leaf, returns the triangle count.
 std::size_t leafStart(const Surface& surface, std::size_t leaf) {
     return leaf * surface.triangles.size() >> surface.leafBits;
 }

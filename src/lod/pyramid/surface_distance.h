@@ -31,7 +31,7 @@ struct BoxNode {
 struct Surface {
     LargeVector<std::array<glm::vec3, 3>> triangles;  // in Morton order: neighbours in memory are close in space
     LargeVector<double> areas;                        // cumulative areas, each including its own triangle
-    // Complete 4-ary tree: the root is node 0, and the children of node i are 4i + 1 … 4i + 4. Child numbers beyond the
+    // Complete 4-ary tree: the root is node 0, and the children of node i are 4i + 1 … 4i + 4. Child indices beyond the
     // last node denote leaves. The leaves divide the triangles evenly in their order, with up to 4 triangles each.
     LargeVector<BoxNode> nodes;
     int leafBits = 0;  // log2 of the number of leaves

@@ -16,7 +16,7 @@ bool isScattered(const TriangleSet<MeshVertexNumber>& triangles, std::size_t ver
 // Renumbers vertices so that vertices that are close in space are close in memory. `positions` are the positions of the
 // file's vertices.
 void sortSpatially(WeldedVertices& unique, const std::vector<glm::vec3>& positions);
-// Sorts the triangles of each primitive by their smallest vertex number.
+// Sorts the triangles of each primitive by their smallest vertex index.
 void sortSpatially(TriangleSet<MeshVertexNumber>& triangles);
 
 struct SurvivalOrder {

@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double minTurnCosine = 0.2588;  // cosine of 75°, the max turn of a face's normal
+constexpr double minTurnCosine = 0.2588;  // cosine of 75°, the max rotation of a face's normal
 constexpr double sliverQuality = 0.02;    // twice the area / sum of squared edges; 0.29 for an equilateral triangle
 
 // Classifies a face with corners a, b and c after corner a moves to `target`.

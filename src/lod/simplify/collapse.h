@@ -24,7 +24,7 @@ public:
     // vertices, and no two faces end up back to back.
     [[nodiscard]] bool keepsTopology(HalfedgeHandle along);
     // Classifies the effect of the collapse on the remaining faces, ignoring the topology. Poor: the collapse makes a
-    // sliver, or pulls the surface away from its border. Bad: the collapse turns a face's normal by more than 75° or
+    // sliver, or pulls the surface away from its border. Bad: the collapse rotates a face's normal by more than 75° or
     // makes a face degenerate. Impossible: a vertex of the edge's faces has more than 8,192 outgoing half-edges.
     [[nodiscard]] Fit judge(HalfedgeHandle along);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Priority queue of the vertices to collapse: bad collapses last, then by cost, then by number. A 4-ary heap with
-// update, in which every vertex occurs at most once (Johnson 1975, Priority Queues with Update and Finding Minimum
+// Priority queue of the vertices to collapse: bad collapses last, then by cost, then by vertex number. A 4-ary heap
+// with update, in which every vertex occurs at most once (Johnson 1975, Priority Queues with Update and Finding Minimum
 // Spanning Trees).
 
 #include <algorithm>

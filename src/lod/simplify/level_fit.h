@@ -85,7 +85,7 @@ struct LevelFit {
 };
 
 // Fits a level. Each mesh vertex is weighted by its area, foreshortened on the triangle of its anchor. Level vertices
-// without any anchor on their triangles keep their original values. No triangle turns by more than 60°, and all stay
+// without any anchor on their triangles keep their original values. No triangle rotates by more than 60°, and all stay
 // inside level 0's bounding box. Vertices at the same position stay together. Vertices whose normals agree within one
 // degree share a normal; if their colours are equal, they share a colour. This prevents gaps and visible seams.
 LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<MeshVertexNumber, Anchor> anchors);
@@ -93,8 +93,8 @@ LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<Mesh
 // Corrects a fitted level so that it preserves the properties of level 0 that remain visible after a wide blur:
 // - the covered area, if the level is coarse: vertices at outlines are moved (outline.h);
 // - the mean colour over the area, including alpha: all colours are shifted by the same amount;
-// - the light that a matt surface reflects, from any direction: normals are turned slightly (light.h).
-// The guarantees of fitLevel still hold, except that a triangle may turn by up to 60° more.
+// - the light that a matt surface reflects, from any direction: normals are rotated slightly (light.h).
+// The guarantees of fitLevel still hold, except that a triangle may rotate by up to 60° more.
 void conserve(const FitSource& source, const LevelMesh& level, LevelFit& fit);
 
 }  // namespace defocus::engine

@@ -119,8 +119,8 @@ struct GroupSlopes {
     }
 };
 
-// Returns the derivatives of meanCosine() for a point whose normal turns. Derivatives along the normal are 0. `values`
-// receives the values of meanCosine().
+// Returns the derivatives of meanCosine() for a point whose normal rotates. Derivatives along the normal are 0.
+// `values` receives the values of meanCosine().
 GroupSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& values) {
     constexpr float minRoot = 0.02f;  // limits the derivative where light grazes a surface with uniform normals
     const glm::vec3& n = point.normal;
@@ -267,7 +267,7 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
               std::span<glm::vec3> normals) {
     constexpr int maxRounds = 8;
     constexpr double enough = 5e-4;
-    // Turning normals changes the shading at each point, which remains visible under a narrow blur. The RMS change is
+    // Rotating normals changes the shading at each point, which remains visible under a narrow blur. The RMS change is
     // therefore limited to this multiple of the improvement of the mean radiance.
     constexpr double maxTurn = 16;
     const std::vector<glm::vec3> original(normals.begin(), normals.end());
@@ -277,7 +277,7 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
     const auto followNormals = [&] { follow({positions, normals, colors, indices, true}, groups, pointsOfLight, at); };
     LightMeans wanted{};
     double minSquares = std::numeric_limits<double>::infinity();
-    // Damping is strong at first, so that normals turn no further than necessary and highlights keep their positions.
+    // Damping is strong at first, so that normals rotate no further than necessary and highlights keep their positions.
     double damping = 1;
     for (int round = 0; round < maxRounds; ++round) {
         followNormals();

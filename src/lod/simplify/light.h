@@ -53,11 +53,11 @@ LightMeans lightMeans(const LitSurface& surface, std::size_t minPoints);
 // Min number of points for which lightMeans() has an error of at most 5e-4.
 inline constexpr std::size_t pointsOfLight = 12'000;
 
-// Turns the normals of a coarse surface until the mean for each light is within 5e-4 of `target`. Uses a few rounds of
-// the Levenberg–Marquardt method (Levenberg 1944, Marquardt 1963), which may end before this accuracy is reached. The
-// RMS of the change over the area is minimal. The RMS is at most 16 times the improvement of the mean radiance, because
-// a change is visible at each point. Lengths of normals are preserved, so that roughness does not change. Vertices with
-// equal numbers in `groups` (below positions.size()) share a normal before and after.
+// Rotates the normals of a coarse surface until the mean for each light is within 5e-4 of `target`. Uses a few rounds
+// of the Levenberg–Marquardt method (Levenberg 1944, Marquardt 1963), which may end before this accuracy is reached.
+// The RMS of the change over the area is minimal. The RMS is at most 16 times the improvement of the mean radiance,
+// because a change is visible at each point. Lengths of normals are preserved, so that roughness does not change.
+// Vertices with equal values in `groups` (below positions.size()) share a normal before and after.
 void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> colors,
               std::span<const std::uint32_t> indices, std::span<const std::uint32_t> groups, const LightMeans& target,
               std::span<glm::vec3> normals);

@@ -52,7 +52,7 @@ struct Edges {
 };
 
 Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {
-    std::vector<std::uint32_t> starts(placeCount + 1, 0);  // start of each group's edges to groups with larger numbers
+    std::vector<std::uint32_t> starts(placeCount + 1, 0);  // start of each group's edges to groups with larger indices
     const auto forEachEdge = [&](const auto& visit) {
         for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
             for (std::size_t k = 0; k < 3; ++k) {

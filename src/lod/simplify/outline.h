@@ -25,8 +25,8 @@ std::vector<CoverGrid> outlinesOf(std::span<const glm::vec3> positions, std::spa
 
 // Moves vertices along the outlines of a level until it covers approximately the area that level 0 covers in
 // `outlines`. Does nothing if the areas already agree within 0.5 % in every direction. Displacements are as small as
-// possible and stay within `box`. Vertices with the same number in `places` (below positions.size()) stay together. No
-// triangle turns by more than 60°.
+// possible and stay within `box`. Vertices with equal values in `places` (below positions.size()) stay together. No
+// triangle rotates by more than 60°.
 void fitOutlines(std::span<glm::vec3> positions, std::span<const std::uint32_t> indices,
                  std::span<const std::uint32_t> places, std::span<const CoverGrid> outlines, const Bounds& box);
 

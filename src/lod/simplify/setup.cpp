@@ -54,7 +54,7 @@ double seamConstraint(const SurfaceMesh& mesh, HalfedgeHandle e) {
     return torn(e, mesh.next_halfedge_handle(twin)) || torn(mesh.next_halfedge_handle(e), twin) ? seamWeight : 0;
 }
 
-// Returns the weight of the constraint at an edge where the surface turns by more than 60°. Without this constraint,
+// Returns the weight of the constraint at an edge where the surface bends by more than 60°. Without this constraint,
 // the rim of a thin sheet could be cut back at no cost, because the faces of the rim have almost no area.
 double rimConstraint(const Crosses& crosses, FaceHandle face, FaceHandle beyond) {
     const glm::dvec3& mine = crossOf(crosses, face);

@@ -6,7 +6,7 @@
 // manifold.h for non-manifold surfaces and wedges.h for attributes. Each collapse belongs to one of these classes:
 //   good:  neither poor nor bad;
 //   poor:  it pulls the surface away from a seam or an open border, or makes a sliver; its cost is multiplied by ten;
-//   bad:   it turns a face's normal by more than 75° or assigns a vertex of another primitive to a face.
+//   bad:   it rotates a face's normal by more than 75° or assigns a vertex of another primitive to a face.
 // A bad collapse is made only when no good or poor collapse is left in the mesh.
 // The cost of a collapse is the sum of two quadric errors. The position error (Garland and Heckbert 1997) includes
 // constraints along borders, seams and the rims of thin sheets. The attribute error follows Hoppe 1999.

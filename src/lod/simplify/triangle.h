@@ -76,7 +76,7 @@ void forEachTrianglePoint(int parts, const Visit& visit) {
         }
 }
 
-// Moves corners back to their original positions until no triangle is turned by more than 60°. In the worst case, all
+// Moves corners back to their original positions until no triangle is rotated by more than 60°. In the worst case, all
 // corners return. cornersOf(t), for t below `triangles`, returns the indices of triangle t's corners in both arrays.
 template <typename Points, typename CornersOf>
 void keepFacesUpright(Points& fitted, const Points& original, std::size_t triangles, const CornersOf& cornersOf) {

@@ -19,7 +19,7 @@ constexpr int columns = 32;
 constexpr int rows = 24;
 constexpr int depths = 9;
 
-// Returns the share of an object's depths whose CoC is at least `minCoc` px.
+// Returns the fraction of an object's depths whose CoC is at least `minCoc` px.
 double blurredShareOf(const ObjectPlan& object, const FramePlan& plan, double minCoc) {
     const double nearest = std::max(object.nearestDepth, plan.view.nearPlane);
     const double farthest = std::max(object.farthestDepth, nearest);

@@ -15,9 +15,10 @@ inline constexpr double minBlurOfCells = 8;  // px
 // Min fraction of the image with at least this CoC diameter.
 inline constexpr double minShareOfCells = 0.01;
 
-// Returns the share of the image, 0 … 1, in which the CoC diameter is at least `minCoc` px. The share is estimated from
-// the objects' bounding boxes on a grid of 32 × 24 image positions. At each position, the nearest box that covers it is
-// visible, or else the background. Surfaces are assumed at all depths of a box, evenly in the logarithm of depth.
+// Returns the fraction of the image, 0 … 1, in which the CoC diameter is at least `minCoc` px. The fraction is
+// estimated from the objects' bounding boxes on a grid of 32 × 24 image positions. At each position, the nearest box
+// that covers it is visible, or else the background. Surfaces are assumed at all depths of a box, evenly in the
+// logarithm of depth.
 double blurredShare(const FramePlan& plan, double minCoc);
 
 // Returns why method "auto" draws the plan by accumulation; empty if it uses lens cells.

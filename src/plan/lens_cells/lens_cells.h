@@ -2,12 +2,12 @@
 // Lens cells: regions of the lens that are each represented by one lens sample (method "multirate").
 //
 // N samples divide the lens into N cells that pass equal amounts of light. A cell's image is approximately the image
-// from the cell's middle, blurred slightly. The blur kernel is the lens's shape, √N times smaller. A sum of pinhole
-// images without that blur has ghost copies instead of a disk. Therefore each image is rendered from a cell's middle
+// from the cell's centre, blurred slightly. The blur kernel is the lens's shape, √N times smaller. A sum of pinhole
+// images without that blur has ghost copies instead of a disk. Therefore each image is rendered from a cell's centre
 // and blurred by a Gaussian of σ = blur·|c| px. c is the circle of confusion of the surface at the pixel. The image
 // resolution follows the blur (Soler, Subr, Durand, Holzschuch and Sillion 2009, Fourier Depth of Field).
 //
-// Variances of convolved kernels add. The middles therefore have the lens's mean, and the lens's covariance minus the
+// Variances of convolved kernels add. The centres therefore have the lens's mean, and the lens's covariance minus the
 // covariance of the blur. Blurred points keep their position and size for any N; plain sequence points would shift them
 // by their mean. σ falls as 1/√N, so the result converges to that of plain accumulation.
 //
@@ -37,7 +37,7 @@ struct LensCells {
     std::vector<glm::vec2> middles;  // centre of each cell, in the coordinates of LensSample::lens
     glm::dvec2 pixelShift{0};        // px, added to LensSample::pixel so that the mean offset is 0
     // Number of variance classes in front of and behind the focus plane. Both are 0 if the samples leave no visible
-    // gaps. Samples move to the middles of the cells even then, to avoid popping.
+    // gaps. Samples move to the cells' centres even then, to avoid popping.
     int inFront = 0;
     int behind = 0;
     std::string reason;  // reason why images are not blurred; empty if images are blurred
@@ -51,7 +51,7 @@ std::string reasonForNoCells(const FramePlan& plan);
 // each block. The blur of a block's cells depends on the number of all samples up to the end of the block.
 LensCells lensCells(const FramePlan& plan);
 
-// Moves each of the plan's samples to the middle of its cell, and its position in the pixel by LensCells::pixelShift.
+// Moves each of the plan's samples to the centre of its cell, and its position in the pixel by LensCells::pixelShift.
 // Does nothing if cells.blur is 0.
 void moveToCells(FramePlan& plan, const LensCells& cells);
 

@@ -77,7 +77,7 @@ void BlendSorter::findCandidates() {
     }
 }
 
-// Returns the parts of a candidate at its drawn levels; none if there are too many, or if the surface changes its
+// Returns the parts of a candidate at its drawn levels; empty if there are too many, or if the surface changes its
 // shape.
 std::vector<BlendNode> BlendSorter::partsOf(std::size_t candidate) const {
     const Candidate& from = candidates_[candidate];

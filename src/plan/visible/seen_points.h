@@ -17,7 +17,7 @@ struct SeenPoint {
 };
 
 // Casts rays through a coarse grid of pixels and returns points inside the bounding boxes along each ray. Rays that
-// meet no box are omitted. If all rays miss, the only entry has the middles of all boxes.
+// meet no box are omitted. If all rays miss, the result is one entry with the centres of all boxes.
 std::vector<std::vector<SeenPoint>> seenPoints(const FramePlan& plan);
 
 }  // namespace defocus::engine

@@ -25,7 +25,7 @@ constexpr double resolvedShare = 0.95;        // fraction of visible points wher
 constexpr double texelPixels = 2;             // px; lens samples shift the texels, so texels may be wider than pixels
 constexpr double minTexelLimit = 1 << 20;     // max texels of a map; for large images, twice the number of pixels
 constexpr double maxSampleTexels = 64 << 20;  // max texels of all maps of a lens sample: 256 MiB
-constexpr double minShare = 0.01;             // lights below this share of the visible illuminance cast no shadow
+constexpr double minShare = 0.01;             // lights below this fraction of the visible illuminance cast no shadow
 constexpr double widestTangent = 3;           // max tan of half a map's field of view
 constexpr double levelErrorTexels = 0.5;      // texels, max simplification error of a caster
 constexpr std::size_t maxBoxes = 64;          // with more casters, a single box bounds them all
@@ -101,7 +101,7 @@ bool oneMapShows(const PlacedLight& placed, const glm::dvec3& position, const st
 
 struct ShadowCandidate {
     int light = 0;
-    double share = 0;  // share of the visible illuminance
+    double share = 0;  // fraction of the visible illuminance
     int faces = 1;
 };
 

@@ -35,7 +35,7 @@ struct LensRange {
     glm::dvec3 eye{0};             // centre of the lens in the middle of this part of the exposure
     glm::dmat3 viewFromNormal{1};  // inverse transpose of the object's matrix
     double inverseSize = 0;        // Frobenius norm of the object's inverse matrix
-    double motion = 0;             // max distance of a lens point from its position in the middle
+    double motion = 0;             // max distance of a lens point from its position at the part's middle
 };
 
 // An object as seen by all samples of the frame.

@@ -51,7 +51,7 @@ private:
     int behind_;
     const CellPasses* passes_;
     GlTexture sums_;           // one layer per blur class, in the order given in shaders/include/cells.glsl
-    Target addingTargets_[2];  // each has one of the block's two sums, then the first layers of sums_
+    Target addingTargets_[2];  // attachments: one of the block's two sums, then layers of sums_
     GlTexture held_;           // per tile: bit mask of the blur classes in the tile
     GlTexture spread_;         // per tile: bit masks of the blur classes whose means are read and written in the tile
     Target spreadTarget_;

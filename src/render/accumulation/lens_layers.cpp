@@ -25,13 +25,25 @@ struct Slot {
     TextureFormat format;
 };
 
+struct ImageFormat {
+    GLenum format;
+    const char* qualifier;  // in shaders
+};
+
+ImageFormat imageFormat(TextureFormat format) {
+    if (format == TextureFormat::rg32f) return {GL_RG32F, "rg32f"};
+    return format == TextureFormat::rgba16f ? ImageFormat{GL_RGBA16F, "rgba16f"} : ImageFormat{GL_RGBA32F, "rgba32f"};
+}
+
 // Returns the colour attachments that the layers need, in order. The first colour attachment is the picture.
 std::vector<Slot> slotsOf(const std::vector<Layer>& layers, bool countsSamples) {
     std::vector<Slot> slots;
     const auto add = [&](bool wanted, const char* name, TextureFormat format) {
         if (wanted) slots.push_back({name, format});
     };
-    add(countsSamples || has(layers, Layer::depth) || has(layers, Layer::coc), "DEPTH_SLOT", TextureFormat::rgba32f);
+    const bool coc = has(layers, Layer::coc);
+    add(countsSamples || coc || has(layers, Layer::depth), "DEPTH_SLOT",
+        coc ? TextureFormat::rgba32f : TextureFormat::rg32f);
     add(has(layers, Layer::position), "POSITION_SLOT", TextureFormat::rgba32f);
     add(has(layers, Layer::normal), "NORMAL_SLOT", TextureFormat::rgba16f);
     add(has(layers, Layer::albedo), "ALBEDO_SLOT", TextureFormat::rgba16f);
@@ -77,7 +89,7 @@ Image mean(const Image& sum, const Image& samples, int first, int channels) {
     return result;
 }
 
-// Returns for each pixel the share of the samples that show any object or material.
+// Returns for each pixel the fraction of the samples that show any object or material.
 Image coverageOf(const NumberCounts& counts, const Image& samples) {
     Image coverage(counts.width, counts.height, 1);
     const auto entries = static_cast<std::size_t>(counts.entries);
@@ -119,6 +131,7 @@ ShaderDefines LensLayers::defines(const std::vector<Layer>& layers, bool countsS
     int attachment = 1;
     for (const Slot& slot : slotsOf(layers, countsSamples))
         defines.emplace_back(slot.name, std::to_string(attachment++));
+    if (has(layers, Layer::coc)) defines.emplace_back("DRAWS_COC", "");
     return defines;
 }
 
@@ -182,24 +195,25 @@ LensLayers::LensLayers(const std::vector<Layer>& layers, bool countsSamples, con
     sums_ = Target({&unused_});
 }
 
-const Program& LensLayers::program(const char* fragment, const FrameUniforms& frame, bool keepsNearest) {
-    ShaderDefines defines = frame.defines();
-    if (keepsNearest) defines.emplace_back("keepsNearest", "true");
-    defines.emplace_back("tableEntries", std::to_string(tableEntries));
+const Program& LensLayers::program(const char* fragment, ShaderDefines defines) {
     const auto [entry, isNew] = programs_.try_emplace(fragment + keyOf(defines));
-    if (isNew) entry->second = Program({{fullscreenShader, fragment}, defines, shaderFolder_});
+    if (isNew) entry->second = Program({{fullscreenShader, fragment}, std::move(defines), shaderFolder_});
     return entry->second;
 }
 
 void LensLayers::addSlot(const std::string& slot, const GlTexture& layers, const FrameUniforms& frame,
                          std::uint32_t first, std::uint32_t count) {
-    const Program& sum = program("accumulation/sum_layer.frag", frame, slot == depthSlot);
+    const ImageFormat format = imageFormat(layers.info().format);
+    ShaderDefines defines = frame.defines();
+    defines.emplace_back("waveSamples", std::to_string(count));
+    defines.emplace_back("LAYER_FORMAT", format.qualifier);
+    if (slot == depthSlot) defines.emplace_back("keepsNearest", "true");
+    const Program& sum = program("accumulation/sum_layer.frag", std::move(defines));
     SlotSum& sums = slots_.at(slot);
     sums.timer.begin();
-    layers.attach(0);
     glBindImageTexture(0, sums.sum.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
     glBindImageTexture(1, sums.compensation.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
-    glProgramUniform1i(sum.name(), 0, static_cast<GLint>(count));
+    glBindImageTexture(2, layers.name(), 0, GL_TRUE, 0, GL_READ_ONLY, format.format);
     glProgramUniform1i(sum.name(), 1, static_cast<GLint>(samples_ % blockSamples));
     glProgramUniform1i(sum.name(), 3, samples_ == 0 ? 1 : 0);
     frame.bind(first);
@@ -209,7 +223,9 @@ void LensLayers::addSlot(const std::string& slot, const GlTexture& layers, const
 
 void LensLayers::addNumbers(Layer layer, const GlTexture& numbers, const FrameUniforms& frame, std::uint32_t first,
                             std::uint32_t count) {
-    const Program& counts = program("accumulation/count_numbers.frag", frame, false);
+    ShaderDefines defines = frame.defines();
+    defines.emplace_back("tableEntries", std::to_string(tableEntries));
+    const Program& counts = program("accumulation/count_numbers.frag", std::move(defines));
     Table& table = tables_.at(layer);
     table.timer.begin();
     numbers.attach(0);
@@ -237,28 +253,28 @@ void LensLayers::add(const WaveDataLayers& wave, const FrameUniforms& frame, std
 LayerImages LensLayers::images(const glm::dvec3& camera) const {
     LayerImages result;
     std::map<std::string, Image> sums;
-    for (const auto& [slot, sum] : slots_)
-        if (slot != depthSlot) sums[slot] = total(sum.sum, sum.compensation);
-
-    // In the depth layer, the third component is the nearest depth, and its compensation is the number of samples
-    // (sum_layer.frag).
+    // Channels of the depth layer's sum: depth, coverage, CoC, nearest depth. The last channel of its compensation is
+    // the number of samples (sum_layer.frag).
     result.samples = Image(size_.x, size_.y, 1);
     std::ranges::fill(result.samples.pixels, static_cast<float>(samples_));
+    for (const auto& [slot, sum] : slots_)
+        if (slot != depthSlot) sums[slot] = total(sum.sum, sum.compensation);
+    int coverageChannel = 3;
     if (const auto depth = slots_.find(depthSlot); depth != slots_.end()) {
         const Image sum = readBack(depth->second.sum, 4);
         const Image lost = readBack(depth->second.compensation, 4);
-        result.samples = channelOf(lost, 2);
         Image& whole = sums[depthSlot] = sum;
-        for (std::size_t i = 0; i < whole.pixels.size(); ++i)
-            if (i % 4 != 2) whole.pixels[i] += lost.pixels[i];
-        if (has(layers_, Layer::depth)) result.nearestDepth = channelOf(sum, 2);
+        for (std::size_t i = 0; i < whole.pixels.size(); ++i) whole.pixels[i] += lost.pixels[i];
+        result.samples = channelOf(lost, 3);
+        if (has(layers_, Layer::depth)) result.nearestDepth = channelOf(sum, 3);
+        if (sums.size() == 1) coverageChannel = 1;
     }
-    if (!sums.empty()) result.coverage = mean(sums.begin()->second, result.samples, 3, 1);
+    if (!sums.empty()) result.coverage = mean(sums.begin()->second, result.samples, coverageChannel, 1);
     const auto take = [&](Layer layer, const char* slot, int first, int channels) {
         if (has(layers_, layer)) result.means[layer] = mean(sums.at(slot), result.samples, first, channels);
     };
     take(Layer::depth, depthSlot, 0, 1);
-    take(Layer::coc, depthSlot, 1, 1);
+    take(Layer::coc, depthSlot, 2, 1);
     take(Layer::position, "POSITION_SLOT", 0, 3);
     take(Layer::normal, "NORMAL_SLOT", 0, 3);
     take(Layer::albedo, "ALBEDO_SLOT", 0, 3);

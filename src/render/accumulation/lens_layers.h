@@ -74,7 +74,7 @@ private:
         GpuTimer timer;
     };
 
-    const Program& program(const char* fragment, const FrameUniforms& frame, bool keepsNearest);
+    const Program& program(const char* fragment, ShaderDefines defines);
     void addSlot(const std::string& slot, const GlTexture& layers, const FrameUniforms& frame, std::uint32_t first,
                  std::uint32_t count);
     void addNumbers(Layer layer, const GlTexture& numbers, const FrameUniforms& frame, std::uint32_t first,

@@ -59,7 +59,10 @@ void WaveDrawer::makePasses(const WaveFrame& frame) {
     if (!layers.empty()) {
         pass.fragmentShader = "accumulation/layers.frag";
         for (const auto& define : LensLayers::defines(layers, frame.countsSamples)) pass.defines.push_back(define);
-        pass.readsOwnBlur = pass.writesLayers = true;
+        const bool drawsCoc = std::ranges::find(layers, Layer::coc) != layers.end();
+        pass.readsOwnBlur = drawsCoc;
+        pass.readsPosition = drawsCoc || std::ranges::find(layers, Layer::position) != layers.end();
+        pass.writesLayers = true;
         pass.writesNumbers = LensLayers::countNumbers(layers);
     }
     shadows_.emplace(*scene_, pacer_, pass.vertexShaderLayers, pass.shaderFolder);

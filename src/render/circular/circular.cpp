@@ -319,7 +319,7 @@ std::vector<MethodSetting> circularSettings() {
          .choices = {"constant", "luminance"}},
         {.name = "convolution",
          .defaultValue = "separable",
-         .description = "separable: two passes, fast. direct: one two-dimensional pass, slow, to check the first",
+         .description = "separable: two fast passes. direct: one slow, two-dimensional pass, for tests of separable",
          .choices = {"separable", "direct"}},
         transparencyBucketsSetting("1"),
         pinholesSetting(),

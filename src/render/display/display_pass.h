@@ -45,7 +45,7 @@ struct DisplayInputs {
     const GlTexture* coc = nullptr;  // `coc`, `level` and `wireframe` are from AovPass
     const GlTexture* level = nullptr;
     const GlTexture* wireframe = nullptr;
-    const GlTexture* work = nullptr;  // from WorkPass
+    const GlTexture* work = nullptr;  // result of WorkPass
     std::uint32_t workSamples = 1;    // lens samples in `work`
 };
 

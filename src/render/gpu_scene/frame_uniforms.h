@@ -17,7 +17,7 @@ inline constexpr std::uint32_t blockSamples = 64;  // lens samples per block of 
 // Lens sample as per-instance vertex attributes.
 struct GpuSample {
     glm::vec4 lensAndJitter;  // xy: lens point (u, k·v), k = image width / height; zw: subpixel jitter (NDC)
-    glm::vec4 eyeAndSample;   // xy: lens point in m; z: number in the frame; w: layer
+    glm::vec4 eyeAndSample;   // xy: lens point in m; z: index in the frame; w: layer
 };
 
 class FrameUniforms {

@@ -194,7 +194,7 @@ const Program& SurfacePass::program(const Draw& draw) {
         if (condition) defines.emplace_back(name, "true");
     };
     const bool receivesShadows = shadows_ != nullptr && shaded() && !material.unlit;
-    if (receivesShadows || info_.writesLayers) defines.emplace_back("PLACED", "");
+    if (receivesShadows || info_.readsPosition) defines.emplace_back("PLACED", "");
     const bool colored = mesh.has(colorLocation);
     set(colored && shaded() && draw.level == 0, "colorRanges");
     set(colored && shaded() && draw.level > 0, "levelColorRange");
@@ -270,7 +270,7 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
         bound_.sample = sample;
     }
     objectBlocks_.bind(1, item.object);
-    if (info_.writesNumbers) {  // the default material, −1, has the last number
+    if (info_.writesNumbers) {  // the default material, −1, follows all others
         const auto last = static_cast<int>(scene_->world().scene->materials.size());
         glUniform1f(materialNumberLocation, static_cast<float>((item.material >= 0 ? item.material : last) + 1));
     }

@@ -25,9 +25,10 @@ struct SurfacePassInfo {
     SurfaceLook look = SurfaceLook::seenThrough;
     bool stochasticAlpha = false;    // draws BlendRun::stochastic; false: all blended surfaces are sorted
     bool readsOwnBlur = false;       // the fragment shader reads the blur modifiers of surfaces
+    bool readsPosition = false;      // the fragment shader reads the positions of surfaces even without shadows
     bool vertexShaderLayers = true;  // false: geometry shaders select the layer
     bool writesLayers = false;       // the fragment shader is accumulation/layers.frag
-    bool writesNumbers = false;      // the fragment shader reads the number of the material
+    bool writesNumbers = false;      // the fragment shader reads the material's index
     std::filesystem::path shaderFolder;
 };
 

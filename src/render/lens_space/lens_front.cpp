@@ -19,7 +19,7 @@ constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // size in shaders/
 constexpr std::size_t attributeBytes = 20 * sizeof(float);   // size in shaders/lens_space/attributes.vert
 
 // Returns the end of the range of rays for which a level of an object is drawn. If two levels share a boundary sample,
-// the level with the larger share gets the sample's ray.
+// the level with more of the sample's pixels gets its ray.
 std::uint32_t endOf(const ObjectPlan& object, const LevelDraw& level, bool coarse) {
     const std::uint32_t end = level.firstSample + level.sampleCount;
     const bool shared = boundarySample(object).has_value();

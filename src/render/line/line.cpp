@@ -319,12 +319,12 @@ Method lineMethod() {
          .max = 64},
         {.name = "interval-bits",
          .defaultValue = "64",
-         .description = "Bits in which --resolve published stores the two ends of a segment together; 16 in the paper",
+         .description = "Bits per segment, for both of its ends, in the buffer of --resolve published; 16 in the paper",
          .choices = {"64", "16"},
          .onlyWith = "resolve=published"},
         {.name = "line-weights",
          .defaultValue = "area",
-         .description = "Weights of the parts of a line: the lens area that they stand for (κ in the paper), or their "
+         .description = "Weights of the parts of a line: the lens area that they represent (κ in the paper), or their "
                         "length, which makes the middle of bokeh too bright",
          .choices = {"area", "length"}},
         {.name = "lines-per-position",

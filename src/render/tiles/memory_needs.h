@@ -16,7 +16,7 @@ struct DrawLimits {
     std::optional<std::uint64_t> memory;  // max bytes of the process; nullopt: 3/4 of the free memory
     std::uint32_t wave = 0;               // lens samples per wave K; 0: as many as fit into memory
     LayerFormat layerFormat = LayerFormat::automatic;
-    std::optional<std::uint32_t> threads;  // threads that draw; see wantedThreads()
+    std::optional<std::uint32_t> threads = {};  // threads that draw; see wantedThreads()
 };
 
 // Returns the max bytes of the process: limits.memory, or its present memory plus 3/4 of the free memory.

@@ -81,7 +81,7 @@ RowFileHeader readRowHeader(const fs::path& path) {
 
 ImageRowWriter rowFileWriter(const fs::path& path, const RowFileHeader& header, int channels) {
     Metadata metadata = header.metadata;
-    metadata.erase("defocus:seconds");    // not reproducible
+    metadata.erase("defocus:seconds");    // render time differs between runs
     metadata["capDate"] = std::string();  // empty, because OpenImageIO would otherwise write the current time
     metadata[settingsAttribute] = header.settings;
     metadata[tileAttribute] = header.share.empty() ? byMemory : header.share;

@@ -226,7 +226,7 @@ private:
     PrimPath path_;
     std::string where_;
     Stage stage_;
-    std::optional<double> tenthMillimetres_;  // mm per unit of lens lengths; none: a tenth of the layer's unit
+    std::optional<double> tenthMillimetres_;  // mm per unit of lens lengths; nullopt: a tenth of the layer's unit
 };
 
 }  // namespace

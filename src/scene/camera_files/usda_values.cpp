@@ -34,7 +34,8 @@ std::vector<double> numbersAt(const UsdAttribute& attribute, double timeCode, bo
     return mixed;
 }
 
-// Returns the matrix of Euler angles in degrees. `order` names the axes, the first of which turns first.
+// Returns the matrix of Euler angles in degrees. `order` names the axes; the rotation about the first axis is applied
+// first.
 glm::dmat4 eulerMatrix(std::string_view order, const std::vector<double>& degrees) {
     glm::dmat4 result(1.0);
     for (const char axis : order) {

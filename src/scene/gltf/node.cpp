@@ -246,8 +246,8 @@ bool isFromBlender(const Source& source) {
            generator->get<std::string>().starts_with("Khronos glTF Blender I/O");
 }
 
-// Converts the blade rotation from Blender's convention. At rotation 0, the aperture's rightmost point is the middle of
-// an edge in Blender, but a corner here.
+// Converts the blade rotation from Blender's convention. At rotation 0, the aperture's rightmost point is the midpoint
+// of an edge in Blender, but a corner here.
 void turnBlades(Camera& camera) {
     const double count = camera.lensValue("bladeCount").value_or(0);
     if (count >= 3) camera.lens["bladeRotation"] += 180 / count;

@@ -45,7 +45,7 @@ private:
 
 struct Source {
     Document document;
-    tinygltf::Model model;                                             // from readStructure
+    tinygltf::Model model;                                             // result of readStructure
     std::vector<std::optional<std::vector<std::byte>>> buffers;        // nullopt: fallback buffer without data
     std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // decompressed; EXT_meshopt_compression only
     UnpackBudget budget;

@@ -57,7 +57,7 @@ std::vector<std::byte> encodedImage(const Source& source, const nlohmann::json& 
 struct ReadImage {
     TextureImage image;
     std::string name;
-    std::string label;  // for messages
+    std::string label;  // name of the image in messages
     std::string fault;  // why the image cannot be used
 };
 

@@ -26,7 +26,7 @@ constexpr std::uint32_t minStillSamples = 4;  // samples of the first picture th
 constexpr double comparedShares[] = {0.25, 0.5, 0.75};  // fractions of the movement at which frames are compared
 
 struct ShownFrame {
-    std::uint32_t frame = 0;  // number of the frame in the movement
+    std::uint32_t frame = 0;  // index of the frame in the movement
     View view;
     Image image;  // as drawn, possibly smaller than the view
 };

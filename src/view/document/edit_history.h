@@ -22,11 +22,11 @@ public:
     // becomes false). Edits by mouse wheel or keys become an undo step after half a second without change.
     void note(const ViewEdit& now, bool held, double seconds);
 
-    // Return the state before the latest edit (undo) or after the next one (redo); none if there is no such step.
+    // Return the state before the latest edit (undo) or after the next one (redo); nullopt if there is no such step.
     std::optional<ViewEdit> undo(const ViewEdit& now);
     std::optional<ViewEdit> redo(const ViewEdit& now);
-    // Returns the state in which the scene was opened, as an edit that can be undone. Returns none if `now` equals this
-    // state.
+    // Returns the state in which the scene was opened, as an edit that can be undone. Returns nullopt if `now` equals
+    // this state.
     std::optional<ViewEdit> reset(const ViewEdit& now);
 
     [[nodiscard]] std::size_t undoSteps() const { return before_.size() + (pending_ ? 1 : 0); }

@@ -63,7 +63,7 @@ json viewJson(const SavedView& view) {
             {"lens", lens}};
 }
 
-// Parses a saved view. Returns none for an invalid camera or lens.
+// Parses a saved view. Returns nullopt for an invalid camera or lens.
 std::optional<SavedView> viewOf(const json& object) try {
     SavedView view;
     view.name = object.at("name").get<std::string>();

@@ -15,7 +15,7 @@ struct ViewSettings {
     bool dark = true;
     bool panel = true;
     double interfaceScale = 1;                 // factor, 0.5 … 3
-    std::optional<double> budgetMilliseconds;  // ms per frame; none: depends on the driver
+    std::optional<double> budgetMilliseconds;  // ms per frame; nullopt: depends on the driver
     int width = 0;                             // size in window units; 0: not stored
     int height = 0;
 };
@@ -36,7 +36,7 @@ void writeSavedViews(const std::filesystem::path& file, const std::string& key, 
 
 inline constexpr std::size_t maxRecentFiles = 12;
 
-// Returns the recent scenes that exist, latest first; none if the list can't be read.
+// Returns the recent scenes that exist, latest first; empty if the list can't be read.
 std::vector<std::filesystem::path> readRecentFiles(const std::filesystem::path& list);
 
 // Moves or adds a scene to the front of the list. Throws Error if the list can't be written.

@@ -30,7 +30,7 @@ public:
 
     // Starts to open a scene. Cancels jobs that have not delivered a draft yet.
     void open(const Request& options);
-    // Returns the next result: a draft, the final scene, or a failure. Returns each result once; none if there is no
+    // Returns the next result: a draft, the final scene, or a failure. Returns each result once; nullopt if there is no
     // new result.
     std::optional<LoadedScene> take();
 
@@ -40,7 +40,7 @@ public:
         std::string stage;  // such as "fish" or "pyramids"
         double share = 0;   // finished fraction of the stage, 0 … 1
     };
-    // Returns the progress of the current job; none if the loader is idle.
+    // Returns the progress of the current job; nullopt if the loader is idle.
     [[nodiscard]] std::optional<Opening> opening() const;
 
 private:

@@ -17,7 +17,7 @@ ImU32 faded(ImU32 color, float alpha) {
     return (color & ~IM_COL32_A_MASK) | static_cast<ImU32>(own * alpha) << IM_COL32_A_SHIFT;
 }
 
-// Returns the window position of a world-space point; none for a point behind the camera.
+// Returns the window position of a world-space point; nullopt for a point behind the camera.
 std::optional<ImVec2> onPicture(const Ui& ui, const glm::dvec3& point) {
     const ViewState& state = ui.state;
     const glm::dvec3 p = glm::inverse(state.camera.worldFromCamera) * glm::dvec4(point, 1);

@@ -43,7 +43,7 @@ void overlayPanel(const Ui& ui) {
     textRow("Objects drawn", fmt::format("{} of {}", plan.objects.size(), ui.pose().objects.size()));
     textRow("Triangles",
             fmt::format("{}, {:.0f} %", shortCount(drawn / samples), fullDetail > 0 ? 100 * drawn / fullDetail : 100),
-            "Triangles drawn per lens sample, and their share of full detail");
+            "Triangles drawn per lens sample, and as a fraction of full detail");
     if (!ImGui::TreeNode("left out", "Left out (%d)", static_cast<int>(plan.leftOut.size()))) return;
     for (const LeftOut& entry : plan.leftOut) ImGui::TextWrapped("%s: %s", entry.what.c_str(), entry.reason.c_str());
     ImGui::TreePop();

@@ -23,7 +23,7 @@ public:
         std::filesystem::path chosen;  // empty: cancelled
         bool failed = false;           // the program failed to show a dialog
     };
-    // Returns the outcome once the dialog is closed; none while it is open.
+    // Returns the outcome once the dialog is closed; nullopt while it is open.
     std::optional<Outcome> take();
 
 private:

@@ -7,7 +7,7 @@
 namespace defocus::engine {
 
 struct LivePicture {
-    std::optional<ViewPicture> image;   // none: no scene is open
+    std::optional<ViewPicture> image;   // nullopt: no scene is open
     std::uint64_t worldVersion = 0;     // Document::worldVersion for which `image` was created
     std::vector<std::string> warnings;  // warnings about the picture; empty while the view moves
 

@@ -35,7 +35,7 @@ ViewCamera zoomed(const ViewCamera& camera, double factor);
 // Moves the camera and its pivot, in metres: right, along world up, and ahead.
 ViewCamera flown(const ViewCamera& camera, const glm::dvec3& rightUpAhead);
 
-// Moves the camera, without turning it, so that the bounding sphere of `bounds` fills the image; the sphere's centre
+// Moves the camera, without rotating it, so that the bounding sphere of `bounds` fills the image; the sphere's centre
 // becomes the pivot. Returns the camera unchanged for empty bounds.
 ViewCamera framed(const ViewCamera& camera, const Bounds& bounds, double tanHalfHorizontal, double tanHalfVertical);
 

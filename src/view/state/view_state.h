@@ -33,7 +33,7 @@ struct PickedSurface {
     glm::dvec3 point{0.0};  // in world space
 };
 
-// Returns the surface under a window position; none if the picture shows no surface there.
+// Returns the surface under a window position; nullopt if the picture shows no surface there.
 std::optional<PickedSurface> pickedSurface(const PreparedFrame& frame, const ViewCamera& camera, const Lens& lens,
                                            const PictureArea& area, const glm::dvec2& position);
 
@@ -101,7 +101,7 @@ struct SceneState {
     std::optional<FocusPull> pull;
     FocusMarker marker;
     std::vector<glm::dvec3> focusPoints;  // points in world space; three points determine the plane of focus
-    std::optional<double> poppingSince;   // start of the popping test, s; none: not running
+    std::optional<double> poppingSince;   // start of the popping test, s; nullopt: not running
     std::vector<ShotKey> shotKeys;
     std::vector<SavedView> savedViews;
 };
@@ -138,7 +138,7 @@ struct ViewState : ViewEdit, SceneState {
     std::string openPath, viewName, environmentPath, aperturePath;
     bool environmentIsFile = false;  // whether the field for an environment file is shown
     std::string exportPath = "still.png";
-    std::optional<glm::ivec2> exportSize;  // size of a still, px; none: pictureSize
+    std::optional<glm::ivec2> exportSize;  // size of a still, px; nullopt: pictureSize
     std::optional<ExportDialog> exportDialog;
     std::string shotPath = "shot.json";
 };

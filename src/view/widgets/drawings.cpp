@@ -54,8 +54,11 @@ float stopPosition(double fStop) {
 // standard stop.
 void turnRing(double& fStop, float centre, float spacing) {
     ImGui::SetItemUsingMouseWheel();  // keep the panel from scrolling
-    if (const float wheel = ImGui::GetIO().MouseWheel; ImGui::IsItemHovered() && wheel != 0)
-        fStop = steppedStop(fStop, wheel > 0 ? -1 : 1);
+    static float rolled = 0;  // notches of the wheel; touchpads send fractions, and slow frames receive several
+    rolled = ImGui::IsItemHovered() ? rolled + ImGui::GetIO().MouseWheel : 0;
+    const int notches = static_cast<int>(rolled);
+    if (notches != 0) fStop = steppedStop(fStop, -notches);
+    rolled -= static_cast<float>(notches);
     static float dragged = 0;  // px
     static bool turned = false;
     if (ImGui::IsItemActivated()) {

@@ -26,7 +26,7 @@ std::string numberFormat(const Setting& setting, double value) {
     return setting.unit.empty() ? digits : digits + " " + setting.unit;
 }
 
-// Each function below draws a widget and returns the edited text; none if the user didn't edit it.
+// Each function below draws a widget and returns the edited text; nullopt if the user didn't edit it.
 
 std::optional<std::string> numberText(const Setting& setting, const std::string& text) {
     double value = parseNumber(text, {setting.min, setting.max});

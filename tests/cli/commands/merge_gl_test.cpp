@@ -63,7 +63,7 @@ TEST_F(Merge, partsOfACaptureGiveItsFilesByteForByte) {
 }
 
 // Merged parts of a frame with motion blur equal a single run, since the time of a sample does not depend on the part
-// that contains it. The camera turns while the shutter is open.
+// that contains it. The camera rotates while the shutter is open.
 TEST_F(Merge, partsOfAFrameWithMotionBlurGiveItsFileByteForByte) {
     nlohmann::json document = shot();
     document["samples"] = 150;

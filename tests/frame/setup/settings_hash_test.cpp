@@ -1,4 +1,5 @@
-// Tests that the hash that identifies finished frames changes exactly with the settings that change the image.
+// Tests that the hash that identifies finished frames changes with every setting that changes the image, and with no
+// other setting.
 
 #include "frame/setup/settings_hash.h"
 

@@ -115,7 +115,7 @@ std::vector<glm::vec3> rectangle(const glm::vec2& low, const glm::vec2& high) {
     return {a, b, c, a, c, d};
 }
 
-// A level lacks strips of width w and length l beside a plate. Without blur, the error is the share of the area that
+// A level lacks strips of width w and length l beside a plate. Without blur, the error is the fraction of the area that
 // the strips cover. Patches of side s that are wider than a strip spread its light, so the sum of squares is (w/s)² · l
 // · s. Foreshortening in each view direction changes w and l. The strips are thinner than a pixel of the images from
 // which errors are measured.
@@ -151,7 +151,7 @@ TEST(BlurredError, lostWiresCountByTheirWidthUnderThePixel) {
     }
 }
 
-// If a disk of 60 corners becomes a hexagon, the squared error is the share of the area that it loses.
+// If a disk of 60 corners becomes a hexagon, the squared error is the fraction of the area that it loses.
 TEST(BlurredError, aCoarseOutlineCountsByItsArea) {
     std::vector<glm::vec3> hexagon, rest;
     const auto corner = [](int i) {

@@ -182,8 +182,8 @@ TEST(SplitSamples, SharesSumToAllAndFollowTheFractionByOneSampleAtATime) {
     }
 }
 
-// For every λ, the number of coarse samples plus the split sample's coarse share is f·N. N is the number of samples,
-// and f the fractional part of λ.
+// For every λ, the number of coarse samples plus the split sample's fraction of coarse pixels is f·N. N is the number
+// of samples, and f the fractional part of λ.
 TEST(SplitSamples, ContinuousSharesAreExactlyTheFraction) {
     for (const std::uint32_t count : {1u, 7u, 64u, 1000u}) {
         for (double lambda = 0; lambda < 5; lambda += 0.00731) {

@@ -186,8 +186,7 @@ TEST(Pyramid, FlatSquareGetsEvenTriangles) {
 }
 
 TEST(Pyramid, StoredErrorOfASphereCoversTheDistanceOfItsFaces) {
-    // A fitted face intersects the unit sphere: a corner p lies | |p| − 1 | outside, and the middle of the face lies
-    // inside.
+    // A fitted face intersects the unit sphere: a corner p lies | |p| − 1 | outside, and the face's centre lies inside.
     const Pyramid pyramid = buildPyramid(sphere(128, 64));
     for (std::size_t l = 3; l < pyramid.levels.size(); ++l) {
         std::vector<double> distances;

@@ -55,8 +55,8 @@ TEST(SurfaceDistance, SquareBesideASquareOfTwiceItsWidth) {
 }
 
 TEST(SurfaceDistance, CylinderAgainstItsInscribedPrism) {
-    // A side of an n-gon in the unit circle lies cos(π/n) from the centre. At s from the side's middle, the circle is 1
-    // − √(cos²(π/n) + s²) away. The max distance is the sagitta 1 − cos(π/n), and the mean is two thirds of the
+    // A side of an n-gon in the unit circle lies cos(π/n) from the centre. At s from the side's midpoint, the circle is
+    // 1 − √(cos²(π/n) + s²) away. The max distance is the sagitta 1 − cos(π/n), and the mean is two thirds of the
     // sagitta, to second order.
     const auto cylinder = [](std::uint32_t columns) {
         return surfaceOf(parametricSurface(columns, 4, [=](std::uint32_t i, std::uint32_t j) {

@@ -93,7 +93,7 @@ std::vector<int> orderOf(const SmallWorld& small) {
     return order;
 }
 
-// Two parallel panes, turned by 80°, whose depths overlap. Pane 0 reaches nearer to the camera, but is behind pane 1.
+// Two parallel panes, rotated by 80°, whose depths overlap. Pane 0 reaches nearer to the camera, but is behind pane 1.
 TEST(BlendOrder, overlappingDepthsAreSortedByPlanes) {
     const auto small = panes({turnedPane(-0.2, -10, 80), turnedPane(0.1, -10.1, 80)});
     EXPECT_EQ(orderOf(*small), (std::vector<int>{0, 1}));

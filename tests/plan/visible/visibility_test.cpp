@@ -359,7 +359,7 @@ TEST(Visibility, aSkinnedSpheresFarSideIsLeftOut) {
     const FramePlan found = planFrame(skinned->world, skinned->view, settingsFor(16));
     EXPECT_GT(share(found.trianglesFacingAway, found), 0.35);
     EXPECT_NEAR(share(found.trianglesFacingAway, found), share(expected.trianglesFacingAway, expected), 0.08);
-    // A cluster on a turning joint must face away during the entire exposure.
+    // A cluster on a rotating joint must face away during the entire exposure.
     skinned->world.shutter.poses.assign(2, skinned->world.pose);
     skinned->world.shutter.poses[1].objects[0].worldFromJoint = {glm::rotate(at(0, -4), 0.2, glm::dvec3(0, 1, 0))};
     const FramePlan turning = planFrame(skinned->world, skinned->view, settingsFor(16));

@@ -259,7 +259,7 @@ TEST_F(Accumulation, infiniteLightIsDrawn) {
     for (const float value : image.pixels) EXPECT_TRUE(std::isfinite(value));
 }
 
-// The image stays the same when camera, objects and lights move together and turn about the vertical axis, although
+// The image stays the same when camera, objects and lights move together and rotate about the vertical axis, although
 // shading uses world coordinates.
 TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
     const auto small = fiveSpheres();

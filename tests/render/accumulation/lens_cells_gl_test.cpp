@@ -18,7 +18,7 @@
 namespace defocus::engine {
 namespace {
 
-// A frame that is drawn in blocks of samples equals a frame drawn at once, even if images are read within a block.
+// A frame that is drawn in blocks of samples equals a frame drawn as one block, even if images are read within a block.
 TEST_F(LensCellImages, blocksAreThoseOfTheWholeFrame) {
     const auto small = blurredSpheres();
     const FramePlan plan = planFrame(small->world, small->view, ratedSettings(192, LodMode::fractional));

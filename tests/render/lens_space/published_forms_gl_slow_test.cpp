@@ -124,7 +124,7 @@ std::unique_ptr<SmallWorld> brightSpot() {
     return small;
 }
 
-// Returns the mean light near the middle of the disk over the mean light outside it.
+// Returns the mean radiance near the disk's centre, divided by the mean radiance farther out.
 double middleOverRim(const Image& image) {
     double sums[2] = {0, 0};
     double counts[2] = {0, 0};
@@ -150,8 +150,8 @@ double middleOverRim(const Image& image) {
     return sums[0] / counts[0] / (sums[1] / counts[1]);
 }
 
-// Figure 4 of Tzeng et al. 2012: with the factor κ, a blurred point is a uniform disk; without it, its middle is
-// bright.
+// Figure 4 of Tzeng et al. 2012: with the factor κ, a blurred point is a uniform disk; without κ, the disk's centre is
+// brighter.
 TEST_F(LensSpaceAlone, kappaMakesDisksUniform) {
     const auto small = brightSpot();
     EXPECT_NEAR(middleOverRim(lensSpaceImage("line", *small, 64)), 1, 0.15);

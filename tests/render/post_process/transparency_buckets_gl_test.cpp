@@ -61,7 +61,7 @@ Image laidOver(const Image& a, const glm::vec3& b, const std::function<double(in
     return result;
 }
 
-// Returns the share of a unit disk that lies left of x = t.
+// Returns the fraction of a unit disk that lies left of x = t.
 double shareOfDisk(double t) {
     t = std::clamp(t, -1.0, 1.0);
     return 0.5 + (std::asin(t) + t * std::sqrt(1 - t * t)) / std::numbers::pi;

@@ -1,5 +1,5 @@
-// Tests of the error estimate against known errors: closed forms, and half planes seen through a lens. A half plane's
-// share of the lens is the area of a segment of the disk.
+// Tests of the error estimate against known errors: closed forms, and half planes seen through a lens. The fraction of
+// the lens that sees a half plane is the area of a segment of the disk.
 
 #include "render/sampling/error_estimate.h"
 

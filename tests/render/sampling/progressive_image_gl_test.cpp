@@ -1,4 +1,4 @@
-// Tests that an image that is drawn block by block equals an image drawn at once, also in the viewer.
+// Tests that an image that is drawn block by block equals an image drawn as one block, also in the viewer.
 
 #include <gtest/gtest.h>
 

@@ -63,9 +63,9 @@ Image bokehOf(const View& view, double depth,
     return rendered(world, view, method);
 }
 
-// A blurred light has the shape of the aperture, upright behind the focus and turned by 180° in front of it. The 64
-// taps are dots of a few pixels, so much light lies outside a smooth shape. The share outside the expected shape is far
-// below the share outside the opposite shape.
+// A blurred light has the shape of the aperture, upright behind the focus and rotated by 180° in front of it. The 64
+// taps are dots of a few pixels, so much light lies outside a smooth shape. Far less light lies outside the expected
+// shape than outside the opposite shape.
 TEST_F(ScheuermannImage, showsTheShapeOfTheApertureUprightBehindTheFocusAndTurnedInFrontOfIt) {
     std::vector<std::pair<std::string, Lens>> lenses;
     const View view = bokehView(192, 144);
@@ -98,7 +98,7 @@ TEST_F(ScheuermannImage, ofARingIsDarkInTheMiddle) {
 }
 
 // With 8-bit encoded colours, an object in focus is the pinhole image, clamped at white and rounded. The middle of the
-// blur's range is not exactly a byte value, so the image contains a small share of the pre-blurred image.
+// blur's range is not exactly a byte value, so the image contains a small fraction of the pre-blurred image.
 TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;

@@ -86,12 +86,12 @@ TEST(UsdCamera, followsTimeSamplesInZUpLayers) {
 
 TEST(UsdCamera, passesOverEverythingElse) {
     const CameraTrack track = camera(usda_samples::everything, "/Stage/cam");
-    const TrackedCamera tracked = track.at(0.5);  // time code 12.5: half of the turn about y
+    const TrackedCamera tracked = track.at(0.5);  // time code 12.5: half of the rotation about y
     EXPECT_EQ(tracked.camera.lensValue("bladeCount"), 7);
     EXPECT_EQ(tracked.camera.lensValue("dofEnabled"), 0) << "USD's fStop defaults to 0";
     EXPECT_LT(glm::distance(glm::dvec3(tracked.worldFromCamera[3]), 0.01 * glm::dvec3(5, 6, 7)), 1e-12)
         << "the default unit is 1 cm";
-    // A uniform scale commutes with the turn by 90°, which its inverse undoes.
+    // A uniform scale commutes with the rotation by 90°, which the inverse rotation cancels.
     EXPECT_LT(glm::distance(glm::normalize(glm::dvec3(tracked.worldFromCamera[2])), glm::dvec3(1, 0, 0)), 1e-12);
     std::string warnings;
     for (const std::string& line : track.warnings) warnings += line + "\n";

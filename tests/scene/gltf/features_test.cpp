@@ -558,7 +558,7 @@ TEST(GltfScene, customPropertiesOfACamerasNodeAreLensValuesToo) {
 }
 
 // Blade rotation in a file from Blender is converted. At the same rotation angle, Cycles' aperture polygon has the
-// middle of an edge where this project's polygon has a corner. The difference is half the angle between two corners.
+// midpoint of an edge where this project's polygon has a corner. The difference is half the angle between two corners.
 TEST(GltfScene, bladesOfAFileFromBlenderStandAsInBlender) {
     GltfBuilder builder;
     const auto camera = [](const nlohmann::json& extras) -> nlohmann::json {

@@ -80,7 +80,7 @@ TEST(ViewShot, clipTimeSpeedAndShutterAreSaid) {
     EXPECT_EQ(shot.request.shutter, options.shutter);
 }
 
-// The roll angle is continuous over key frames: a camera that rolls past upside down does not turn back.
+// The roll angle is continuous over key frames: a camera that rolls past 180° does not spin back.
 TEST(ViewShot, rollGoesTheShortWay) {
     std::vector<ShotKey> keys(3, keyAt({0, 1, 5}, 2, 2));
     const double degrees[] = {170, 190, 350};
