@@ -32,11 +32,12 @@ constexpr std::uint32_t maxWave = 16;
 // Max samples per wave if several threads draw. Small waves divide the samples evenly between threads.
 constexpr std::uint32_t maxSharedWave = 4;
 // Max triangles per wave of more than 4 samples with a software driver. The driver keeps all triangles of a wave in
-// memory, which returns to the system after each wave; its page faults can take longer than the draw.
+// memory and frees this memory after each wave. The page faults of the next wave can take longer than the draw.
 constexpr std::uint64_t maxWaveTriangles = 400'000;
-constexpr std::uint64_t minWaveOfTriangles = 4;  // smaller waves cost more for their sums than they save
+constexpr std::uint64_t minWaveOfTriangles = 4;  // samples; the sums of smaller waves take longer than they save
 
-// Returns the max number of layers in memory. If `limit` sets none, as many as fit into RendererOptions::waveBytes.
+// Returns the max number of layers in memory: the number set by `limit` or by `options`, else as many as fit into
+// RendererOptions::waveBytes.
 std::uint64_t maxLayers(const Scene& scene, const FramePlan& plan, const RendererOptions& options,
                         const WaveLimit& limit, LayerFormat format) {
     const std::uint32_t asked = limit.samples > 0 ? limit.samples : options.wave;
@@ -246,7 +247,7 @@ private:
     FrameUniforms frame_;
     WaveShape shape_;
     std::optional<LayerSum> sum_;
-    std::vector<Layer> drawnLayers_;  // layers of layers_
+    std::vector<Layer> drawnLayers_;  // data layers that layers_ sums
     bool countsSamples_ = false;      // whether layers_ counts the samples of each pixel
     mutable std::optional<LensLayers> layers_;
     mutable FrameClock clock_;

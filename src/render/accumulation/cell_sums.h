@@ -55,9 +55,9 @@ private:
     GlTexture held_;           // per tile: bit mask of the blur classes in the tile
     GlTexture spread_;         // per tile: bit masks of the blur classes whose means are read and written in the tile
     Target spreadTarget_;
-    // Per blur class, means over squares of pixels: shownMeans_ of the visible radiance, openMeans_ of the number of
-    // samples that no nearer class covers. Layer 0 holds the classes in front of the focus plane, and layer 1 the
-    // classes behind it. The classes of a layer are side by side.
+    // Means over squares of pixels, for each blur class. shownMeans_: visible radiance; openMeans_: number of samples
+    // that no nearer class covers. Layer 0 holds the classes in front of the focus plane, and layer 1 the classes
+    // behind it. The classes of a layer are side by side.
     glm::ivec2 squares_;  // columns and rows of the finest grid, whose squares have the size of a pixel
     GlTexture shownMeans_, openMeans_;
     Target meanTargets_[2];

@@ -23,9 +23,9 @@
 namespace defocus::engine {
 
 struct LayerSumInfo {
-    int width = 1;  // size of the sums in px: that of the layers, or of the rectangle that is summed (see reset)
+    int width = 1;  // size of the sums in px: the layers, or the rectangle of them that is summed (see reset)
     int height = 1;
-    LayerFormat format = LayerFormat::rgba16f;  // of the layers; not LayerFormat::automatic
+    LayerFormat format = LayerFormat::rgba16f;  // format of the layers; not LayerFormat::automatic
     std::filesystem::path shaderFolder = {};
     bool operator==(const LayerSumInfo&) const = default;
 };

@@ -27,7 +27,7 @@ struct Slot {
 
 struct ImageFormat {
     GLenum format;
-    const char* qualifier;  // in shaders
+    const char* qualifier;  // GLSL format qualifier
 };
 
 ImageFormat imageFormat(TextureFormat format) {

@@ -29,7 +29,8 @@ public:
     void begin() const;
     // Binds the layers together with the picture's layers.
     void bind() const { target_.bind(); }
-    // Returns the layers of a slot of shaders/accumulation/layers.frag.
+    // Returns the texture of an output of shaders/accumulation/layers.frag. `slot` is the output's define, such as
+    // "NORMAL_SLOT".
     [[nodiscard]] const GlTexture& of(const std::string& slot) const { return textures_.at(slot); }
     [[nodiscard]] std::size_t bytes() const;
 
@@ -40,7 +41,7 @@ private:
 
 class LensLayers {
 public:
-    // `size`: of the layers, in px.
+    // `size`: size of the layers in px.
     LensLayers(const std::vector<Layer>& layers, bool countsSamples, const glm::ivec2& size,
                std::filesystem::path shaderFolder);
 
@@ -49,7 +50,7 @@ public:
     // Return bytes per pixel: of the data layers of one lens sample, and of the sums over all samples.
     [[nodiscard]] static std::uint64_t layerBytes(const std::vector<Layer>& layers);
     [[nodiscard]] static std::uint64_t sumBytes(const std::vector<Layer>& layers);
-    // Returns whether the layers count objects or materials, whose numbers the surface pass then writes.
+    // Returns whether the layers count objects or materials. If so, the surface pass writes their indices.
     [[nodiscard]] static bool countNumbers(const std::vector<Layer>& layers);
 
     void reset() { samples_ = 0; }

@@ -25,7 +25,7 @@ public:
     // Clears the layers to transparent black and infinite depth, and binds them as the render target. Only `window` is
     // drawn; nullopt: all pixels.
     void begin(const std::optional<LayerWindow>& window = {}) const;
-    // Ends the drawing that begin() has started: pixels outside the window can be drawn again.
+    // Ends the drawing that begin() has started: disables the restriction to `window`.
     static void end();
     [[nodiscard]] const Target& target() const { return target_; }
     [[nodiscard]] const GlTexture& colors() const { return colors_; }

@@ -50,9 +50,9 @@ public:
     // Returns GPU times of the frame's passes, summed over all threads. Waits for the waves that are being drawn.
     [[nodiscard]] std::vector<PassTime> times();
     void resetTimes();
-    [[nodiscard]] std::size_t bytes() const { return bytes_; }       // of all threads, when the frame was prepared
+    [[nodiscard]] std::size_t bytes() const { return bytes_; }       // bytes of all threads after prepare()
     [[nodiscard]] std::uint32_t threads() const { return active_; }  // threads that draw the frame
-    [[nodiscard]] std::uint32_t layers() const { return active_ * shape_.targets * shape_.samples; }  // in memory
+    [[nodiscard]] std::uint32_t layers() const { return active_ * shape_.targets * shape_.samples; }  // layers held
 
 private:
     class Lane;
@@ -82,7 +82,7 @@ private:
     std::vector<Place> places_;
     std::uint32_t started_ = 0;                                  // waves of the frame that were given to a thread
     std::uint32_t returned_ = 0;                                 // waves of the frame that next() has returned
-    std::shared_future<WaveVisibility::Value> blockVisibility_;  // of the block of the wave that was started last
+    std::shared_future<WaveVisibility::Value> blockVisibility_;  // for the block of the latest started wave
     std::shared_ptr<std::atomic<bool>> abandoned_;               // set when the frame's remaining waves are not needed
     std::size_t bytes_ = 0;
 };

@@ -14,7 +14,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t largestSharing = std::size_t{1} << 16;  // bytes; larger meshes have buffers of their own
-constexpr std::size_t sharedBytes = std::size_t{1} << 20;     // size at which shared buffers take no further mesh
+constexpr std::size_t sharedBytes = std::size_t{1} << 20;     // bytes; fuller shared buffers accept no further mesh
 
 // A mesh is far from its origin on an axis if its centre's coordinate is at least this multiple of half its largest
 // side.

@@ -19,7 +19,7 @@ namespace defocus::engine {
 
 // Buffers of one or more meshes.
 struct MeshBuffers {
-    std::array<Buffer, attributeLocationCount> vertices;  // by AttributeLocation
+    std::array<Buffer, attributeLocationCount> vertices;  // index: AttributeLocation
     Buffer indices;
     [[nodiscard]] std::size_t bytes() const;
 };
@@ -28,8 +28,8 @@ struct MeshBuffers {
 struct GpuLevel {
     bool uploaded = false;
     GLenum colorType = GL_UNSIGNED_SHORT;  // type of the four colour components: normalised shorts or half floats
-    std::size_t firstVertex = 0;           // in the buffers of attributes that each level has of its own
-    std::size_t firstIndex = 0;            // in the index buffer
+    std::size_t firstVertex = 0;           // index of the level's first vertex in per-level buffers
+    std::size_t firstIndex = 0;            // offset of the level's indices in the index buffer
     glm::vec4 minColor{0.0f};              // min of the level's vertex colours per channel; 1 is white
     glm::vec4 maxColor{0.0f};
 };
@@ -48,7 +48,7 @@ struct GpuMesh {
     glm::dvec3 origin{0.0};  // object units; positions in the buffer are relative to this point
     AttributeSet attributes = 0;
     std::shared_ptr<const MeshBuffers> buffers;
-    std::size_t firstVertex = 0;  // in the buffers of attributes that all levels share
+    std::size_t firstVertex = 0;  // index of the first vertex in buffers that all levels share
     GpuMorphs morphs;
     std::vector<GpuLevel> levels;
     [[nodiscard]] bool has(AttributeLocation location) const { return (attributes & only(location)) != 0; }

@@ -48,7 +48,8 @@ void GpuScene::prepare(const FramePlan& plan) {
     uploadMeshes(*world_, missing, meshes_);
 }
 
-// Adds a mesh to `missing` if a level that `used` flags is not on the GPU. The upload includes the levels that are.
+// Adds a mesh to `missing` if a level that `used` flags is not on the GPU. The upload also includes the mesh's levels
+// that are already on the GPU.
 void GpuScene::addMissing(std::size_t mesh, const std::vector<bool>& used, std::vector<MeshUpload>& missing) {
     const std::vector<GpuLevel>& present = meshes_[mesh].levels;
     if (present.empty())

@@ -1,8 +1,8 @@
 #pragma once
 // Uniform blocks of materials. Only materials with transforms of texture coordinates have a block that contains these
-// transforms, because few materials have them and they are larger than all other values. A second block for the
-// transforms would be one block more than Mesa 22.3's Vulkan driver (lavapipe) can draw with together with lamps and
-// shadows.
+// transforms, because few materials have them and they are larger than all other values. A separate block for the
+// transforms, together with the blocks of lights and shadows, would exceed the limit of Mesa 22.3's Vulkan driver
+// (lavapipe).
 
 #include <array>
 #include <glm/vec4.hpp>
@@ -52,7 +52,7 @@ private:
     std::vector<int> materials_;
     struct Place {
         bool transforms = false;  // true: the block is in transformed_, else in plain_
-        std::size_t block = 0;    // index of the block there
+        std::size_t block = 0;    // index of the block in transformed_ or plain_
     };
     UniformBlocks<GpuMaterial> plain_;
     UniformBlocks<GpuTransformedMaterial> transformed_;

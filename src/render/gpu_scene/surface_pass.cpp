@@ -383,7 +383,7 @@ std::uint64_t SurfacePass::drawOpaqueVisible(std::uint32_t first, std::uint32_t 
 // Draws the triangles that remain after the occlusion test. Returns the number of drawn triangles, summed over samples.
 std::uint64_t SurfacePass::drawRemaining(const RemainingDraws& remaining, std::uint32_t first, std::uint32_t count) {
     const Buffer indices = Buffer::of(std::span<const std::uint32_t>(remaining.indices));
-    bound_ = {};  // the name of `indices` may be that of a deleted buffer
+    bound_ = {};  // OpenGL may reuse the name of a deleted buffer for `indices`
     std::uint64_t triangles = 0;
     for (const RemainingDraw& part : remaining.draws) {
         const SampleSpan samples = samplesOf(part, first, count);

@@ -40,7 +40,7 @@ constexpr AttributeSet only(AttributeLocation location) {
 struct AttributeLayout {
     AttributeLocation location;
     GLint components;
-    GLenum type;           // of colours: GL_UNSIGNED_SHORT or GL_HALF_FLOAT, depending on the level
+    GLenum type;           // GL type of a component; colours: see GpuLevel::colorType
     std::size_t stride;    // bytes per vertex
     bool perLevel = true;  // false: all levels share the values
 };

@@ -23,7 +23,7 @@ public:
     // An image in a mean.
     struct Part {
         std::uint32_t image = 0;
-        glm::ivec2 corner{0};  // texel of the image, right and up, at the mean's lower left pixel
+        glm::ivec2 corner{0};  // position (x, y) in the image of the mean's lower left pixel
     };
 
     // `software`: OpenGL runs on the CPU.

@@ -75,7 +75,7 @@ public:
     void bindTests() const;
 
     [[nodiscard]] const std::vector<TileBand>& bands() const { return bands_; }
-    // Returns the groups. Shaders number them from 1: number i is groups()[i − 1], and 0 is the sky.
+    // Returns the groups. In shaders, index 0 is the sky, and index i ≥ 1 is groups()[i − 1].
     [[nodiscard]] const std::vector<ShadedGroup>& groups() const { return groups_; }
     [[nodiscard]] const ShaderDefines& defines() const { return defines_; }  // defines for programs that read triangles
     [[nodiscard]] bool lightsVertices() const { return lightsVertices_; }
@@ -113,7 +113,7 @@ private:
     void addDivisions();
     std::uint32_t groupOf(int mesh, int material, std::uint32_t level);
     void makeTriangles();
-    // Converts the index ranges of the divided objects, or of the others, to triangles in `target`.
+    // Converts the index ranges of the divided objects, or of the undivided objects, to triangles in `target`.
     void convertRuns(const Buffer& target, bool divided);
     void makeVertices(const Buffer& target, std::size_t vertexBytes, bool attributes, std::uint32_t moment,
                       float fraction);

@@ -19,8 +19,8 @@ constexpr double maxThresholdSamples = 1e8;
 constexpr double maxLevelPower = 1.4;
 // Sample count of the first error estimate, which needs two blocks.
 constexpr std::uint32_t firstEstimate = 2 * blockSamples;
-// An estimate from the halves of a block is too large by this factor, because the first half has more than its share of
-// the coarse levels, and its lens cells are not centred on the lens. Measured: 1.3 (school of fish) and 2.0 (bokeh).
+// An estimate from the halves of a block is too large by this factor, because the first half draws more coarse levels
+// than the second half, and its lens cells are not centred on the lens. Measured: 1.3 (school of fish) and 2.0 (bokeh).
 constexpr double excessWithinBlock = 1.3;
 
 // Returns `samples` rounded up to complete blocks.

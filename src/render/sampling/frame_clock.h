@@ -30,7 +30,7 @@ private:
     double setupMilliseconds_ = 0;
     double renderMilliseconds_ = 0;
     CpuClock cpuClock_;
-    CpuTime cpuTime_;  // of drawing
+    CpuTime cpuTime_;  // CPU time of drawing
     GpuTimer timer_;
 };
 
