@@ -8,7 +8,7 @@
 layout(binding = 0) uniform sampler2DArray cellSums;
 layout(binding = 1) uniform sampler2D blockSum;
 layout(binding = 2) uniform usampler2D spreadClasses;
-// Number of the blur class. With nearestClass, it is the most blurred class in front of the focus plane, which no other
+// Index of the blur class. With nearestClass, it is the most blurred class in front of the focus plane, which no other
 // class hides.
 layout(location = 0) uniform int classIndex;
 // Side of the squares in px, a power of 2.

@@ -1,6 +1,6 @@
 // Shades a surface for one lens sample. Writes its light to the sample's layer, and its data (depth, normal, …) to the
-// data layers. …_SLOT is the number of a data layer's colour attachment; a layer without it is not drawn. Data are
-// premultiplied by the surface's alpha, like its light, so that blending treats all layers alike.
+// data layers. …_SLOT is the index of a data layer's colour attachment; a layer without this define is not drawn. Data
+// are premultiplied by the surface's alpha, like its light, so that blending treats all layers alike.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -26,7 +26,7 @@ layout(location = EMISSION_SLOT) out vec4 emissionOut;
 layout(location = MOTION_SLOT) out vec4 motionOut;       // px
 #endif
 #ifdef NUMBER_SLOT
-layout(location = NUMBER_SLOT) out vec4 numberOut;       // numbers of the object and the material, from 1
+layout(location = NUMBER_SLOT) out vec4 numberOut;       // 1 + index of the object, 1 + index of the material
 layout(location = 4) uniform float materialNumber;
 #endif
 

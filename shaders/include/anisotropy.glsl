@@ -2,7 +2,7 @@
 // Disney; masking: Heitz 2014, Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs).
 
 // Returns π·(n·l)·D·V for light from the unit direction `toLight`. `spread`: 2σ² of the slopes of the normals that the
-// sample represents, by which both widths grow. Masking uses the widths without it, as in lobeOf().
+// sample represents, by which both squared widths grow. Masking uses the widths without this growth, as in lobeOf().
 float anisotropicReflection(SurfacePoint point, float nl, float nv, float spread, vec3 toLight) {
     if (nl <= 0.0 || nv <= 0.0) return 0.0;
     vec2 widths2 = point.widths * point.widths;

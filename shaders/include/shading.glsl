@@ -128,7 +128,7 @@ struct Spread {
 //
 // With few samples, a lobe narrower than the pixel's variation of normals would give isolated white pixels. The first
 // block of samples therefore widens such a lobe to that variation, and later blocks to a fraction of it. Both widths
-// depend only on the sample's number, so blocks that are drawn separately add up to the same image. Both vanish as the
+// depend only on the sample's index, so blocks that are drawn separately add up to the same image. Both vanish as the
 // number of samples grows, so highlights converge. The footprint's part of the result is proportional to the pixel's
 // area, and 0 on flat surfaces.
 Spread slopeSpread(SurfacePoint point) {

@@ -5,7 +5,7 @@ uvec2 pixelOf(Record record) {
     return uvec2(inImage % uint(imageSize.x), inImage / uint(imageSize.x));
 }
 
-// Returns the number of the record's ray in the wave.
+// Returns the index of the record's ray in the wave.
 uint numberOf(Record record) { return record.ray / uint(imageSize.x * imageSize.y); }
 
 // Returns the lens point (u, k·v) through which the record's surface is seen. `ray`: the record's ray.

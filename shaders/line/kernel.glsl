@@ -18,7 +18,7 @@ layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
 layout(std430, binding = 1) buffer OutputBlock {
     uint recordCount;       // number of requested records
     uint droppedSegments;
-    uint droppedLight;      // in units of 1/1024 of a line
+    uint droppedLight;      // in units of 1/1024 of a line's light
     uint mergedSegments;
     uint laterJobs;         // jobs deferred to later dispatches
     uint unfinishedJobs;    // jobs of this dispatch that are not finished

@@ -27,7 +27,7 @@ private:
 
     Buffer buffer_;
     std::size_t written_ = 0;         // bytes that are in the buffer
-    std::vector<std::byte> pending_;  // bytes that follow them
+    std::vector<std::byte> pending_;  // bytes to write after them
 };
 
 }  // namespace defocus::engine

@@ -243,7 +243,7 @@ bool currentIsSoftware() {
 
 bool drawsInThreads(const std::string& device, const std::string& driver) {
     if (device.find("llvmpipe") == std::string::npos) return true;
-    if (device.find("zink") != std::string::npos) return false;  // llvmpipe draws for Vulkan; not tested
+    if (device.find("zink") != std::string::npos) return false;  // zink over lavapipe: not tested
     constexpr std::string_view mesa = "Mesa ";
     const std::size_t at = driver.find(mesa);
     int version = 0;

@@ -23,7 +23,7 @@ public:
 // Creates a context and makes it current on this thread. Throws Error with the log if no display works.
 std::unique_ptr<GlContext> createHeadlessContext();
 // Creates a context that shares buffers, textures, programs and fences with the current context, but does not make it
-// current. Returns nullptr if the current context is not one of EGL. Throws Error if the driver cannot create it.
+// current. Returns nullptr if the current context is not an EGL context. Throws Error if the driver cannot create it.
 std::unique_ptr<GlContext> createSharedContext();
 
 // Saves the thread's current EGL context in the constructor and makes it current again in the destructor.

@@ -46,7 +46,7 @@ void ContextThread::work(std::promise<void> started) {
         tasks_.pop_front();
         lock.unlock();
         task();
-        task = {};  // a waiting task on another thread may depend on the end of this task's captures
+        task = {};  // destroy the captures now: a task on another thread may wait for that
         lock.lock();
     }
     context_.reset();  // on this thread, where the context is current

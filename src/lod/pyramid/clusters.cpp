@@ -55,7 +55,7 @@ struct ClusterGrowth {
     glm::vec3 normals{0};
     // Triangles that touch the growing cluster; some of them may already be assigned.
     std::vector<TriangleNumber> closed;    // all three corners are in the cluster
-    std::vector<TriangleNumber> hanging;   // only unassigned triangle at a vertex; expensive in another cluster
+    std::vector<TriangleNumber> hanging;   // the last unassigned triangle at a vertex; expensive in another cluster
     std::vector<TriangleNumber> beside;    // two corners are in the cluster
     std::vector<TriangleNumber> touching;  // one corner is in the cluster
     std::vector<TriangleNumber> left;      // unassigned neighbours of earlier clusters

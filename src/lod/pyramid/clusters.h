@@ -25,8 +25,8 @@ GrownClusters growClusters(const Numbered<TriangleCorner, LocalNumber>& corners,
                            const Numbered<LocalNumber, glm::vec3>& positions, std::uint32_t max);
 
 // Reorders the triangles of each primitive into clusters. Consecutive clusters are mostly neighbours, and so are
-// consecutive triangles within a cluster. `positions` and `places` have one entry per vertex; places are below
-// `placeCount`. Vertices with the same place have the same position. The index ranges of the clusters start at the
+// consecutive triangles within a cluster. `positions` and `places` have one entry per vertex. Entries of `places` are
+// below `placeCount`; vertices with equal entries have the same position. The index ranges of the clusters start at the
 // level's first index and are contiguous. Deterministic.
 template <typename Vertex>
 std::vector<Cluster> clusterTriangles(TriangleSet<Vertex>& level, std::span<const glm::vec3> positions,

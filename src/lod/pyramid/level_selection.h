@@ -22,7 +22,7 @@ const char* lodMetricName(LodMetric metric);
 // length, is therefore in px. An unset threshold depends on the sample count, so that long renders converge to full
 // detail.
 struct GivenThresholds {
-    std::optional<double> blur = {};   // px of target per px of CoC, or levels for `proportional`; ≥ 0
+    std::optional<double> blur = {};   // target in px per px of CoC; number of levels for `proportional`; ≥ 0
     std::optional<double> size = {};   // px, ≥ 0; only for LodMetric::size and LodMetric::error
     std::optional<double> light = {};  // px, ≥ 0; only for LodMetric::measured, which ignores `blur` and `size`
 };
@@ -31,7 +31,7 @@ struct GivenThresholds {
 LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given);
 
 struct LodThresholds {
-    double blur = 0;  // px of target per px of CoC, or levels for `proportional`
+    double blur = 0;  // target in px per px of CoC; number of levels for `proportional`
     double size = 0;  // min target in px
     // px: max product of a level's edge length in px and its error in standard deviations of the radiance within the
     // blur. Only for LodMetric::measured; see measuredLimit.
@@ -103,7 +103,7 @@ double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric 
 // [coarseCount, N) draw level `level`. Below, f = λ − ⌊λ⌋.
 //   fractional: coarseCount = round(f·N). As λ changes, one complete sample after another switches its level.
 //   continuous: f·N = n + g with the integer n = coarseCount and 0 ≤ g < 1.
-//     In sample n, the share g of the pixels draws the coarser level (screen door).
+//     In sample n, a fraction g of the pixels draws the coarser level (screen door).
 //     As λ changes, the pixels of one sample switch one after another, evenly spread.
 // With continuous, each pixel of each sample still draws exactly one level, so that objects have no holes. Where the
 // outlines of the two levels differ, coverage changes by at most 1/N of a pixel.

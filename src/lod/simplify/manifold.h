@@ -20,10 +20,10 @@ namespace defocus::engine {
 // unchanged; coarser levels are made from the repaired surface.
 struct Repairs {
     std::uint32_t faces = 0;    // total number of repaired faces
-    std::uint32_t dropped = 0;  // degenerate or duplicate
-    std::uint32_t turned = 0;   // reversed, because the winding was opposite to the neighbours
-    std::uint32_t cut = 0;      // cut at an edge of more than two faces, or of two faces with conflicting orientation
-    std::uint32_t split = 0;    // separated at a vertex where several fans meet
+    std::uint32_t dropped = 0;  // degenerate or duplicate faces, which are removed
+    std::uint32_t turned = 0;   // faces reversed because their winding was opposite to their neighbours
+    std::uint32_t cut = 0;      // faces cut off at an edge of over two faces, or of two of conflicting orientation
+    std::uint32_t split = 0;    // faces separated from others at a vertex where several fans meet
 };
 
 // A half-edge has the number of the corner where it starts. Corners are numbered in the order of the input.

@@ -17,7 +17,7 @@
 namespace defocus::engine {
 
 // Returns whether the triangles are part of the surface of a convex body whose fronts face outwards, such as a flat
-// pane. From any viewpoint, their back faces lie behind their front faces, and neither overlap themselves. More than
+// pane. From any viewpoint, back faces lie behind front faces, and two faces of the same side never overlap. More than
 // 1,000 triangles are not tested and count as not convex.
 bool isConvex(const std::vector<glm::vec3>& positions, std::span<const std::uint32_t> indices);
 

@@ -41,7 +41,8 @@ BlendPart blendPart(const ObjectPlan& object, const FramePlan& plan, const std::
 // Returns whether the images of the parts may overlap.
 bool overlap(const BlendPart& a, const BlendPart& b);
 
-// Returns false if no ray from the lens hits `front` before `behind`. Otherwise this is possible, but not certain.
+// Returns false if no ray from the lens hits `front` before `behind`. The result is conservative: it may be true
+// although no such ray exists.
 bool mayHide(const BlendPart& front, const BlendPart& behind, const FramePlan& plan);
 
 // Returns whether all points of the lens see only the backs of the part's triangles.

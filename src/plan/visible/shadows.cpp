@@ -295,8 +295,8 @@ ShadowProjection mapProjection(const World& world, const glm::dvec3& camera, con
 
 // ---- size of the maps -----------------------------------------------------------------------------------------------
 
-// Returns the number of texels across the map for which a texel at `seen` is twice as wide as the image's resolution
-// there, which is a pixel or half the blur. Returns 0 if the point is outside the map.
+// Returns the number of texels across the map that makes a texel at `seen` twice as wide as the smallest visible
+// detail, which is a pixel or half the blur. Returns 0 if the point is outside the map.
 double texelsNeeded(const FramePlan& plan, const ShadowProjection& projection, int size, const SeenPoint& seen) {
     const glm::vec4 place(glm::vec3(seen.place), 1);
     const double w = glm::dot(projection.clipRows[3], place);
