@@ -31,9 +31,10 @@ void giveBackFreedMemory() {
 #endif
 }
 
-// All blocks come from the heap, whose first part is asked for huge pages while it is one block. The fence behind this
-// block keeps free() from returning it to the system. None of these pages is in memory before it is used, but they count
-// as address space, which is left alone if it is limited.
+// Turns off mmap() for large allocations, so that all blocks come from the heap. Then allocates one large block,
+// requests huge pages for it, and frees it, so that later allocations use its pages. The fence, a small block behind
+// it, keeps free() from returning these pages to the system. Unused pages take no memory but address space, so nothing
+// is allocated if the address space is limited.
 void keepFreedMemory() {
 #if defined(__GLIBC__) && defined(MADV_HUGEPAGE)
     mallopt(M_TRIM_THRESHOLD, 128 << 20);

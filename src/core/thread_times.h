@@ -5,10 +5,10 @@
 
 namespace defocus::engine {
 
-// CPU time of an interval, in ms; 0 if the system does not tell the times of threads.
+// CPU time of an interval, in ms; 0 if the system does not report the times of threads.
 struct CpuTime {
     double milliseconds = 0;         // sum over all threads
-    double busiestMilliseconds = 0;  // of the thread with the largest time
+    double busiestMilliseconds = 0;  // CPU time of the thread with the largest time
     CpuTime& operator+=(const CpuTime& other) {
         milliseconds += other.milliseconds;
         busiestMilliseconds += other.busiestMilliseconds;

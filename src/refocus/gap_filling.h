@@ -5,8 +5,8 @@
 //
 // As in method multirate, pixels are sorted by σ into a few classes on each side of the focus plane, and the sum of
 // each class is blurred once. A pixel contributes to the two classes with the nearest variances. The classes are
-// composited from the farthest to the nearest, each with the share of the samples that no nearer class covers. A sharp
-// outline thus stays sharp in front of a blurred background.
+// composited from the farthest to the nearest, each weighted by the fraction of the samples that no nearer class
+// covers. A sharp outline thus stays sharp in front of a blurred background.
 
 #include <cstdint>
 #include <glm/vec2.hpp>

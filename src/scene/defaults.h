@@ -22,7 +22,7 @@ struct PlacedCamera {
 // state of the scene's camera track; without a track, the first camera that is not orthographic, or the default camera
 // if there is none. The default camera shows `pose.bounds` from a three-quarter view in an image of `aspect` = width /
 // height, with matching focusDistance and znear. `tanHalfHorizontal` is the tangent of half the default camera's
-// horizontal angle of view; none: a 50 mm lens on 36 mm film along the longer side of the image. Throws Error if the
+// horizontal angle of view; nullopt: a 50 mm lens on 36 mm film along the longer side of the image. Throws Error if the
 // named camera is orthographic or the name is unknown; the message lists the known names.
 PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const CameraChoice& choice, double aspect,
                           std::optional<double> tanHalfHorizontal = {});

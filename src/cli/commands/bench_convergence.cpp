@@ -161,8 +161,8 @@ private:
     std::vector<ConvergenceRun> runs_;
 };
 
-// Returns whether the options request `published`, a method with the settings of its paper. They must list the form
-// "published" and, if they list methods, this method with default settings.
+// Returns whether the options request `published`, a method with the settings of its paper. The options request it if
+// they list the form "published" and either list no methods or list this method with default settings.
 bool isAsked(const ConvergenceOptions& options, const MethodUse& published) {
     if (std::ranges::find(options.forms, MethodForm::published) == options.forms.end()) return false;
     return options.methods.empty() || std::ranges::any_of(options.methods, [&](const MethodUse& use) {

@@ -118,8 +118,8 @@ struct ConvergenceVisitor {
     std::function<void(const ConvergenceCase& wanted, const std::string& reason)> leftOut;
 };
 
-// Measures all runs that are not in `done`, the runs of an earlier call. `pyramidMilliseconds`: build time of the
-// world's pyramids. Needs a current GL context. Throws Error if accumulation at full detail cannot be drawn.
+// Measures all runs except the runs in `done`, which an earlier call has measured. `pyramidMilliseconds`: build time of
+// the world's pyramids. Needs a current GL context. Throws Error if accumulation at full detail cannot be drawn.
 void measureConvergence(const World& world, const View& view, const ReferenceImage& reference,
                         const ConvergenceOptions& options, double pyramidMilliseconds,
                         std::span<const ConvergenceRun> done, const ConvergenceVisitor& visitor,

@@ -24,7 +24,7 @@ struct PoppingRow {
     PoppingMode mode = PoppingMode::nearest;
     int frames = 0;  // number of frame pairs: number of views − 1
     double speed = 0;
-    PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // over the object pixels
+    PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // measures over the object pixels
     PopSummary changeRmseImage, changeFlipImage, stepRmseImage, stepFlipImage;
 };
 

@@ -54,7 +54,7 @@ struct SpeedupPart {
 
 struct SpeedupRow {
     std::string sweep;   // varied parameter: "samples", "aperture" or "focus"
-    std::string preset;  // the form's preset; empty: none
+    std::string preset;  // SpeedupForm::preset of the row's form
     std::string method;  // name and settings, separated by spaces
     std::uint32_t samples = 0;
     double fStop = 0;

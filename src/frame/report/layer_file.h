@@ -12,8 +12,8 @@
 
 namespace defocus::engine {
 
-// Returns the picture and its layers with the channel names of `names`, and adds the metadata of Cryptomattes. The
-// numbers of objects and materials are indices into the pose and the scene.
+// Returns the picture and its layers with the channel names of `names`, and adds the metadata of Cryptomattes. Object
+// indices refer to `pose`, material indices to `scene`.
 std::vector<NamedChannels> layerChannels(const ImageView& picture, const LayerImages& layers, const Scene& scene,
                                          const Pose& pose, ExrNames names, Metadata& metadata);
 

@@ -118,7 +118,7 @@ struct IsOptional : std::false_type {};
 template <typename Value>
 struct IsOptional<std::optional<Value>> : std::true_type {};
 
-// Returns the value of a member; none for an empty optional.
+// Returns the value of a member as an optional; nullopt for an empty optional.
 template <typename Member>
 auto valueOf(const Request& request, Member member) {
     const auto& value = member(request);

@@ -15,7 +15,7 @@ namespace defocus::engine {
 // Settings that all frames of a film, or all parts of a frame, have in common.
 struct FilmSettings {
     std::uint64_t world = 0;      // worldHash of meshes, materials, environment and shaders
-    Request request;              // source of the method, layer format and other settings of pixels
+    Request request;              // provides the method, the layer format and other settings that affect pixels
     std::string encoding;         // encoding of the pixels, such as tone map and exposure; empty: linear EXR
     std::string lensImages = {};  // lens images from which the frame is computed; empty: the frame is rendered
 };

@@ -31,7 +31,7 @@ struct ShownFrame {
     Image image;  // as drawn, possibly smaller than the view
 };
 
-using References = std::map<std::uint32_t, Image>;  // by frame; all methods have the same camera path
+using References = std::map<std::uint32_t, Image>;  // key: frame index; all methods have the same camera path
 
 double percentile95(std::vector<double> values) {
     const auto place = values.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(values.size() - 1));

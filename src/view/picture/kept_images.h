@@ -43,15 +43,15 @@ public:
     [[nodiscard]] bool complete() const { return planned() > 0 && drawn_ == planned(); }
     // Returns why no images are planned; empty if images are planned or begin() was not called.
     [[nodiscard]] const std::string& obstacle() const { return obstacle_; }
-    // Returns the number of planned images in a picture for the lens's focus distance and f-number. Returns 0 if one of
-    // both is outside the range of the images, or if less than a quarter of the images lie within the aperture.
+    // Returns the number of planned images in a picture for the lens's focus distance and f-number. Returns 0 if either
+    // value is outside the range of the images, or if less than a quarter of the images lie within the aperture.
     [[nodiscard]] std::uint32_t serving(const Lens& lens) const {
         return static_cast<std::uint32_t>(imagesFor(lens).size());
     }
 
-    // Draws the picture for the lens's focus distance and f-number from the images that serving() counts, of which
-    // there must be at least one. All planned images must be drawn. The lens may differ from that of begin() in these
-    // two values only.
+    // Draws the picture for the lens's focus distance and f-number from the images that serving() counts. serving()
+    // must be at least 1, and all planned images must be drawn. `lens` may differ from the lens of begin() in these two
+    // values only.
     void refocus(const Lens& lens);
     // Returns the latest picture of refocus(): linear, premultiplied RGBA, row 0 at the bottom.
     [[nodiscard]] const GlTexture& picture() const { return stack_.mean(); }

@@ -57,7 +57,7 @@ struct Message {
 // Marker of the latest click to focus; fades out.
 struct FocusMarker {
     bool shown = false;
-    std::uint64_t number = 0;  // number of the click, counted from 1
+    std::uint64_t number = 0;  // index of the click, from 1
     glm::dvec3 point{0.0};     // in world space
     double since = 0;          // time of the click, s, as ViewState::now
     std::string name;          // name of the object; empty: no surface was hit
