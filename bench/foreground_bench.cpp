@@ -9,7 +9,8 @@
 // Held equal: camera, lens, size, lens samples, renderer and process. Runs alternate; the fastest of each counts. CPU
 // is the time of all threads, which depends less on other load. `work` is the heat map of --aov work: triangles that
 // touch a pixel, per lens sample. `swept` is the heat map of --aov swept-work: triangles whose bounds over the complete
-// lens cover a pixel. A rasteriser that tests a triangle at every sample of these bounds tests all of the latter.
+// lens cover a pixel. It is the number of triangles that a rasteriser tests at a pixel if it tests every sample within
+// these bounds.
 //
 // Then method "stochastic" itself, with C linear inside triangles as published: time, and the number of triangles that
 // it tests for each ray, which is the paper's measure of work. It bounds each ray's part of the lens, and it stops

@@ -142,7 +142,7 @@ def long_film(program, folder, arguments):
     child = subprocess.Popen([program, "capture", "shot.json", "--quiet", "-o", "film/####.exr"], cwd=folder,
                              env=dict(os.environ, LP_NUM_THREADS="0"))
     frame = 0
-    held = {}  # MiB by frame
+    held = {}  # key: frame; value: MiB
     begin = time.monotonic()
     while child.poll() is None:
         while (folder / "film" / f"{frame:04}.exr").exists():

@@ -26,7 +26,7 @@ import teapots  # noqa: E402
 
 FOLDER = RESULTS / "lines"
 MAGNIFIED = 4  # size of a detail's pixels on the sheet
-PLACES = {"blurred edges": (38, 76), "in focus": (124, 68), "lights": (16, 0)}  # of the details' upper left corners, px
+PLACES = {"blurred edges": (38, 76), "in focus": (124, 68), "lights": (16, 0)}  # upper left corners of the details, px
 
 
 def measure(program, folder):

@@ -158,7 +158,7 @@ def test_ctrl_c_in_a_progress_function_is_a_keyboard_interrupt(small):
 
         pressed = []
 
-        def press(*_):  # once: another key press would interrupt what follows
+        def press(*_):  # presses once: a second Ctrl-C would interrupt the code after the render
             if not pressed:
                 pressed.append(True)
                 os.kill(os.getpid(), signal.SIGINT)

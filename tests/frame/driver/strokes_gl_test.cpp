@@ -1,4 +1,4 @@
-// Tests of rendered lines of a file.
+// Tests of images of lines from a file.
 
 #include <gtest/gtest.h>
 

@@ -82,7 +82,7 @@ TEST(BlendOrder, panesAreSortedUnlessTheyMayCross) {
     EXPECT_EQ(std::ranges::count(crossing, true), 1) << "crossing";
 }
 
-// Returns the numbers of the drawn objects of sorted panes, back to front.
+// Returns the indices of the drawn objects of sorted panes, back to front.
 std::vector<int> orderOf(const SmallWorld& small) {
     const FramePlan plan = planFrame(small.world, small.view, {});
     std::vector<int> order;

@@ -186,7 +186,7 @@ TEST_F(DrawingThreads, framesCanBeAbandoned) {
     }
     renderer->start(plan);
     renderer->advance();
-    renderer.reset();  // while threads draw
+    renderer.reset();  // destroys the renderer while threads draw
 }
 
 // A shader that a thread compiles fails. The error arrives at the caller, and a later frame works.

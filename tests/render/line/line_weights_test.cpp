@@ -35,7 +35,7 @@ TEST(LineWeights, addUp) {
 }
 
 // A spoke is a line through the lens centre. The mean light κ on the chords that the spokes have inside a region is the
-// region's share of the disk.
+// fraction of the disk that the region covers.
 TEST(LineWeights, giveARegionItsShareOfTheDisk) {
     constexpr int lines = 20000;
     const double h = 0.3;  // the region u > h is a circular segment

@@ -102,9 +102,9 @@ TEST_P(PostProcesses, aHighlightKeepsItsEnergyWhereTheBlurIsTheSame) {
 TEST_P(PostProcesses, aPointOfLightBecomesADiskOfTheCircleOfConfusion) {
     const std::string method = GetParam();
     if (method == "scheuermann") GTEST_SKIP() << "as published, blur follows planes and ends at 10 px";
-    // Images of a quarter of the size widen the disk by their pixels, which are 4 px wide (variance 16/12), and by
-    // linear interpolation (16/6). A pre-blurred copy widens the disk by its Gaussian (variance 8). A disk of radius R
-    // has a variance of R²/4 along an axis.
+    // Images with a quarter of the width and height widen the disk: their pixels are 4 px wide (variance 16/12), and
+    // they are interpolated linearly (16/6). A pre-blurred copy widens the disk by its Gaussian (variance 8). A disk of
+    // radius R has a variance of R²/4 along an axis.
     const bool preblurred = method.starts_with("scheuermann");
     const double variance = preblurred ? 12 : method.find("quarter") != std::string::npos ? 4 : 0;
     // A square of 3 px on a black wall at the same depth, in front of and behind the focus plane.
