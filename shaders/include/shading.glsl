@@ -123,8 +123,8 @@ struct Spread {
 // bound is from Tokuyoshi and Kaplanyan 2019 (Improved Geometric Specular Antialiasing). Sample n represents 1/(n + 1)
 // of the pixel's area, as a normal distribution whose σ is half the width of that area. The same variance in all
 // directions leaves the fewest white pixels on rippled surfaces. On a wire, however, normals vary by half a turn across
-// the wire and hardly along it, and a highlight that is widened along the wire would light parts that face away from
-// the light. The variance along the wire is therefore at most 2σ² = 0.03, unless normals vary more in this direction.
+// the wire and hardly along it. A highlight that is widened along the wire would light parts that face away from the
+// light. The variance along the wire is therefore at most 2σ² = 0.03, unless normals vary more in this direction.
 //
 // With few samples, a lobe narrower than the pixel's variation of normals would give isolated white pixels. The first
 // block of samples therefore widens such a lobe to that variation, and later blocks to a fraction of it. Both widths

@@ -36,7 +36,7 @@ std::vector<Key<glm::dvec3>> pointsOf(const std::vector<Key<Place>>& keys, const
 }
 
 // Returns the finished fraction of a camera movement at `frame`: 0 at its first frame, 1 at its last. `own`: the
-// movement's range; nullopt: the shot's.
+// movement's range; nullopt: the shot's range.
 double placeIn(const std::optional<FrameRange>& own, const FrameRange& shot, double frame) {
     const FrameRange range = own.value_or(shot);
     const double length = std::max(1, range.last - range.first);

@@ -21,7 +21,7 @@ namespace defocus::engine {
 
 struct Refocusing {
     double focusDistance = 1;        // m; within LightFieldInfo::range
-    double fStop = 1;                // not below LightFieldInfo::fStop
+    double fStop = 1;                // f-number, at least LightFieldInfo::fStop
     std::optional<Lens> shape = {};  // lens with the aperture's shape; nullopt: as rendered
     bool fillGaps = false;           // true: each image is blurred like its cell of the lens (gap_filling.h)
 };

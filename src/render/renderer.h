@@ -30,8 +30,8 @@ struct MethodFigure {
 struct RenderStats {
     std::uint32_t samples = 0;
     double setupMilliseconds = 0;       // uploads and compilation of shaders
-    double renderMilliseconds = 0;      // from the end of the setup until the image is complete
-    CpuTime cpuTime;                    // from the end of the setup until the image is complete
+    double renderMilliseconds = 0;      // time from the end of the setup until the image is complete
+    CpuTime cpuTime;                    // CPU time of the same interval
     double gpuMilliseconds = 0;         // measured by timer queries; excludes vertex work with software drivers
     std::uint64_t trianglesDrawn = 0;   // triangles in the plan, summed over all samples
     std::uint64_t trianglesHidden = 0;  // triangles of the plan that were skipped because they are hidden

@@ -53,8 +53,8 @@ void placeCameraOf(const RenderCommandText& text, Request& request) {
     if (rolled) request.cameraUp = asArray(camera[1]);
 }
 
-// Returns the lens values of the view that differ from those of the scene's camera. The focal length is always
-// included, because its default depends on the scene. The focus distance is left out.
+// Returns the lens values of the view that differ from the lens values of the scene's camera. The focal length is
+// always included, because its default depends on the scene. The focus distance is left out.
 LensSettings lensOf(const RenderCommandText& text) {
     const Lens& lens = text.view.lens;
     LensSettings given;

@@ -17,8 +17,9 @@ bool metersExposure(const Request& request, const Scene& scene, const Lens& lens
 // Returns the exposure (EV) that maps the log-average luminance of the surfaces in a linear image to middle grey, 18 %
 // (Reinhard et al. 2002, Photographic Tone Reproduction for Digital Images). Alpha is the coverage by surfaces: above
 // 0.5, a pixel shows a surface, else the background. The exposure is clamped so that the 98th percentile of the
-// surfaces' luminances lies between 40 % and 100 % of white, and then lowered until the background's log average is at
-// most 50 % of white: a dark object before a light background stays dark. Returns 0 for an image without lit surfaces.
+// surfaces' luminances lies between 40 % and 100 % of white. It is then lowered until the background's log average is
+// at most 50 % of white, so a dark object in front of a light background stays dark. Returns 0 for an image without lit
+// surfaces.
 double meteredExposure(const ImageView& image);
 
 // Renders a small image of the view without blur and meters it. Returns the exposure (EV). A background of one colour

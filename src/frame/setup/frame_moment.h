@@ -22,7 +22,7 @@ struct FrameMoment {
 // Returns the state of a prepared frame at the request's time.
 FrameMoment momentOf(const PreparedFrame& frame, const Request& request);
 
-// Sets the world's pose, shutter and lights to those of `moment`.
+// Copies pose, shutter and lights of `moment` to the world.
 void applyMoment(const FrameMoment& moment, World& world);
 
 }  // namespace defocus::engine

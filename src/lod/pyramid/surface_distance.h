@@ -66,8 +66,8 @@ struct Distances {
 };
 
 struct SurfaceDistance {
-    Distances forward;   // from the first surface to the second
-    Distances backward;  // from the second surface to the first
+    Distances forward;   // distances from the first surface to the second
+    Distances backward;  // distances from the second surface to the first
     Distances both;      // max of both directions, value by value, like the two-sided Hausdorff distance
 };
 

@@ -364,7 +364,8 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
             break;
         }
 
-        // If components of min size leave too few faces to the others, remove complete components before collapsing.
+        // If components of min size leave too few faces to the other components, remove complete components before
+        // collapsing.
         if (s.liveFaces <= maxFacesToFollow && !isConnected(s)) findComponents(s, triangles);
         if (collapseFloor(s, target, minKeptShare) > max) {
             findComponents(s, triangles);

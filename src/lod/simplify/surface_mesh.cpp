@@ -18,8 +18,8 @@ void linkBorders(SurfaceMesh& mesh) {
             mesh.set_next_halfedge_handle(border, mesh.halfedge_handle(mesh.to_vertex_handle(border)));
 }
 
-// Numbers the elements for which isKept is true, in their order; the others become invalid. Returns the number of kept
-// elements.
+// Assigns new indices, in order, to the elements for which isKept is true; the other elements become invalid. Returns
+// the number of kept elements.
 template <typename Handle, typename IsKept>
 std::size_t number(Numbered<Handle, Handle>& numbers, std::size_t count, const IsKept& isKept) {
     numbers.assign(count, Handle());

@@ -1,7 +1,7 @@
 #pragma once
 // Combines the block sums of a frame, which may come from several machines, into the frame's image. The merge uses the
-// same GPU passes as a single run, so the image is bit-identical to that of a single run if all GPUs and drivers are
-// equal.
+// same GPU passes as a single run, so the image is bit-identical to the image of a single run if all GPUs and drivers
+// are equal.
 
 #include <optional>
 

@@ -32,7 +32,7 @@ struct DrawnWave {
 
 class WaveQueue {
 public:
-    // `scene` must outlive this object, and the current OpenGL context must remain that of all calls.
+    // `scene` must outlive this object. All calls need the OpenGL context that was current during construction.
     WaveQueue(const GpuScene& scene, const RendererOptions& options);
     ~WaveQueue();
     WaveQueue(const WaveQueue&) = delete;

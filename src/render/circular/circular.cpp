@@ -79,7 +79,7 @@ double largestNearDiameter(const FramePlan& plan) {
     return largest;
 }
 
-// Returns the largest blur diameter behind the focus plane in px, at least that of the sky and 1 px.
+// Returns the largest blur diameter behind the focus plane in px, at least 1 px and the diameter of the sky's blur.
 double largestFarDiameter(const FramePlan& plan) {
     double largest = std::max(largestCocAtInfinity(plan.coc, plan.view.width), 1.0);
     for (const ObjectPlan& object : plan.objects) largest = std::max(largest, object.coc.farthest);

@@ -253,7 +253,7 @@ private:
         return writer.finish();
     }
 
-    std::vector<std::pair<std::size_t, GpuMesh>> members_;  // by index of the mesh
+    std::vector<std::pair<std::size_t, GpuMesh>> members_;  // (index of the mesh, mesh)
     Extent extent_;
 };
 

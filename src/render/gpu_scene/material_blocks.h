@@ -34,7 +34,7 @@ struct GpuTransformedMaterial {
     std::array<glm::vec4, 2 * materialTextureCount> uvRows;
 };
 
-// Returns whether a texture is read at other coordinates than those of UV set 0.
+// Returns whether a texture is read at other coordinates than UV set 0.
 bool transformsUv(const TextureUse& use);
 
 class MaterialBlocks {
@@ -56,7 +56,7 @@ private:
     };
     UniformBlocks<GpuMaterial> plain_;
     UniformBlocks<GpuTransformedMaterial> transformed_;
-    std::vector<Place> places_;  // per material
+    std::vector<Place> places_;  // one per material
 };
 
 }  // namespace defocus::engine

@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 class ShadowMaps {
 public:
-    // `scene` and `pacer` must outlive this object. `pacer` must be that of the current OpenGL context.
+    // `scene` and `pacer` must outlive this object. `pacer` must belong to the current OpenGL context.
     ShadowMaps(const GpuScene& scene, SubmissionPacer& pacer, bool vertexShaderLayers,
                std::filesystem::path shaderFolder);
 

@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t maxBackdrops = 8;      // per frame: each is a copy of all layers
+constexpr std::size_t maxBackdrops = 8;      // max backdrops per frame, each a copy of all layers
 constexpr GLuint backdropUnit = 28;          // texture unit in shaders/include/transmission.glsl
 constexpr GLint materialNumberLocation = 4;  // uniform in shaders/accumulation/layers.frag
 constexpr GLint shadowSlotLocation = 3;      // attribute location in shaders/shadows/caster.vert

@@ -36,7 +36,7 @@ class ShadowMaps;
 
 class SurfacePass {
 public:
-    // `scene` and `pacer` must outlive this object. `pacer` must be that of the current context.
+    // `scene` and `pacer` must outlive this object. `pacer` must belong to the current context.
     SurfacePass(const GpuScene& scene, SubmissionPacer& pacer, SurfacePassInfo info)
         : scene_(&scene), pacer_(&pacer), info_(std::move(info)) {}
 

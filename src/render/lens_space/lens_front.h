@@ -1,7 +1,7 @@
 #pragma once
 // Front end of the lens-space methods (Tzeng et al. 2012, High-Quality Parallel Depth-of-Field Using Line Samples). The
-// front end computes a frame's vertices with their signed circle of confusion C, its triangles, and for each image tile
-// a list of the triangles that are visible in the tile from some lens point.
+// front end computes a frame's triangles and its vertices with their signed circle of confusion C. For each image tile,
+// it lists the triangles that are visible in the tile from some lens point.
 //
 // The lists have no fixed capacity, so no triangle is lost: triangles are counted per tile, list offsets are prefix
 // sums of the counts, and then the lists are filled.

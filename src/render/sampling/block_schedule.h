@@ -41,8 +41,8 @@ public:
     // `settings` are the settings of the frame; their number of samples is ignored. `levels` is nullopt if the level
     // error was not measured or level of detail is off.
     BlockSchedule(const RenderSettings& settings, const StopSettings& stop, std::optional<LevelError> levels = {});
-    // Returns the schedule of a frame with an automatic number of samples. It ends once the estimated FLIP is below
-    // that of `quality`. `expected`: first prediction of the number of samples. Level-of-detail thresholds are the
+    // Returns the schedule of a frame with an automatic number of samples. It ends once the estimated FLIP is below the
+    // FLIP of `quality`. `expected`: first prediction of the number of samples. Level-of-detail thresholds are the
     // defaults for the expected number of samples.
     static BlockSchedule automatic(const RenderSettings& settings, Quality quality, double expected);
 

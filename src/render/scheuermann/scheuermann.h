@@ -6,10 +6,10 @@
 //
 // One signed value is both blurriness and relative depth: −1 at the near plane, 0 in focus, 1 at the far plane, stored
 // as 0 … 1. As published, it is linear in depth between three planes. By default, the near and far planes are the
-// depths at which the lens has the max circle of confusion. If the circle of confusion behind the focus plane never
-// reaches this max, the far plane is chosen so that the value is correct at the depth of half the blur at infinity, and
-// the value is clamped to the blur at infinity. Settings of the method override the planes; in the slides, artists set
-// the planes.
+// depths at which the lens has the max circle of confusion. The circle of confusion behind the focus plane may never
+// reach this max. The far plane is then chosen so that the value is correct at the depth of half the blur at infinity,
+// and the value is clamped to the blur at infinity. Settings of the method override the planes; in the slides, artists
+// set the planes.
 //
 // The taps have the shape and density of the lens's aperture: blades, rings and aperture images. The cat's eye is
 // ignored.

@@ -20,7 +20,7 @@ struct UsdValue {
 
 struct UsdAttribute {
     UsdValue value;                                    // value that applies without time samples
-    std::vector<std::pair<double, UsdValue>> samples;  // by time code, increasing
+    std::vector<std::pair<double, UsdValue>> samples;  // (time code, value), in ascending order
 };
 
 struct UsdPrim {

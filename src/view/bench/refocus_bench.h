@@ -20,8 +20,8 @@ struct RefocusBenchRow {
 
 // Measures the methods on the document's scene at ViewState::pictureSize. For each method, drags the focus halfway, in
 // 1/distance, to the nearest and to the farthest surface, and the f-number by one stop, in steps of one frame each. A
-// picture has full quality if it has the window's resolution and is computed from all kept images within the aperture,
-// or has as many samples as the maximum number of kept images. Needs a current GL context. Throws Error for a method
+// picture has full quality if it has the window's resolution and enough samples: all kept images within the aperture,
+// or as many lens samples as the maximum number of kept images. Needs a current GL context. Throws Error for a method
 // that doesn't support the scene or the settings.
 void measureRefocus(Document& document, ViewState& state, const ViewBenchOptions& options,
                     const std::function<void(const RefocusBenchRow&)>& take, const Progress& progress = {});

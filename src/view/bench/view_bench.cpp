@@ -28,7 +28,7 @@ constexpr double comparedShares[] = {0.25, 0.5, 0.75};  // fractions of the move
 struct ShownFrame {
     std::uint32_t frame = 0;  // index of the frame in the movement
     View view;
-    Image image;  // as drawn, possibly smaller than the view
+    Image image;  // image as drawn, possibly smaller than the view
 };
 
 using References = std::map<std::uint32_t, Image>;  // key: frame index; all methods have the same camera path

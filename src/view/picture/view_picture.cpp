@@ -205,7 +205,7 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     notePasses();
 }
 
-// Draws the picture from the kept images. Returns false if they don't serve the request.
+// Draws the picture from the kept images. Returns false if too few of them suit the request's lens.
 bool ViewPicture::drawRefocused(const PictureRequest& request) {
     const Lens& lens = request.view.lens;
     const std::uint32_t serving = images_ && images_->complete() && !showsWork_ ? images_->serving(lens) : 0;
@@ -237,7 +237,7 @@ void ViewPicture::beginGrowing(const PictureRequest& request) {
     planImages(request);
 }
 
-// Plans lens images of a still view, unless there are images that serve it.
+// Plans lens images of a still view, unless suitable images are kept.
 void ViewPicture::planImages(const PictureRequest& request) {
     const bool sums = parseMethodUse(request.sides[0].method).method->sumsBlocks;
     if (request.imageBytes == 0 || request.sides.size() > 1 || !sums) return;
