@@ -268,8 +268,9 @@ void storages() {
     fmt::print("\n");
 }
 
-// Repeats the comparison of the slide on performance: fields of half the width with one component, fields of a quarter
-// with two, and as the baseline a gather over the square at both sizes and at full size, where its blur has no limit.
+// Repeats the comparison of the slide on performance: fields of half the width with one component, and fields of a
+// quarter of the width with two. The baseline is a gather over the square at both sizes, and at full size without a
+// limit on the blur.
 void slideOfPerformance() {
     PreparedFrame frame = school({});
     constexpr std::uint32_t samples = 1024;

@@ -47,7 +47,7 @@ private:
 
     Surfaces surfaces_;
     Sky sky_;
-    std::vector<bool> rayByRay_;  // by geometry id; true: each ray is shaded separately
+    std::vector<bool> rayByRay_;  // index: geometry id; true: each ray is shaded separately
     bool anyRayByRay_ = false;
 };
 

@@ -17,7 +17,7 @@ namespace {
 constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
 
 // Returns the number of wrong pixels around a small board whose material is NaN. All pixels must be finite; pixels
-// outside the board's blur must equal those of the scene without the board.
+// outside the board's blur must not differ from the scene without the board.
 double materialError() {
     View view = boardView();
     setBlur(view, 5, 12);

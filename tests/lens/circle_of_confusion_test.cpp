@@ -85,7 +85,8 @@ TEST(CircleOfConfusion, focusRangeIsSharpAndPreservesNearAndFarBlur) {
         EXPECT_GT(circleOfConfusion(range, 5.5, 1000), 1);
         // Close to the lens, the focus range leaves C unchanged.
         EXPECT_NEAR(circleOfConfusion(range, 1e-6, 1000) / circleOfConfusion(plain, 1e-6, 1000), 1, 1e-5);
-        // At infinity, the focus range leaves C unchanged. If the range refocuses, C is that of a lens focused at 5 m.
+        // At infinity, the focus range leaves C unchanged. If the range refocuses, C equals the C of a lens focused at
+        // 5 m.
         const double far = circleOfConfusion(range, infinity, 1000) / circleOfConfusion(plain, infinity, 1000);
         EXPECT_NEAR(far, refocuses ? 2.0 / 5 : 1, 1e-12);
         // At depth z = 8 m, C is A·W/(2·tan(θx/2)) times (1/s)·(1 − 5/z), or times (1/5 − 1/z) if the range refocuses.

@@ -70,7 +70,7 @@ TEST_F(LightFieldTest, findsTheFocusOfAPixel) {
     EXPECT_THROW(focusAtPixel(field, {128, 0}), Error);
 }
 
-// The picture with everything in focus is that of a pinhole with antialiasing. Only outlines may differ, where few lens
+// The picture with everything in focus equals an antialiased pinhole picture. Only outlines may differ, where few lens
 // images show the surface.
 TEST_F(LightFieldTest, theSharpPictureIsThatOfAPinhole) {
     Request request = smallSchool();

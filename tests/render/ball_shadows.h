@@ -1,6 +1,6 @@
 #pragma once
-// Helpers that compare soft shadows of the GPU with those of the ray tracer: a matt ball in front of a wall, under one
-// light and through a wide lens.
+// Helpers that compare soft shadows of the GPU and of the ray tracer: a matt ball in front of a wall, under one light
+// and through a wide lens.
 
 #include <gtest/gtest.h>
 

@@ -13,8 +13,8 @@ namespace defocus::engine {
 namespace {
 
 // Means over every fifth vertex of a ball. The radial ray through the vertex hits the level's surface at a point.
-// `cosine` is the cosine of the angle between the vertex normal and the level's normal there; `length` is the latter's
-// length.
+// `cosine` is the cosine of the angle between the vertex normal and the level's normal there; `length` is the length of
+// the level's normal.
 struct Agreement {
     double cosine = 0;
     double length = 0;

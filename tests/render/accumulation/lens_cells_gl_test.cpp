@@ -38,7 +38,7 @@ TEST_F(LensCellImages, blocksAreThoseOfTheWholeFrame) {
     EXPECT_TRUE(sameBits(full->image(), part->image()));
 }
 
-// The image of method "auto" is bit-identical to that of the method that it chooses: multirate where spheres are
+// The image of method "auto" is bit-identical to the image of the method that it chooses: multirate where spheres are
 // blurred by 8 px and more, and accumulation where they are sharp. One renderer draws both images.
 TEST_F(LensCellImages, automaticMethodHasTheBitsOfItsChoice) {
     const auto blurred = blurredSpheres();

@@ -11,8 +11,8 @@
 namespace defocus::engine {
 namespace {
 
-// Draws the only object at level `level` + 1 in the first `coarseCount` samples and at `level` in the others. The first
-// of the others is split: it draws a fraction `share` of its pixels at level `level` + 1.
+// Draws the only object at level `level` + 1 in the first `coarseCount` samples and at `level` in the later samples.
+// The first of the later samples is split: it draws a fraction `share` of its pixels at level `level` + 1.
 void setSplit(FramePlan& plan, const World& world, std::uint32_t level, std::uint32_t coarseCount, double share) {
     ObjectPlan& object = plan.objects.at(0);
     const auto samples = static_cast<std::uint32_t>(plan.samples.size());

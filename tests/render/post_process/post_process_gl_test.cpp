@@ -55,7 +55,7 @@ TEST_P(PostProcesses, apertureZeroIsThePinhole) {
         EXPECT_LT(largestDifferenceInColumns(image, postProcessed(*small, pinholes)), 2e-3);
     }
 
-    // With one pinhole, the image equals that of a single sample of the accumulation.
+    // With one pinhole, the image equals a single sample of the accumulation.
     RenderSettings one = settingsWithTheLens();
     one.sampleCount = 1;
     const auto accumulation = methodNamed("accumulation").make(small->world, {});

@@ -484,7 +484,7 @@ nlohmann::json physicalCamera(const nlohmann::json& extension) {
             {"extensions", {{"EXT_camera_physical", extension}}}};
 }
 
-// Values of EXT_camera_physical are in metres, and extras override them. The values are those of the example in the
+// Values of EXT_camera_physical are in metres, and extras override them. The values are from the example in the
 // extension's draft.
 TEST(GltfScene, physicalCamerasAreInMetresAndExtrasWin) {
     GltfBuilder builder;
