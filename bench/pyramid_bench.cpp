@@ -196,8 +196,8 @@ void timeRow(const std::string& name, const Mesh& mesh) {
     std::fflush(stdout);
 }
 
-// Statistics of a ratio: the distance of our level from level 0, over that of the other simplifier's level. All levels
-// have equal weight; the mean is geometric.
+// Statistics of a ratio: the distance of our level from level 0, divided by the distance of the other simplifier's
+// level from level 0. All levels have equal weight; the mean is geometric.
 struct DistanceRatios {
     double sum = 0;
     int levels = 0;

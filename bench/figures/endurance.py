@@ -27,7 +27,7 @@ from figures.command import ROOT, add_program, executable, parser_of, path
 from figures.markdown import table
 from figures.results import run_of
 
-# Version with which files of many parts are compared.
+# Commit with which the current program is compared, in the part about files of many parts.
 FIRST = "f7ddc1ab"
 PAIRS = 3  # runs of each version, in alternation
 # Files with many parts: name and number of the parts, and the seconds that the first measurement took to render the

@@ -168,7 +168,7 @@ struct Light {  // KHR_lights_punctual
     float innerConeAngle = 0.0f;  // rad
     float outerConeAngle = 0.785398163f;
     // Size of the light, which is a disk that faces the lit point. The size softens shadows. glTF has no light sizes:
-    // the defaults are those of the sun and of a light bulb.
+    // the defaults are the sizes of the sun and of a light bulb.
     float angularDiameter = 0.00925f;  // rad; directional lights
     float radius = 0.03f;              // m; point and spot lights
 };

@@ -254,8 +254,8 @@ TEST_F(PostProcessesAlone, tenBitsHoldTheWholeImage) {
 }
 
 // A bias by luminance does not brighten edges as much as a constant bias does. A bright, blurred board over black shows
-// its coverage. A constant bias doubles the coverage; a bias by luminance increases it in proportion to the board's
-// share of the disk.
+// its coverage. A constant bias doubles the coverage; a bias by luminance increases it in proportion to the fraction
+// of the disk that the board fills.
 TEST_F(PostProcessesAlone, biasByLuminanceLeavesEdges) {
     const auto small = boards({{1, {-0.3, 0}, {0.3, 0.5}, {4, 4, 4, 1}}}, glm::vec3(0));
     small->view.lens.blurScale = 24 / (0.05 * (1.0 / 1 - 1.0 / 2) * 96 / 0.72);

@@ -117,8 +117,8 @@ TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
 }
 
 // At max blur, the published form reads only the small image, at the taps of a disk of 0.4 · 4 = 1.6 times the radius.
-// The variance of a blurred light is then that of the taps, plus that of the small image: pixels 4 px wide (16/12),
-// linear interpolation (16/6) and the Gaussian (8).
+// The variance of a blurred light is then the sum of the variance of the taps and the variance due to the small image:
+// pixels 4 px wide (16/12), linear interpolation (16/6) and the Gaussian (8).
 TEST_F(ScheuermannImage, asPublishedReadsTheSmallImageAtItsOwnRadius) {
     View view = bokehView(192, 144);
     const Image image = bokehOf(view, 6, "scheuermann:far-blur-depth=5,blurriness-cutoff=1");
