@@ -333,7 +333,7 @@ Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot&
     return result;
 }
 
-// Records removed and growing components, if any components grow.
+// Records the removed and the growing components in `level`, if any components grow.
 void noteComponents(const Simplifier& s, Snapshot& level) {
     if (!s.grows) return;
     level.removed = removedBalls(s);

@@ -30,7 +30,7 @@ SumLevel shownTexels(const TextureImage& image, float cutoff) {
     return level;
 }
 
-// Returns the level with half the sides, rounded up. If a side is odd, the texels at its border count twice.
+// Returns the level with half the width and height, rounded up. If a side is odd, the texels at its border count twice.
 SumLevel halved(SumLevel& fine) {
     SumLevel coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}};
     for (int y = 0; y < coarse.height; ++y)

@@ -29,8 +29,8 @@ std::uint32_t samplesForBlur(const FramePlan& plan, Quality quality);
 // disks, on average fewer than one of that many samples shows a blurred point inside the image.
 double largestSampledBlur(const FramePlan& plan);
 
-// Returns whether the bounded blur of some object exceeds largestSampledBlur(). Further samples then hardly improve the
-// image, because single samples show the object sharply.
+// Returns whether an object has a bounded blur that exceeds largestSampledBlur(). Further samples then hardly improve
+// the image, because single samples show the object sharply.
 bool blursBeyondSamples(const FramePlan& plan);
 
 // Returns the largest blur diameter in px of the plan's objects with bounded blur; 0 without such objects. Blur above

@@ -52,7 +52,7 @@ struct Session {
     const Clock::time_point begin = Clock::now();
     int framesWithScene = 0;  // frames drawn with the complete scene, not with a draft
     std::uint64_t framesDrawn = 0;
-    double statsWrittenAt = -1;  // time of the latest writing, s, as ViewState::now
+    double statsWrittenAt = -1;  // s since the window was opened; -1: not written yet
     Places places;               // positions of the widgets in the latest frame
 };
 
