@@ -45,7 +45,7 @@ void prepare(Fish& fish) {
     fish.view.worldFromCamera = placed.worldFromCamera;
     fish.view.lens.fStop = placed.camera.lensValue("fStop").value();
     fish.view.lens.focusDistance = placed.camera.lensValue("focusDistance").value();
-    fish.settings.sequence = Sequence::halton;  // sequence used for the committed results
+    fish.settings.sequence = Sequence::halton;  // lens sequence of the committed results
 }
 
 struct Measured {

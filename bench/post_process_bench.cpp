@@ -4,7 +4,7 @@
 // - the time that a single pass for near and far field could save;
 // - the flatness of the disks depending on the number of components;
 // - the error of storage formats;
-// - the times of the forms on the slide on performance.
+// - the times of the variants that the slide on performance compares.
 //
 // Held constant within a table: image, process, kernel. Variants run alternately; the median time counts. Checks that
 // the separable and the direct blur agree.

@@ -260,7 +260,7 @@ void distanceRow(const std::string& name, const Mesh& mesh, DistanceRatios& all)
 struct Stage {
     World world;
     View view;
-    double depth = 0;  // m, depth of the mesh's centre
+    double depth = 0;  // depth of the mesh's centre, m
 };
 
 void furnish(Stage& stage, const Scene& source, const Mesh& mesh) {
@@ -313,7 +313,7 @@ void blurBy(Stage& stage, double coc) {
 Image drawn(const Stage& stage, std::uint32_t level) {
     RenderSettings settings;
     settings.sampleCount = lensSamples;
-    settings.sequence = Sequence::halton;  // sequence used for the committed results
+    settings.sequence = Sequence::halton;  // lens sequence of the committed results
     settings.lod = LodMode::off;
     FramePlan plan = planFrame(stage.world, stage.view, settings);
     for (ObjectPlan& object : plan.objects) {

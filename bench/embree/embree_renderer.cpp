@@ -135,12 +135,12 @@ private:
     bool castsShadows_ = false;
     std::vector<LensSample> planned_;  // samples of the plan; used only with EmbreeSampling::planned
     LensCamera camera_;
-    std::optional<ApertureMask> mask_;  // nullopt if ApertureMask::isNeeded is false
-    ApertureMap aperture_{Lens{}};      // used if there is no mask_
+    std::optional<ApertureMask> mask_;  // aperture mask; nullopt if ApertureMask::isNeeded is false
+    ApertureMap aperture_{Lens{}};      // samples the lens if mask_ is empty
     std::unique_ptr<TracedScene> scene_;
     std::unique_ptr<PacketShading> shading_;
-    glm::dmat4 tracedFrom_{0.0};   // worldFromCamera for which scene_ was built
-    std::vector<PacketSum> sums_;  // packets of a tile are consecutive
+    glm::dmat4 tracedFrom_{0.0};   // camera matrix for which scene_ was built
+    std::vector<PacketSum> sums_;  // sums of all packets; the packets of a tile are consecutive
     std::uint32_t samples_ = 0;
     double setupMilliseconds_ = 0;
     double renderMilliseconds_ = 0;

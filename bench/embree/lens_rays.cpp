@@ -57,7 +57,7 @@ LensRay refractedRay(const LensCamera& camera, const glm::dvec2& image, const Le
     const glm::dvec2 axis(image.x * camera.tanHalfHorizontal, image.y * camera.tanHalfVertical);
     const glm::dvec2 slope(eye.direction.x, eye.direction.y);
     const double alpha = camera.lensDepth;
-    const double reciprocalFocal = 1 / (alpha * (1 - alpha * camera.reciprocalFocus));  // 1/f, see lens_rays.h
+    const double reciprocalFocal = 1 / (alpha * (1 - alpha * camera.reciprocalFocus));  // inverse focal length 1/f
     const glm::dvec2 height = alpha * (slope - axis);
     return {glm::vec3(alpha * slope, -alpha), glm::vec3(slope - height * reciprocalFocal, -1)};
 }

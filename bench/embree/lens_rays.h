@@ -31,19 +31,19 @@ namespace defocus::engine {
 struct LensCamera {
     double tanHalfHorizontal = 0;
     double tanHalfVertical = 0;
-    double lensRadius = 0;       // m; 0: pinhole
-    double reciprocalFocus = 0;  // 1/m; 0: focus at infinity
+    double lensRadius = 0;       // lens radius in m; 0: pinhole
+    double reciprocalFocus = 0;  // inverse focus distance in 1/m; 0: focus at infinity
 
     // Members that are used only with a foreground limit.
-    double lensDepth = 0;  // α, m; 0: no foreground limit, the lens is at the eye
+    double lensDepth = 0;  // depth α of the lens in m; 0: no foreground limit, the lens is at the eye
     double cone = 0;       // tangent of the half angle of the cone of rays from the eye
 };
 
 LensCamera lensCamera(const View& view);
 
 struct LensRay {
-    glm::vec3 origin{0.0f};     // in camera space, on the lens (z = 0)
-    glm::vec3 direction{0.0f};  // z = −1, so that the ray parameter is the depth in m
+    glm::vec3 origin{0.0f};     // point on the lens (z = 0) in camera space
+    glm::vec3 direction{0.0f};  // direction with z = −1, so that the ray parameter is the depth in m
 };
 
 // Returns the ray from lens point `lens` (unit disk) for image point `image` ([-1, 1]², right and up).

@@ -26,7 +26,7 @@ TileRays tileRays(const LensCamera& camera, const View& view, int left, int top,
                   const glm::dvec2& lens) {
     TileRays rays;
     for (int i = 0; i < tileSide; ++i) {
-        const glm::dvec2 place = glm::dvec2(left + i, top + i) + pixel;  // px from the image's top left corner
+        const glm::dvec2 place = glm::dvec2(left + i, top + i) + pixel;  // position in px from the top left corner
         const LensRay ray = lensRay(camera, {2 * place.x / view.width - 1, 1 - 2 * place.y / view.height}, lens);
         rays.slopeX[static_cast<std::size_t>(i)] = ray.direction.x;
         rays.slopeY[static_cast<std::size_t>(i)] = ray.direction.y;

@@ -31,7 +31,7 @@ struct ApertureMap {
     explicit ApertureMap(const Lens& lens);
 
     static constexpr int maxBlades = 64;
-    int bladeCount = 0;  // 0: round aperture
+    int bladeCount = 0;  // number of blades; 0: round aperture
     float scaleX = 1;    // anamorphic scaling
     float scaleY = 1;
     std::array<float, maxBlades + 1> cornerX{};  // corners of the polygon; the first is repeated at the end

@@ -31,7 +31,7 @@ private:
     struct Surfaces {
         std::uint32_t miss = 0;                       // geometry id of a miss
         std::vector<std::int32_t> firstColor;         // index of a geometry's first colour
-        std::vector<std::int32_t> colorsPerTriangle;  // 3; 0: all triangles have the same three colours
+        std::vector<std::int32_t> colorsPerTriangle;  // 3, or 0 if all triangles have the same three colours
         std::vector<float> red, green, blue;          // components of baseColorFactor
         std::vector<glm::vec3> cornerColors;          // three colours per triangle
     };

@@ -125,7 +125,7 @@ glm::vec2 onDisk(const glm::vec2& place) {
 struct Incoming {
     glm::vec3 illuminance{0.0f};
     glm::vec3 toMiddle{0.0f};  // unit vector to the light's centre
-    float distance = 0;        // m to the light's centre; 0: infinitely far
+    float distance = 0;        // distance in m to the light's centre; 0: infinitely far
 };
 
 Incoming incomingAt(const PlacedLight& placed, const glm::dvec3& place) {

@@ -21,7 +21,7 @@ struct SurfaceHit {
 
 // Shadow rays to one point on each light; the point is (r, s) ∈ [0, 1)², mapped to the light's disk.
 struct ShadowRays {
-    const TracedScene* scene = nullptr;  // null: no shadows
+    const TracedScene* scene = nullptr;  // scene for shadow rays; null: no shadows
     glm::vec2 lightPoint{0.5f};
 };
 

@@ -19,7 +19,7 @@ from figures.command import parser_of, path
 from figures.files import read_csv, read_json
 
 MIN_RUNS = 3  # fewer runs give no verdict on times
-TOLERANCE = 0.01  # relative to the larger error
+TOLERANCE = 0.01  # min change of an error, relative to the larger of both errors
 SSIM_ROUNDING = 1e-6  # CSV files contain six digits of SSIM
 # Columns that identify a row, and columns that are errors.
 KEYS = ("sweep", "axis", "movement", "area", "case", "errorOf", "method", "setting", "varied", "value", "samples", "fStop",
@@ -61,7 +61,7 @@ def cells_of(row):
 
 
 def row_of(cells):
-    skipped = (None, "", "accumulation") if "sweep" in cells else (None,)  # older results have no method
+    skipped = (None, "", "accumulation") if "sweep" in cells else (None,)  # older sweeps have no method
     key = [f"{cells[name]:.6g}" if isinstance(cells[name], float) else cells[name] for name in KEYS if cells.get(name) not in skipped]
     time = [cells.get(name) for name in ("milliseconds", "low", "high")]
     errors = {name: value for name, value in cells.items() if ERRORS.fullmatch(name) and value is not None}

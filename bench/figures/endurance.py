@@ -27,11 +27,11 @@ from figures.command import ROOT, add_program, executable, parser_of, path
 from figures.markdown import table
 from figures.results import run_of
 
-# Commit with which the current program is compared, in the part about files of many parts.
+# Commit to compare the current program with in the test of files with many parts.
 FIRST = "f7ddc1ab"
 PAIRS = 3  # runs of each version, in alternation
-# Files with many parts: name and number of the parts, and the seconds that the first measurement took to render the
-# file, on a busier machine.
+# Files with many parts: name and number of the parts, and the render time in s of the first measurement, on a busier
+# machine.
 MANY = [("roots", 300_000, 41), ("nodes in a chain", 100_000, 17), ("materials", 65_000, 7.6), ("meshes", 65_000, 12)]
 TRIANGLE = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
 
@@ -142,7 +142,7 @@ def long_film(program, folder, arguments):
     child = subprocess.Popen([program, "capture", "shot.json", "--quiet", "-o", "film/####.exr"], cwd=folder,
                              env=dict(os.environ, LP_NUM_THREADS="0"))
     frame = 0
-    held = {}  # key: frame; value: MiB
+    held = {}  # memory in MiB, keyed by frame
     begin = time.monotonic()
     while child.poll() is None:
         while (folder / "film" / f"{frame:04}.exr").exists():
@@ -169,7 +169,7 @@ def kills(program, folder, arguments):
     """Kills captures at random times and resumes them. Returns the lines of the page, and whether no frame differs."""
     frames, chance = 60, random.Random(1)
     write_shot(folder, frames)
-    environment = dict(os.environ, SOURCE_DATE_EPOCH="0")  # no run times in the metadata
+    environment = dict(os.environ, SOURCE_DATE_EPOCH="0")  # omits run times from the metadata
 
     def start(name, *words):
         return subprocess.Popen([program, "capture", "shot.json", "--quiet", "-o", f"{name}/####.exr", *words], cwd=folder, env=environment)

@@ -18,7 +18,7 @@ from figures.contact_sheet import HEIGHT, WIDTH, contact_sheet
 SCENES = ["FlightHelmet/FlightHelmet.gltf", "Fox.glb", "Suzanne.glb", "WaterBottle.glb", "bike.glb",
           "japanese-bridge-garden-meshopt.glb", "GlassVaseFlowers.glb", "MetalRoughSpheresNoTextures.glb", "CornellBox.glb",
           "AlphaBlendModeTest.glb", "NegativeScaleTest.glb", "InterpolationTest.glb", "skull.glb", "hammer.glb", "mountain.glb",
-          "AnimatedMorphCube.glb", "RecursiveSkeletons.glb", None]  # None: the built-in school of fish
+          "AnimatedMorphCube.glb", "RecursiveSkeletons.glb", None]  # None stands for the built-in school of fish
 FORMS = [("before", ["--units", "m", "--tonemap", "none", "--exposure", "0"]), ("today", []), ("with --ground", ["--ground"])]
 COMMON = ["--fstop", "1.4", "--size", "512x384", "--quiet"]
 

@@ -7,13 +7,13 @@ from figures.markdown import table
 from figures.results import RESULTS, command_of, run_of
 
 VIEWS = {0.5: "llvmpipe-teapots-half-blur", 1: "llvmpipe-teapots", 2: "llvmpipe-teapots-double-blur"}  # by --blur-scale
-# method and form of the rows
+# Method and settings (standard or published) of the rows.
 EXACT, PUBLISHED, POINTS = ("line", "standard"), ("line", "published"), ("stochastic", "standard")
 NAMES = {EXACT: "lines", PUBLISHED: "lines, as published", POINTS: "points"}
 COUNTS = {EXACT: (4, 16), PUBLISHED: (4, 16), POINTS: (16, 64, 256)}
 COMMON = ["--lod", "off", "--focus-breathing", "--background", "0.25,0.28,0.33", "--reference-samples", "1600", "--runs", "3",
           "--seeds", "1"]
-# Columns of the details beside the reference.
+# Details that are shown beside the reference: (method and settings, number of samples).
 DETAILS = [(EXACT, 4), (EXACT, 16), (PUBLISHED, 16), (POINTS, 64), (POINTS, 256)]
 
 

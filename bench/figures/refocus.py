@@ -27,10 +27,10 @@ class Scene(NamedTuple):
     name: str
     subject: tuple  # options of the scene, and its path
     size: str
-    focus: str  # m, focus of the lens images
-    near: str  # m, focus range
+    focus: str  # focus distance of the lens images, m
+    near: str  # near end of the focus range, m
     far: str
-    distances: tuple  # m, focus of the pictures
+    distances: tuple  # focus distances of the pictures, m
 
     def words(self):
         return [*self.subject, "--size", self.size, "--lod", "off"]

@@ -28,7 +28,7 @@ def output_of(program, command):
     folder = program.parent if words[0] == "defocus" else program.parent / "bench"
     name = program.name if words[0] == "defocus" else words[0]
     with tempfile.TemporaryDirectory() as scratch:
-        # bench convergence resumes what its folder holds, so each command has a folder of its own
+        # bench convergence resumes an earlier run in its folder, so each command needs an empty folder
         output = ["--output", scratch] if words[1:3] == ["bench", "convergence"] else []
         done = subprocess.run([folder / name, *words[1:], *output], stdout=subprocess.PIPE, text=True, cwd=ROOT)
     if done.returncode != 0:

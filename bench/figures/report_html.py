@@ -9,7 +9,7 @@ from PIL import Image
 from figures.files import read_json
 from figures.rows import flip, label_of, median, number, rmse, samples_text, time_text
 
-CROP_WIDTH = 176  # px on the page
+CROP_WIDTH = 176  # width of a crop on the page, px
 
 
 # ---- pictures -------------------------------------------------------------------------------------------------------

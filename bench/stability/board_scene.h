@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 struct Board {
     double depth = 2;        // m
-    glm::dvec2 centre{0};    // m, in the plane at `depth`
+    glm::dvec2 centre{0};    // centre in m, in the plane at `depth`
     glm::dvec2 halfSize{1};  // m
     glm::vec3 radiance{1};   // linear RGB
 };
@@ -24,7 +24,7 @@ View boardView(int width = 96, int height = 64);
 struct BoardScene {
     BoardScene(const View& boardsView, const std::vector<Board>& boards, const glm::vec3& background = glm::vec3(0));
 
-    std::shared_ptr<Scene> scene = std::make_shared<Scene>();  // scene of `world`
+    std::shared_ptr<Scene> scene = std::make_shared<Scene>();  // the scene that `world` refers to
     World world;
     View view;
     RenderSettings settings;  // full detail, no culling
@@ -55,7 +55,7 @@ double blurDiameter(const View& view, double depth);
 // second moment.
 struct BlurredLight {
     double diameterError = 0;  // px
-    double placeError = 0;     // px, distance of the disk's centre from its exact position
+    double placeError = 0;     // distance of the disk's centre from its exact position, px
 };
 
 // Arguments of squareAt for a light, and the image channel in which the light is measured. Near the light's disk, this

@@ -21,8 +21,8 @@ constexpr std::uint32_t edgeSamples = 4096;
 // A half plane whose edge crosses the image, in front of a wall. Both have a uniform colour.
 struct Edge {
     View view;
-    double depth = 3;   // m, depth of the half plane
-    double wall = 1e7;  // m, depth of the wall
+    double depth = 3;   // depth of the half plane, m
+    double wall = 1e7;  // depth of the wall, m
 };
 
 // Returns the fraction of a disk's area on one side of a line. `distance`: signed distance of the disk's centre from
@@ -47,7 +47,7 @@ double edgeError(const Edge& edge) {
         glm::translate(turned, glm::dvec3(edgeOffset * pixel - half, 0, -edge.depth)), glm::dvec3(half, half, 1));
 
     const Image image = rendered(boards);
-    const glm::dvec2 normal(std::cos(edgeTurn), std::sin(edgeTurn));  // points out of the half plane; y is up
+    const glm::dvec2 normal(std::cos(edgeTurn), std::sin(edgeTurn));  // outward normal of the edge; y is up
     const double diameter = blurDiameter(view, edge.depth);
     double largest = 0;
     for (int y = 0; y < image.height; ++y)

@@ -25,7 +25,7 @@ struct LensSetting {
     double focusDistance = 2;  // m
     double depth = 6;          // m
     double nearPlane = 0.01;   // m
-    int width = 96;            // px; the height is 64 px
+    int width = 96;            // width in px; the height is 64 px
 };
 
 // Returns the error (px) of a point's blur diameter, measured by the second moment, relative to the formula.
@@ -76,7 +76,7 @@ BlurredLight lightInField(double fieldOfView) {
 BlurredLight lightsInLargeImage(int width, int height) {
     View view = boardView(width, height);
     setBlur(view, 6, 10);
-    const glm::dvec2 outermost(0.5 * width - 8.3, 0.5 * height - 8.7);  // px from the centre; the disks just fit
+    const glm::dvec2 outermost(0.5 * width - 8.3, 0.5 * height - 8.7);  // offset in px from the centre; disks just fit
     std::vector<Board> lights;
     std::vector<glm::dvec2> places;
     for (const double up : {-1.0, 0.0, 1.0})
