@@ -24,7 +24,7 @@ struct TruthScene {
     TruthScene(const TruthScene&) = delete;
     TruthScene& operator=(const TruthScene&) = delete;
 
-    Scene& scene;  // scene of `world`
+    Scene& scene;  // the scene that `world` refers to
     World world;
     View view;
 };

@@ -271,7 +271,7 @@ class Features(unittest.TestCase):
         camera.data.dof.use_dof, scene.defocus.samples = False, 256
         bpy.ops.mesh.primitive_uv_sphere_add(radius=0.02, location=(0, 1, 0))
         ball = scenes.with_material(scenes.glowing("ball", 1))
-        for frame, across in ((0, -0.1), (2, 0.1)):  # 0.1 m in a frame
+        for frame, across in ((0, -0.1), (2, 0.1)):  # moves by 0.1 m per frame
             ball.location.x = across
             ball.keyframe_insert("location", frame=frame)
         for point in ball.animation_data.action.fcurves[0].keyframe_points:
@@ -284,7 +284,7 @@ class Features(unittest.TestCase):
         scene.render.use_motion_blur = False
         still = pictures.rendered("DEFOCUS", scene)[..., 0].sum(axis=0)
         width = math.sqrt(12 * (light @ (x - mean) ** 2 / light.sum() - still @ (x - 48) ** 2 / still.sum()))
-        expected = 0.05 * 96 * 50 / 36  # path of 0.05 m at 1 m
+        expected = 0.05 * 96 * 50 / 36  # length in px of a path of 0.05 m at a distance of 1 m
         pictures.say(f"motion blur: {width:.2f} px, expected {expected:.2f} px")
         self.assertAlmostEqual(mean, 48, delta=0.1)
         self.assertAlmostEqual(width / expected, 1, delta=0.02)

@@ -46,7 +46,7 @@ TEST(Hash, twoFlippedBitsNeverCancel) {
     std::set<std::uint64_t> hashes = {hashOf(words)};
     const std::size_t bits = 64 * words.size();
     for (std::size_t a = 0; a < bits; ++a)
-        for (std::size_t b = a + 1; b <= bits; ++b) {  // for b == bits, only one sign is flipped
+        for (std::size_t b = a + 1; b <= bits; ++b) {  // if b == bits, only bit a is flipped
             words[a / 64] ^= 1ull << a % 64;
             if (b < bits) words[b / 64] ^= 1ull << b % 64;
             hashes.insert(hashOf(words));

@@ -72,7 +72,7 @@ const std::map<std::string, std::vector<std::string>>& allowed() {
         addOver("render", "plan", {"gl"});
         addOver("frame", "render", {});
         addOver("eval", "frame", {});
-        modules["stability"] = {};  // the folder is bench/stability; only a command includes it
+        modules["stability"] = {};  // in bench/stability; only a command includes this module
         addOver("refocus", "frame", {});
         addOver("capture", "refocus", {});
         addOver("view/state", "capture", {});
@@ -85,7 +85,7 @@ const std::map<std::string, std::vector<std::string>>& allowed() {
         addOver("view/hud", "view/widgets", {});
         addOver("view/window", "view/panels", {"view/hud"});
         addOver("cli", "view/window", {"eval", "stability", "view/bench"});
-        modules["frame"].emplace_back("school");  // only frame includes the built-in scene
+        modules["frame"].emplace_back("school");  // only src/frame includes the built-in scene
         return modules;
     }();
     return table;

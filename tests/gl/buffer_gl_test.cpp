@@ -106,7 +106,7 @@ TEST_F(GlVertexArray, readsAttributesByOffsetStrideTypeAndInstance) {
     };
     const std::array<Vertex, 4> vertices = {{{-9, {0, 10}}, {-9, {1, 11}}, {-9, {2, 12}}, {-9, {3, 13}}}};
     const std::array<std::uint8_t, 4> shades = {0, 51, 102, 255};
-    const std::array<float, 2> steps = {100, 200};  // one value per instance
+    const std::array<float, 2> steps = {100, 200};  // one attribute value per instance
     const Buffer vertexBuffer = Buffer::of(std::span<const Vertex>(vertices));
     const Buffer shadeBuffer = Buffer::of(std::span<const std::uint8_t>(shades));
     const Buffer stepBuffer = Buffer::of(std::span<const float>(steps));

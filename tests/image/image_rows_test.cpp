@@ -149,7 +149,7 @@ TEST_F(ImageRows, sizesThatAreNoAttributesAreRefused) {
             }
         }
     };
-    withNumber("owner", "string", 6);  // the size that the attribute has
+    withNumber("owner", "string", 6);  // the attribute's true size
     EXPECT_NO_THROW(static_cast<void>(readImage(path)));
     withNumber("owner", "string", 2'000'000'000);
     expectRefused("'owner'");

@@ -21,7 +21,7 @@ TEST(FrameTimeCode, countsFramesSecondsMinutesAndHours) {
     EXPECT_FALSE(timeCodeOfFrame(24 * 3600 * 24, 24));
 }
 
-// SMPTE ST 12-1: 01:23:45:16 is 0x01234516.
+// By SMPTE ST 12-1, the time code 01:23:45:16 is 0x01234516.
 TEST(FrameTimeCode, hasADecimalDigitInFourBits) {
     EXPECT_EQ(timeCodeBits({1, 23, 45, 16}), 0x01234516u);
     EXPECT_EQ(timeCodeOf(0x01234516u), (TimeCode{1, 23, 45, 16}));

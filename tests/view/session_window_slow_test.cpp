@@ -111,7 +111,7 @@ TEST_F(View, keysSwitchWhatTheyName) {
 
 TEST_F(View, survivesEverySizeAndScenesThatKeepComing) {
     openTwoQuads();
-    // Three rounds over the sizes, so that frames also fall between two queries to the display.
+    // Repeat all sizes three times, so that some frames fall between two queries to the display server.
     for (int turn = 0; turn < 3; ++turn)
         for (const char* size : {"1 1", "700 1", "1 300", "640 480"}) {
             act(std::string("search --onlyvisible --name defocus windowsize ") + size);

@@ -309,7 +309,7 @@ TEST(ConvergenceCases, followTheTableAndTheLists) {
     EXPECT_FALSE(names.contains(automaticMethod));
 }
 
-// A method with standard settings has a row for each of its forms: published, best and standard. A method with custom
+// A method without custom settings has a row each for its published, best and standard settings. A method with custom
 // settings has only one row.
 TEST(ConvergenceCases, formsArePublishedBestAndStandard) {
     registerMethod({.name = "formed",

@@ -141,8 +141,8 @@ TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     EXPECT_EQ(json[2]["blurOnly"]["triangles"], rows[2].blurOnly->triangles);
 }
 
-// Each form of a method is compared with full detail at the same samples. The form `published` and the standard form
-// use different sample sequences.
+// The published and the standard settings of a method are each compared with full detail at the same samples. They use
+// different sample sequences.
 TEST(Speedup, measuresFormsAndMethodsBesideEachOther) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const std::unique_ptr<SmallWorld> small = fiveSpheres();

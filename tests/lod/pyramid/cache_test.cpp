@@ -414,7 +414,7 @@ TEST(PyramidFile, randomWordsUnderARightChecksumGiveNothingOrSomethingSound) {
         ++sound;
         expectSound(*decoded, file.mesh);
     }
-    EXPECT_GT(sound, 100u);  // sound, since most words are coordinates, which may have any value
+    EXPECT_GT(sound, 100u);  // most words are coordinates, in which any value is valid
 }
 
 // ---- folder ------------------------------------------------------------------------------------

@@ -117,7 +117,7 @@ TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
             return sum;
         };
         constexpr double step = 1.003;
-        constexpr double unit = 7;  // px per object unit
+        constexpr double unit = 7;  // size in px of an object unit
         for (double target = 1e-3; target < 10; target *= step) {
             const double expected = growth(target, target * step);
             const auto lambda = [&](double pixelsPerUnit, double coc, const LodThresholds& thresholds) {

@@ -14,7 +14,7 @@ const glm::vec3 up(0, 0, 1);
 const glm::vec3 right(1, 0, 0);
 
 TEST(SmoothingGroups, joinNormalsWithinADegreeAtOnePositionOnly) {
-    const glm::vec3 almostUp = glm::normalize(glm::vec3(0.01f, 0, 1));  // 0.57° from +z
+    const glm::vec3 almostUp = glm::normalize(glm::vec3(0.01f, 0, 1));  // direction 0.57° away from +z
     const WeldedPositions positions = weldPositions({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}});
     const VertexGroups groups = smoothingGroups({up, right, almostUp, up}, positions);
     EXPECT_EQ(groups[{0}], groups[{2}]);

@@ -73,8 +73,8 @@ TEST(LensFacing, isTheLargestOverTheLensForAnyC) {
     }
 }
 
-// For a thin lens, whose circle of confusion C = a + b·w is linear in the depth w, the bound is that of an eye that
-// moves over a disk of radius |a| (Eq. 6 of the paper).
+// For a thin lens, whose circle of confusion C = a + b·w is linear in the depth w, the bound equals the bound for an
+// eye that moves over a disk of radius |a| (Eq. 6 of the paper).
 TEST(LensFacing, ofAThinLensIsThePublishedShortForm) {
     TriangleSource random(2);
     const double a = -0.12, b = 0.05;

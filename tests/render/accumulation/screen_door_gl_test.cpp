@@ -119,7 +119,7 @@ TEST_F(ScreenDoor, ofBlendedSurfacesLeavesNoHole) {
     finish(*small);
     small->world.environment = {EnvironmentType::uniform, {1, 0, 0}, {}, {}, nullptr, 1};
     FramePlan plan = planFrame(small->world, small->view, continuousFor(1));
-    plan.blendOrder.at(0).stochastic = false;  // sort: stochastic transparency has holes in a single sample
+    plan.blendOrder.at(0).stochastic = false;  // sort, because stochastic transparency has holes in a single sample
     setSplit(plan, small->world, 1, 0, 0.4);
     const Image image = renderedPlan(*small, plan);
     EXPECT_NEAR(image.at(80, 60)[0], 0.6, 2e-3);  // half the sphere's colour and half the background's in each pixel

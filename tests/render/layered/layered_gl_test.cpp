@@ -45,7 +45,7 @@ void blurBy(SmallWorld& small, double pixels, double depth) {
     small.view.lens.blurScale *= pixels / blurDiameter(small.view, depth);
 }
 
-constexpr double everywhere = 1000;  // px; a position far beyond the frame
+constexpr double everywhere = 1000;  // position in px far beyond the frame
 
 Pane wallAt(double depth, const glm::vec4& color) {
     return {{-everywhere, -everywhere, everywhere, everywhere, depth}, color};

@@ -1,4 +1,4 @@
-// Tests of the published forms of the lens-space methods, and of their alternatives.
+// Tests of the lens-space methods with published settings, and with alternatives to these settings.
 
 #include <set>
 
@@ -74,7 +74,7 @@ TEST_F(LensSpaceAlone, stochasticPixelsHaveTheirOwnPoints) {
     const Image image = lensSpaceImage("stochastic", *small, 4);
     std::set<float> values;
     for (int y = 0; y < image.height; ++y) values.insert(image.at(2, y)[0]);
-    EXPECT_GT(values.size(), 200u);  // 64 repeated sets give at most 64 values
+    EXPECT_GT(values.size(), 200u);  // a repetition of 64 ray sets would give at most 64 values
 }
 
 // Returns the two spheres, one of which moves.

@@ -140,7 +140,7 @@ TEST_P(PostProcesses, aSharpObjectDoesNotLeakIntoTheBlurredBackground) {
     constexpr float bright = 4;
     const auto small = boards(
         {{2, {-0.4, 0}, {0.4, 1}, {bright, bright, bright, 1}}, {9, {0, 0}, {9, 9}, {0, 0, 0, 1}}}, glm::vec3(0));
-    constexpr int radius = 5;  // px; the max blur radius of scheuermann as published
+    constexpr int radius = 5;  // max blur radius of scheuermann as published, px
     small->view.lens.blurScale = 2 * radius / (0.05 * (1.0 / 2 - 1.0 / 9) * 96 / 0.72);
     const Image image = postProcessed(*small, GetParam());
     const int edge = 48;  // column where the board ends, the middle

@@ -116,13 +116,13 @@ TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
     EXPECT_GT(error, 0.5 / 255 / std::sqrt(12.0));
 }
 
-// At max blur, the published form reads only the small image, at the taps of a disk of 0.4 · 4 = 1.6 times the radius.
-// The variance of a blurred light is then the sum of the variance of the taps and the variance due to the small image:
-// pixels 4 px wide (16/12), linear interpolation (16/6) and the Gaussian (8).
+// At max blur, the method as published reads only the small image, at the taps of a disk of 0.4 · 4 = 1.6 times the
+// radius. The variance of a blurred light is then the sum of the variance of the taps and the variance due to the small
+// image: pixels 4 px wide (16/12), linear interpolation (16/6) and the Gaussian (8).
 TEST_F(ScheuermannImage, asPublishedReadsTheSmallImageAtItsOwnRadius) {
     View view = bokehView(192, 144);
     const Image image = bokehOf(view, 6, "scheuermann:far-blur-depth=5,blurriness-cutoff=1");
-    const double radius = 1.6 * 5;  // px; the max blur is 10 px wide
+    const double radius = 1.6 * 5;  // radius in px; the max blur is 10 px wide
     glm::dvec2 mean(0);
     glm::dvec2 meanSquare(0);
     const std::vector<glm::vec2> taps = poissonDisk(8);
