@@ -27,7 +27,7 @@ namespace defocus::engine {
 // Settings for measuring a method that the user names without settings.
 enum class MethodForm {
     published,  // settings of the method's paper, if there is a paper
-    best,       // Method::best; called `standard` if equal to the defaults
+    best,       // settings in Method::best; called `standard` if equal to the defaults
     standard,
 };
 const char* methodFormName(MethodForm form);
@@ -42,19 +42,19 @@ struct PublishedForm {
 };
 
 struct ConvergenceOptions {
-    std::vector<MethodUse> methods;  // empty: all methods, with default settings
+    std::vector<MethodUse> methods;  // methods to measure; empty: all, with default settings
     std::vector<MethodForm> forms = {MethodForm::published, MethodForm::best,
-                                     MethodForm::standard};  // measured for methods with default settings
-    std::vector<PublishedForm> published;                    // forms for MethodForm::published
+                                     MethodForm::standard};  // forms of methods with default settings
+    std::vector<PublishedForm> published;                    // settings of MethodForm::published
     RenderSettings plan;                                     // settings of every case; the lists below override them
-    std::vector<std::uint32_t> sampleCounts = {8, 16, 32, 64, 128, 256};  // for methods that use lens samples
+    std::vector<std::uint32_t> sampleCounts = {8, 16, 32, 64, 128, 256};  // lens samples, for methods that use them
     // Level modes for methods that draw levels of detail. Accumulation at full detail is measured even if LodMode::off
     // is not listed.
     std::vector<LodMode> lods = {LodMode::off, LodMode::fractional};
     std::vector<LodMetric> metrics = {LodMetric::measured};
     std::vector<double> thresholdFactors = {0.5, 1, 2};  // factors on defaultThresholds for the number of samples
     int runs = 3;                                        // runs of each case, ≥ 1
-    int seeds = 1;             // ≥ 1; run r uses the plan's seed + r % seeds, so the errors have a spread
+    int seeds = 1;             // seeds, ≥ 1; run r uses the plan's seed + r % seeds, so the errors have a spread
     RendererOptions renderer;  // RendererOptions::settings is ignored
 };
 
@@ -67,7 +67,7 @@ struct ConvergenceCase {
     std::string setting;
     std::uint32_t samples = 0;  // requested lens samples; 0 if the method uses none
     RenderSettings plan;
-    const World* world = nullptr;    // null: the measured world
+    const World* world = nullptr;    // world to draw; null: the measured world
     double pyramidMilliseconds = 0;  // build time of the pyramids of `world`
     [[nodiscard]] bool usesLevels() const { return plan.lod != LodMode::off; }
 };
@@ -83,7 +83,7 @@ struct ImageError {
     double mse = 0;
     double ssim = 1;
     double flip = 0;
-    [[nodiscard]] double psnr() const;  // dB; infinity for equal images
+    [[nodiscard]] double psnr() const;  // PSNR in dB; infinity for equal images
 };
 
 // Measurement of one run of a case.

@@ -22,7 +22,7 @@ struct ConvergenceRow {
     Spread milliseconds;              // wall-clock time of a frame
     Spread setupMilliseconds;         // set-up time of the renderer; not part of `milliseconds`
     double pyramidMilliseconds = 0;   // build time of the pyramids; not part of `milliseconds`
-    double gpuMilliseconds = 0;       // median, from timer queries
+    double gpuMilliseconds = 0;       // median GPU time, from timer queries
     ImageError error;                 // difference from the reference, mean over the seeds
     std::optional<ImageError> bias;   // difference from full detail, mean over the seeds; nullopt without levels
     std::vector<ImageError> ofSeeds;  // `error` of each measured seed

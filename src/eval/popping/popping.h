@@ -58,7 +58,7 @@ struct PoppingOptions {
 
 struct PopError {
     double rmse = 0;
-    double flip = 0;  // mean over the pixels
+    double flip = 0;  // mean FLIP over the pixels
 };
 
 struct Pop {
@@ -89,8 +89,8 @@ struct SampleStep {
 };
 
 struct PoppingVisitor {
-    // Called once with the first quarter of the first movement's frames, in all modes: a first result after seconds. May
-    // be empty.
+    // Called once with the first quarter of the first movement's frames in all modes, so that a first result appears
+    // after seconds. May be empty.
     std::function<void(std::span<const PoppingFrame>)> firstFrames;
     // Called once for each movement and each number of samples, with the frames of all modes.
     std::function<void(std::span<const PoppingFrame>)> frames;

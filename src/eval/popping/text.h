@@ -14,7 +14,7 @@ namespace defocus::engine {
 struct PopSummary {
     double worst = 0;
     int worstFrame = 0;
-    double percentile99 = 0;  // linearly interpolated between frames
+    double percentile99 = 0;  // 99th percentile, interpolated linearly between frames
     double ofNearest = 0;     // `worst` divided by `worst` of LodMode::nearest; NaN if that is 0 or missing
 };
 

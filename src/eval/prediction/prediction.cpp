@@ -27,7 +27,7 @@ struct Stand {
     World world;
     View view;
     PlacedCamera camera;
-    double depth = 0;  // m, depth of the mesh's centre
+    double depth = 0;  // depth of the mesh's centre, m
 };
 
 // Rotates the mesh so that the camera sees it from the direction `towards`, as in the prediction's pictures.

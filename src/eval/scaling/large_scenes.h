@@ -27,12 +27,12 @@ std::vector<LargeScene> largeScenes();
 struct LargeSceneRow {
     LargeScene scene;
     std::size_t meshes = 0;
-    std::uint64_t triangles = 0;   // sum over all objects at full detail
+    std::uint64_t triangles = 0;   // triangles of all objects at full detail
     double worldMilliseconds = 0;  // time to build the scene and its pyramids, which may come from the cache
     Spread planMilliseconds;
     double firstImageMilliseconds = 0;  // time from plan to first image, with uploads and compilation of shaders
     double frameMilliseconds = 0;       // time of a further frame with all samples
-    std::uint64_t trianglesDrawn = 0;   // sum over all samples
+    std::uint64_t trianglesDrawn = 0;   // triangles drawn in all samples
     std::uint64_t residentBytes = 0;    // resident memory of the process after drawing
     std::uint64_t gpuBytes = 0;         // peak size of the renderer's resources
 };

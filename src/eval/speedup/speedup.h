@@ -36,7 +36,7 @@ struct SpeedupOptions {
     std::uint32_t sweepSamples = 64;
     std::vector<MethodUse> methods;  // measured after accumulation, with the first form's settings
     int runs = 5;                    // runs of each frame, ≥ 1
-    int seeds = 5;                   // ≥ 1; run r uses the plan's seed + r % seeds, so the errors have a spread
+    int seeds = 5;                   // seeds, ≥ 1; run r uses the plan's seed + r % seeds, so the errors have a spread
     // Lens samples of the converged reference for each lens (reference_image.h); 0: no reference. Default: eight times
     // the largest number of samples measured with that lens, which takes about two thirds of the time of three runs of
     // all modes.
@@ -65,7 +65,7 @@ struct SpeedupRow {
     Spread gpuMilliseconds;          // time by timer queries, which miss the vertex work on software drivers
     double setupMilliseconds = 0;    // set-up time of the renderer; not part of `milliseconds`
     double pyramidMilliseconds = 0;  // build time of the pyramids, if levels are used; not part of `milliseconds`
-    double speedUp = 1;              // median time of the form at full detail divided by this row's median time
+    double speedUp = 1;              // median time of the settings at full detail divided by this row's median time
     std::optional<SpeedupPart> sizeOnly, blurOnly;  // results by cause; only for accumulation with fractional levels
     std::uint64_t triangles = 0;
     std::uint64_t gpuBytes = 0;               // peak size of the renderer's resources

@@ -23,8 +23,8 @@ constexpr int maxResolution = 512;  // max cells per side of a picture; BlurTabl
 static_assert(maxResolution == 1 << (blurSizes - 1));
 constexpr double minBlurredGrowth = 1.1;  // min ratio of the errors of consecutive levels
 constexpr double minError = 1e-6;         // min error of level 1
-// A level's error on a grey background may reach this fraction of the limit. With 1, FLIP of a smooth surface in focus
-// rises by more than a fifth.
+// A level's error on a grey background may reach this fraction of the limit. A fraction of 1 would raise FLIP of a
+// smooth surface in focus by more than a fifth.
 constexpr double greyShare = 0.9;
 constexpr double minGreyContrast = 0.004;  // min contrast on a grey background, relative to the mean radiance
 // Max ratio of the errors of consecutive levels. Halving the triangles of a smooth surface doubles its error, because

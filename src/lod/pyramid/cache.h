@@ -18,7 +18,7 @@ namespace defocus::engine {
 std::filesystem::path defaultCacheFolder();
 
 struct CachedPyramids {
-    std::vector<Pyramid> pyramids;  // one per mesh
+    std::vector<Pyramid> pyramids;  // one pyramid per mesh
     std::size_t loaded = 0;         // number of pyramids loaded from the cache; the others were built
     std::string failure;            // reason why a pyramid was not stored; empty on success
 };

@@ -54,10 +54,10 @@ struct ClusterGrowth {
     glm::vec3 centres{0};
     glm::vec3 normals{0};
     // Triangles that touch the growing cluster; some of them may already be assigned.
-    std::vector<TriangleNumber> closed;    // all three corners are in the cluster
-    std::vector<TriangleNumber> hanging;   // the last unassigned triangle at a vertex; expensive in another cluster
-    std::vector<TriangleNumber> beside;    // two corners are in the cluster
-    std::vector<TriangleNumber> touching;  // one corner is in the cluster
+    std::vector<TriangleNumber> closed;    // triangles with all three corners in the cluster
+    std::vector<TriangleNumber> hanging;   // last unassigned triangles at a vertex; expensive in another cluster
+    std::vector<TriangleNumber> beside;    // triangles with two corners in the cluster
+    std::vector<TriangleNumber> touching;  // triangles with one corner in the cluster
     std::vector<TriangleNumber> left;      // unassigned neighbours of earlier clusters
     TriangleNumber unseen{0};              // all triangles before this one are assigned
 

@@ -15,7 +15,7 @@ namespace defocus::engine {
 
 struct Conserved {
     double area = 0;       // object units squared
-    glm::dvec3 colour{0};  // mean over the area
+    glm::dvec3 colour{0};  // mean colour over the area
     LightMeans light{};    // reflected radiance, from vertex colours; textures are ignored
     // Area of the surface's silhouette in a parallel projection along each direction, in object units squared. Both
     // sides of a face count. The opposite direction gives the same area.
@@ -36,9 +36,9 @@ Conserved conservedBy(const Pyramid& pyramid, std::size_t level, const ColourAt&
 
 // Largest differences between a level and level 0.
 struct ConservedDifference {
-    double colour = 0;       // max over the colour channels
-    double light = 0;        // max over all light directions
-    double outline = 0;      // relative; max over all view directions
+    double colour = 0;       // max difference over the colour channels
+    double light = 0;        // max difference over all light directions
+    double outline = 0;      // max relative difference over all view directions
     double meanOutline = 0;  // relative and signed change of the mean over all view directions
 };
 

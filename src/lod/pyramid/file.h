@@ -48,8 +48,8 @@ struct PyramidFileHeader {
     std::uint32_t vertexCount = 0;
     std::uint32_t triangleCount = 0;  // triangles of level 0
     std::uint32_t repairedFaces = 0;
-    std::uint32_t end = 0;       // a PyramidEnd value
-    std::uint32_t vertices = 0;  // a LevelVertices value
+    std::uint32_t end = 0;       // value of PyramidEnd
+    std::uint32_t vertices = 0;  // value of LevelVertices
     double minimum[3] = {};      // Pyramid::bounds
     double maximum[3] = {};
     double smallestPatch = 0;

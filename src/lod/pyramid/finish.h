@@ -29,7 +29,7 @@ struct FinishImage {
 };
 
 struct FinishMap {
-    std::shared_ptr<const FinishImage> image;  // null: no image
+    std::shared_ptr<const FinishImage> image;  // texels of the map; null: no image
     Wrap wrapS = Wrap::repeat;
     Wrap wrapT = Wrap::repeat;
     int uvSet = 0;

@@ -23,8 +23,8 @@ const char* lodMetricName(LodMetric metric);
 // detail.
 struct GivenThresholds {
     std::optional<double> blur = {};   // target in px per px of CoC; number of levels for `proportional`; ≥ 0
-    std::optional<double> size = {};   // px, ≥ 0; only for LodMetric::size and LodMetric::error
-    std::optional<double> light = {};  // px, ≥ 0; only for LodMetric::measured, which ignores `blur` and `size`
+    std::optional<double> size = {};   // min target in px, ≥ 0; only for LodMetric::size and LodMetric::error
+    std::optional<double> light = {};  // limit in px, ≥ 0; only for LodMetric::measured, which ignores the other two
 };
 
 // Resolves LodMetric::automatic to a concrete metric; returns any other metric unchanged.
@@ -33,8 +33,8 @@ LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given);
 struct LodThresholds {
     double blur = 0;  // target in px per px of CoC; number of levels for `proportional`
     double size = 0;  // min target in px
-    // px: max product of a level's edge length in px and its error in standard deviations of the radiance within the
-    // blur. Only for LodMetric::measured; see measuredLimit.
+    // Max product of a level's edge length in px and its error in standard deviations of the radiance within the blur.
+    // Only for LodMetric::measured; see measuredLimit.
     double light = 0;
 };
 

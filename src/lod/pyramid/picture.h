@@ -66,7 +66,7 @@ private:
     std::span<const Finish> finishes_;
     std::vector<glm::vec3> places_;  // projected vertices of the level
     // Depth and triangle of the surface nearest to the eye, for the centre of each cell of the box.
-    LargeVector<float> depths_;          // z; −∞ for empty cells
+    LargeVector<float> depths_;          // depth z; −∞ for empty cells
     LargeVector<std::uint32_t> firsts_;  // offset of the triangle's first index in Pyramid::indices
 };
 

@@ -145,8 +145,8 @@ void separateSizes(std::vector<PyramidLevel>& levels, double diagonal) {
 
 // A level before the final vertex order is known.
 struct FittedLevel {
-    TriangleSet<LevelVertexNumber> own;                     // triangles before clustering
-    TriangleSet<MeshVertexNumber> triangles;                // `own` after clustering
+    TriangleSet<LevelVertexNumber> own;                     // the level's triangles before clustering
+    TriangleSet<MeshVertexNumber> triangles;                // triangles of `own` after clustering
     Numbered<LevelVertexNumber, MeshVertexNumber> numbers;  // see SimplifiedLevel
     LevelFit fit;
     std::vector<Cluster> clusters;
@@ -472,7 +472,7 @@ std::uint64_t trianglesOf(std::span<const Mesh> meshes) {
 std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all) {
     const double share =
         static_cast<double>(mesh.triangleCount()) / static_cast<double>(std::max<std::uint64_t>(1, all));
-    static const unsigned available = std::max(1u, std::thread::hardware_concurrency());  // a system call, made once
+    static const unsigned available = std::max(1u, std::thread::hardware_concurrency());  // cached system call
     const auto cores = std::llround(share * available);
     return static_cast<std::size_t>(std::max(1ll, cores) - 1);
 }

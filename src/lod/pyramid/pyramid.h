@@ -29,7 +29,7 @@ class Finishes;
 
 struct IndexRange {
     std::uint32_t first = 0;  // offset into Pyramid::indices
-    std::uint32_t count = 0;  // a multiple of 3
+    std::uint32_t count = 0;  // number of indices, a multiple of 3
 };
 
 // A cluster is a run of triangles of one level that are close together and face similar directions. A frame skips the
@@ -93,7 +93,7 @@ struct PyramidLevel {
     // bounding box.
     double error = 0;
 
-    BlurTables blurredError{};  // see blurred_error.h; 0 for level 0
+    BlurTables blurredError{};  // tables of blurred_error.h; 0 for level 0
 };
 
 struct Pyramid {

@@ -49,7 +49,7 @@ Surface prepareSurface(std::span<const glm::vec3> positions, const TriangleSet<V
 // Returns the distance from `point` (finite) to the closest point of the surface; infinity for an empty surface.
 double distanceTo(const Surface& surface, const glm::dvec3& point);
 
-// Returns the distances from `count` points of `from` to the surface `to`. Each point represents an equal share of the
+// Returns the distances from `count` points of `from` to the surface `to`. Each point represents an equal part of the
 // area of `from`: the area is divided into strata, with one point each. The R2 sequence places the point within its
 // triangle. Returns an empty vector if `from` is empty.
 std::vector<double> sampleDistances(const Surface& from, const Surface& to, std::size_t count);
@@ -61,7 +61,7 @@ double largeDistance(const Surface& from, const Surface& to, std::size_t count, 
 
 struct Distances {
     double mean = 0;
-    double percentile99 = 0;  // by the nearest-rank method
+    double percentile99 = 0;  // 99th percentile by the nearest-rank method
     double maximum = 0;
 };
 

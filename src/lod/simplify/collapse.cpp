@@ -99,7 +99,7 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
 
     // The survivor's wedge beside the collapsing edge, in the corner's chart.
     WedgeNumber across;
-    WedgeNumber exact;     // like `across`, and also on the same side of every crease
+    WedgeNumber exact;     // wedge like `across`, but also on the same side of every crease
     bool torn = false;     // a seam crosses the edge at the survivor
     bool creased = false;  // a crease crosses the edge at the survivor
     for (const EdgeSide& side : sides.both) {

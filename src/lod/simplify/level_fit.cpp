@@ -18,7 +18,8 @@ namespace {
 // Lower bound of the mean cosine between normals: normals that differ more have no meaningful mean.
 constexpr float minAgreement = 0.125f;
 
-// Sums over the anchors at each level vertex: share · weight, and share · weight · value (terms of least_squares.h).
+// Sums over the anchors at each level vertex, in the notation of least_squares.h: share · weight, and share · weight ·
+// value.
 struct AnchorSums {
     using Three = std::array<double, 3>;
     Numbered<LevelVertexNumber, double> weights;
@@ -81,7 +82,7 @@ AnchorSums sumAnchors(const FitSource& source, const LevelMesh& level,
     return sums;
 }
 
-// Returns fitted positions; clears the gaps in `sums`.
+// Returns fitted positions; clears AnchorSums::gaps of `sums`.
 Numbered<LevelVertexNumber, glm::vec3> fitPositions(const FitSource& source, const LevelMesh& level, AnchorSums& sums) {
     const auto leaderOf = [&](MeshVertexNumber v) { return source.positions.first[source.positions.id[v]]; };
     const Grouping groups = grouped(level, source.vertices.count(), leaderOf, false);

@@ -302,7 +302,7 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
             followNormals();
             damping *= 10;
         } else {
-            return;  // the misfit is NaN
+            return;  // stop, because the misfit is NaN
         }
         turn(best, groups, smallestChange(at, wanted, damping), normals);
     }

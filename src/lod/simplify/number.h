@@ -75,7 +75,7 @@ constexpr std::size_t indexOf(Key item) {
     if constexpr (requires { item.value; })
         return item.value;
     else if constexpr (std::unsigned_integral<Key>)
-        return item;  // Key is a plain index
+        return item;  // a plain index is itself the array index
     else
         return static_cast<std::size_t>(item.idx());
 }

@@ -18,7 +18,7 @@ namespace {
 
 // Factor on the cost of poor collapses.
 constexpr float poorPenalty = 10;
-constexpr std::size_t minFacesToReport = 1000;  // for smaller meshes, progress reports are not worthwhile
+constexpr std::size_t minFacesToReport = 1000;  // meshes with fewer faces report no progress
 // Up to this number of faces, the costs of all candidates are always up to date, because errors are most visible at
 // coarse levels.
 constexpr std::size_t maxFacesToFollow = 8192;
@@ -248,7 +248,7 @@ std::size_t nextTarget(const Simplifier& s, std::size_t minTriangles) {
 std::size_t collapseFloor(const Simplifier& s, std::size_t target, double share) {
     const SurfaceMesh& mesh = *s.mesh;
     std::size_t stuck = 0;  // faces without a collapsible vertex, such as faces of tetrahedra or isolated triangles
-    Numbered<ComponentNumber, std::uint8_t> movable(s.components.size(), 0);  // 1: not all faces are stuck
+    Numbered<ComponentNumber, std::uint8_t> movable(s.components.size(), 0);  // 1: some face is not stuck
     forEachFace(mesh, [&](FaceHandle face) {
         const FaceCorners corners = cornersOf(mesh, face);
         const bool canGo = std::any_of(corners.begin(), corners.end(), [&](HalfedgeHandle corner) {

@@ -186,8 +186,8 @@ constexpr std::uint32_t enoughAnchors = 16;
 // The level's faces, and the corners at each vertex.
 struct FaceRings {
     const Snapshot& level;
-    Numbered<VertexHandle, glm::dvec3> points;     // in units of the frame
-    Numbered<TriangleNumber, glm::dvec3> normals;  // length: twice the area
+    Numbered<VertexHandle, glm::dvec3> points;     // positions in units of the frame
+    Numbered<TriangleNumber, glm::dvec3> normals;  // face normals with twice the area as length
     Buckets<VertexHandle, TriangleCorner> around;
 
     [[nodiscard]] const glm::dvec3& point(VertexHandle v) const { return points[v]; }

@@ -46,7 +46,7 @@ struct Component {
 struct Simplifier {
     std::shared_ptr<const Origin> origin;
     std::unique_ptr<SurfaceMesh> mesh;       // after compact(), it has no deleted elements
-    std::optional<CollapseModules> modules;  // operate on `mesh`
+    std::optional<CollapseModules> modules;  // collapse modules that operate on `mesh`
     // For each vertex, the vertex that it collapsed onto, or itself if it is not deleted. Invalid if its component was
     // removed.
     Numbered<VertexHandle, VertexHandle> survivors;
@@ -128,7 +128,7 @@ struct Snapshot {
     std::vector<MeshVertexNumber> behind;               // vertices of `drawn` whose corners are all on the back; sorted
     std::vector<Ball> removed;                          // see SimplifiedLevel::removed
     Numbered<ComponentNumber, Growth> growths;          // see LevelMesh::growths
-    Numbered<VertexHandle, ComponentNumber> growthsOf;  // see LevelMesh::growthsOf; empty if nothing grows
+    Numbered<VertexHandle, ComponentNumber> growthsOf;  // LevelMesh::growthsOf; empty if nothing grows
 };
 
 // Copies the current level (snapshot.cpp). compact() must have been called.

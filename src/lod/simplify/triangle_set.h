@@ -18,8 +18,8 @@ namespace defocus::engine {
 // `Vertex` is the type of vertex number stored at the corners.
 template <typename Vertex>
 struct TriangleSet {
-    Numbered<TriangleCorner, Vertex> indices;                       // three per triangle
-    Numbered<PrimitiveNumber, std::uint32_t> primitiveIndexCounts;  // 3 × triangles of each primitive
+    Numbered<TriangleCorner, Vertex> indices;                       // three indices per triangle
+    Numbered<PrimitiveNumber, std::uint32_t> primitiveIndexCounts;  // 3 × number of triangles of each primitive
 
     [[nodiscard]] std::size_t count() const { return indices.size() / 3; }
     [[nodiscard]] auto numbers() const { return numbersBelow<TriangleNumber>(count()); }

@@ -22,7 +22,7 @@ namespace defocus::engine {
 // slides. The weights come from a parameter sweep on the school of fish. Half or twice a weight costs up to 0.5 dB at
 // the same triangle count.
 constexpr float normalWeight = 0.003f;
-constexpr float colorWeight = 0.005f;  // for colours in [0, 1]
+constexpr float colorWeight = 0.005f;  // weight for colours in [0, 1]
 constexpr float uvWeight = 0.05f;
 // Weight of per-vertex blur, relative to the mesh's range of blur. The weight is four times the colour weight, so that
 // a level has blur at the same positions as the file.
