@@ -20,9 +20,9 @@
 namespace defocus::engine {
 
 struct DepthOfField {
-    double hyperfocal = 0;  // m; 0 for a pinhole, which has everything in focus
-    double near = 0;        // m, min depth in focus
-    double far = 0;         // m, max depth in focus; may be infinite
+    double hyperfocal = 0;  // hyperfocal distance in m; 0 for a pinhole, which has everything in focus
+    double near = 0;        // min depth in focus, m
+    double far = 0;         // max depth in focus, m; may be infinite
 };
 
 // Returns the depth of field. `acceptable` is the largest diameter on the sensor that counts as a point, mm, > 0.

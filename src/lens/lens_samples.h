@@ -23,7 +23,7 @@ inline constexpr std::array allSequences = {Sequence::sobol, Sequence::halton, S
 // Returns the sequence's name on the command line.
 std::string_view sequenceName(Sequence sequence);
 
-struct SequencePoint {  // each component in [0, 1)
+struct SequencePoint {  // all components are in [0, 1)
     glm::dvec2 lens{0.5};
     glm::dvec2 pixel{0.5};
     double time = 0.5;
@@ -40,10 +40,10 @@ double radicalInverse(std::uint32_t base, std::uint64_t index);
 struct LensSample {
     glm::vec2 lens{0.0f};     // (u, v) in the unit disk; +u right, +v up
     glm::vec2 pixel{0.0f};    // offset from the pixel centre in px, each in [−0.5, 0.5); +x right, +y up
-    float time = 0.5f;        // [0, 1): from shutter opening to closing
-    float band = 0.5f;        // [0, 1): position in the chromatic band, from red to blue
-    glm::vec2 light{0.5f};    // each in [0, 1): point on every light, for shadows (plan/visible/shadows.h)
-    std::uint32_t index = 0;  // index in the sequence
+    float time = 0.5f;        // time in [0, 1), from shutter opening to closing
+    float band = 0.5f;        // position in the chromatic band, from red (0) to blue (1, exclusive)
+    glm::vec2 light{0.5f};    // point in [0, 1)² on every light, for shadows (plan/visible/shadows.h)
+    std::uint32_t index = 0;  // index of the sample in the sequence
 };
 
 // Returns sample `index` of a sequence. With seed 0, the first sample lies in the middle of the pixel, the exposure and

@@ -6,7 +6,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double saturation = 1.2;  // cd/m², luminance that saturates the sensor at EV100 = 0
+constexpr double saturation = 1.2;  // luminance in cd/m² that saturates the sensor at EV100 = 0
 
 }  // namespace
 

@@ -106,7 +106,7 @@ double selectedLevel(const Pyramid& pyramid, const ObjectPlan& object, const Fra
     LevelQuery query;
     const double centre = -object.viewBox.centre().z;
     const double depth = plan.settings.metric == LodMetric::score ? centre : object.nearestDepth;
-    // px; size in the image of 1 m at a depth of 1 m
+    // Image size in px of 1 m at a depth of 1 m.
     const double pixelsAtUnitDepth = plan.view.width / (2 * plan.tanHalfHorizontal);
     query.pixelsPerUnit = largestScale(object.pose) * pixelsAtUnitDepth / depth;
     const glm::dvec3 box = object.viewBox.size();
@@ -422,7 +422,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     chooseAllLevels();
     chooseBlending(plan, world);
     leaveOutSamples(plan);
-    if (plan.samples.size() < settings.sampleCount) chooseAllLevels();  // splits the remaining samples
+    if (plan.samples.size() < settings.sampleCount) chooseAllLevels();  // divide the remaining samples between levels
     parallelFor(plan.objects.size(), [&](std::size_t i) {
         ObjectPlan& object = plan.objects[i];
         chooseRefinement(object, world, plan);

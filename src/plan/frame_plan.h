@@ -69,10 +69,10 @@ struct ObjectPlan {
     bool deformed = false;      // the skin or morph targets deform the mesh
     Bounds viewBox;             // bounding box in view space over the entire exposure
     double nearestDepth = 0;    // nearest depth of the bounding box in m; may be less than View::nearPlane
-    double farthestDepth = 0;   // m, farthest depth of the bounding box
-    CocRange coc;               // px, range over the bounding box; `smallest` covers all of RenderSettings::refocus
-    CocDeviation cocDeviation;  // px, error bounds over the drawn levels
-    double projectedEdge = 0;   // px, mean edge length of level 0 at the nearest depth
+    double farthestDepth = 0;   // farthest depth of the bounding box in m
+    CocRange coc;               // CoC in px over the bounding box; `smallest` covers all of RenderSettings::refocus
+    CocDeviation cocDeviation;  // bounds of the CoC error over the drawn levels, px
+    double projectedEdge = 0;   // mean edge length of level 0 at the nearest depth, px
     double lambda = 0;          // fractional level λ
     LevelDraw coarse;           // samples [0, n) draw level ⌊λ⌋ + 1; no samples if λ is an integer
     LevelDraw fine;             // samples [n, N) draw level ⌊λ⌋
@@ -116,7 +116,7 @@ struct ShadowMap {
 // Shadow casters and the lights that cast shadows; see shadows.h.
 struct ShadowPlan {
     std::vector<ShadowMap> maps;      // maps of the same light are adjacent; empty: no shadows
-    int size = 0;                     // px, width and height of each map
+    int size = 0;                     // width and height of each map, px
     std::uint32_t points = 1;         // sample points on each light per lens sample
     std::vector<ObjectPlan> casters;  // each caster draws one level, ObjectPlan::fine, in all samples
     // Corners of boxes that contain all casters, in m along the world's axes; the camera is the origin.
@@ -124,7 +124,7 @@ struct ShadowPlan {
     // Corners of the volume that is visible in the entire frame, in the coordinates of `corners`. Shadow maps need not
     // extend beyond this volume.
     std::vector<glm::dvec3> seen;
-    double casterError = 0;  // m, maximum deviation of the casters' levels from full detail
+    double casterError = 0;  // max deviation of the casters' levels from full detail, m
 };
 
 struct LeftOut {
@@ -138,7 +138,7 @@ struct FramePlan {
     RenderSettings settings;
     LodThresholds thresholds;  // settings.thresholds, completed by defaults that depend on the number of samples
     double tanHalfHorizontal = 0;
-    double apertureDiameter = 0;  // m; 0 for a pinhole, also if the blur is too small to be visible
+    double apertureDiameter = 0;  // diameter in m; 0 for a pinhole, also if the blur is too small to be visible
     // Upper bound of the CoC in px over the drawn objects and a visible background of varying colour. The bound comes
     // from bounding boxes and is infinite if a box reaches the near plane. It is also set if the frame uses a pinhole
     // because the blur is too small to be visible.

@@ -19,7 +19,7 @@ namespace defocus::engine {
 struct View {
     glm::dmat4 worldFromCamera{1.0};  // rigid transform; the camera looks along its −z axis
     Lens lens;
-    double nearPlane = 0.01;  // m, > 0
+    double nearPlane = 0.01;  // distance of the near plane in m, > 0
     int width = 1024;         // px
     int height = 768;         // px
     // worldFromCamera at each shutter time (see Shutter); empty if the camera doesn't move.
@@ -46,7 +46,7 @@ struct World {
     Shutter shutter;  // lights and sky stay fixed at the middle of the exposure
     std::vector<PlacedLight> lights;
     Environment environment;
-    std::vector<Pyramid> pyramids;  // one per mesh of the scene
+    std::vector<Pyramid> pyramids;  // one pyramid per mesh of the scene
 };
 
 }  // namespace defocus::engine

@@ -19,7 +19,7 @@ namespace {
 // With N samples, σ of a cell's blur is cellWidth/√N times the CoC diameter. Disk-shaped cells would need 1/4. This
 // value is 40 % larger to close the gaps between cells.
 constexpr double cellWidth = 0.35;
-constexpr std::uint32_t fewestSamples = 4;  // with fewer samples, images are not blurred
+constexpr std::uint32_t fewestSamples = 4;  // with fewer samples, the images of samples are not blurred
 constexpr std::uint32_t maxPointsOfCell = 16;
 constexpr std::uint32_t maxPoints = 1u << 14;  // max lens points in all cells together
 

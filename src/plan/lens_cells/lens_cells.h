@@ -29,13 +29,13 @@ inline constexpr int maxCellClasses = 5;  // max number of variance classes on e
 // Returns the blur variance of class k ≥ 0, a group of pixels with similar blur, along an axis in px²: 4^k/3 + 1/6. The
 // image of a class consists of tent-weighted means over squares of 2^k px, interpolated linearly between their centres.
 double cellClassVariance(int k);
-inline constexpr double minCellVariance = 0.01;  // px²; subtracted from every variance; invisible within a pixel
+inline constexpr double minCellVariance = 0.01;  // in px², subtracted from each variance; invisible within a pixel
 
 struct LensCells {
     double blur = 0;                 // σ as a fraction of |c|; 0: images are not blurred
     std::uint32_t firstSample = 0;   // LensSample::index of the first cell's sample
     std::vector<glm::vec2> middles;  // centre of each cell, in the coordinates of LensSample::lens
-    glm::dvec2 pixelShift{0};        // px, added to LensSample::pixel so that the mean offset is 0
+    glm::dvec2 pixelShift{0};        // shift in px, added to LensSample::pixel so that the mean offset is 0
     // Number of variance classes in front of and behind the focus plane. Both are 0 if the samples leave no visible
     // gaps. Samples move to the cells' centres even then, to avoid popping.
     int inFront = 0;

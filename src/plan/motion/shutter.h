@@ -15,7 +15,7 @@ struct ShutterSettings {
     double seconds = 0;  // duration of the exposure; 0: no motion blur
     ShutterPosition position = ShutterPosition::centre;
     MotionSegments motionSegments = 1u;
-    std::optional<double> opening;  // s, time of the opening relative to the frame's time; replaces `position`
+    std::optional<double> opening;  // opening time in s, relative to the frame's time; replaces `position`
 
     [[nodiscard]] bool exactMotion() const { return std::holds_alternative<ExactMotion>(motionSegments); }
 };

@@ -23,7 +23,7 @@ struct PosedPart {
     std::vector<Plane> planes;  // planes of all triangles that are not degenerate
     double nearest = 0;         // depth, m
     double farthest = 0;        // depth, m
-    double rounding = 0;        // m, bound of the corners' rounding errors
+    double rounding = 0;        // bound of the corners' rounding errors, m
 };
 
 struct BlendPart {

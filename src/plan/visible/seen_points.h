@@ -10,10 +10,10 @@ namespace defocus::engine {
 
 // A visible surface passes through or near `place`, up to `spread` m away.
 struct SeenPoint {
-    glm::dvec3 place{0.0};  // m from the camera along the world's axes
-    double depth = 0;       // m along the view axis
+    glm::dvec3 place{0.0};  // position in m from the camera along the world's axes
+    double depth = 0;       // depth in m along the view axis
     double spread = 0;
-    double blur = 0;  // px, CoC diameter
+    double blur = 0;  // CoC diameter, px
 };
 
 // Casts rays through a coarse grid of pixels and returns points inside the bounding boxes along each ray. Rays that

@@ -20,15 +20,15 @@ namespace defocus::engine {
 namespace {
 
 constexpr int minMapSize = 128;               // px
-constexpr int maxImageMapSize = 2048;         // px, max map size that is chosen to match the image's size
+constexpr int maxImageMapSize = 2048;         // max map size in px that is chosen to match the image's size
 constexpr double resolvedShare = 0.95;        // fraction of visible points where texels are at most texelPixels wide
-constexpr double texelPixels = 2;             // px; lens samples shift the texels, so texels may be wider than pixels
+constexpr double texelPixels = 2;             // texel width in px; above 1, because lens samples shift the texels
 constexpr double minTexelLimit = 1 << 20;     // max texels of a map; for large images, twice the number of pixels
 constexpr double maxSampleTexels = 64 << 20;  // max texels of all maps of a lens sample: 256 MiB
 constexpr double minShare = 0.01;             // lights below this fraction of the visible illuminance cast no shadow
 constexpr double widestTangent = 3;           // max tan of half a map's field of view
-constexpr double levelErrorTexels = 0.5;      // texels, max simplification error of a caster
-constexpr std::size_t maxBoxes = 64;          // with more casters, a single box bounds them all
+constexpr double levelErrorTexels = 0.5;      // max simplification error of a caster, texels
+constexpr std::size_t maxBoxes = 64;          // with more casters, a single box contains all casters
 constexpr double nearShare = 1e-4;            // near plane of point and spot lights, relative to the scene's size
 constexpr std::uint32_t smoothPoints = 64;    // min number of points on a light for a smooth penumbra
 

@@ -26,7 +26,7 @@ struct ShadowProjection {
     std::array<glm::vec4, 4>
         clipRows{};            // matrix rows to clip space, reversed depth; w is 1 for parallel light, else depth in m
     glm::vec3 toLight{0.0f};   // unit vector to the light, for directional lights
-    float texel = 0;           // m per texel at w = 1
+    float texel = 0;           // texel width in m at w = 1
     glm::vec3 radiance{0.0f};  // EnvironmentDirections::Choice::radiance over π, for the surroundings
 };
 

@@ -19,7 +19,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double snapping = 1.0 / 128;      // px, max change of a triangle's altitude by rounding to 8 subpixel bits
+constexpr double snapping = 1.0 / 128;      // max change in px of a triangle's altitude by rounding to 8 subpixel bits
 constexpr double transformation = 0x1p-21;  // max error of a single-precision position, relative to its terms
 constexpr double storage = 1e-6;            // relative error of a cluster's stored values
 constexpr double guardBand = 1.8;           // |NDC| beyond which triangles may be clipped
@@ -42,11 +42,11 @@ struct LensRange {
 struct ObjectViews {
     std::vector<glm::dmat4> viewFromObject;  // first in the middle of the exposure, then at each shutter time
     std::vector<LensRange> lenses;           // empty: no cluster is culled for facing away
-    double lensRadius = 0;                   // m, radius of the disk that bounds the lens
+    double lensRadius = 0;                   // radius in m of the disk that bounds the lens
     double shapeLoss = 1;                    // max factor by which a tilted focus plane shrinks a triangle's altitude
-    double minVolume = 0;                    // m³, min view-space volume of a unit cube of object space
+    double minVolume = 0;                    // min view-space volume in m³ of a unit cube of object space
     double largestSize = 0;                  // upper bound of the norms of viewFromObject
-    double largestOffset = 0;                // m, max distance of the object's origin from the camera
+    double largestOffset = 0;                // max distance in m of the object's origin from the camera
     OwnBlur own;                             // bounds of the blur modifiers of the object's surfaces
 };
 
@@ -211,7 +211,7 @@ bool clusterFacesAway(const Cluster& cluster, const Bounds& box, const ObjectVie
 struct LevelCorners {
     std::vector<ClipVertices> moments;  // one entry per shutter time; a single entry if nothing moves
     bool apart = false;                 // true: one shutter time per sample; false: linear motion between times
-    double terms = 0;                   // m, magnitude of the terms that the GPU sums to positions
+    double terms = 0;                   // magnitude in m of the terms that the GPU sums to positions
     double lensRadius = 1;              // max distance of the lens samples from the lens's centre
     double sign = 1;                    // 1, or −1 for mirrored objects
 };
