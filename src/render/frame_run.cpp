@@ -138,7 +138,7 @@ bool FrameRun::advance() {
 // again, in blocks.
 bool FrameRun::endTrial() {
     Trial& trial = *trial_;
-    if (trial.estimate.samples() == samples()) return false;  // the trial was already complete
+    if (trial.estimate.samples() == samples()) return false;  // the trial was already assessed
     const bool halved = trial.estimate.samples() > 0;
     if (halved) trial.estimate.add(renderer_->image(), samples());
     const double excess = trial.estimate.flip().value_or(0) / flipOf(trial.quality);

@@ -34,7 +34,7 @@ constexpr std::uint32_t maxSharedWave = 4;
 // Max triangles per wave of more than 4 samples with a software driver. The driver keeps all triangles of a wave in
 // memory and frees this memory after each wave. The page faults of the next wave can take longer than the draw.
 constexpr std::uint64_t maxWaveTriangles = 400'000;
-constexpr std::uint64_t minWaveOfTriangles = 4;  // samples; the sums of smaller waves take longer than they save
+constexpr std::uint64_t minWaveOfTriangles = 4;  // min samples per wave; sums of smaller waves cost more than they save
 
 // Returns the max number of layers in memory: the number set by `limit` or by `options`, else as many as fit into
 // RendererOptions::waveBytes.

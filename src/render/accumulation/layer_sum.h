@@ -2,8 +2,8 @@
 // The compensated sum of the layers of all samples.
 //
 // Layers are added in sample order, with Neumaier's compensation, to the sum of a block of 64 samples. Complete blocks
-// are added to the frame's sum in the same way. The result is bit-identical for every K, and if blocks are rendered on
-// several machines. The mean is a divided copy; the sum itself is never divided.
+// are added to the frame's sum in the same way. The result is bit-identical for every wave size K, and if blocks are
+// rendered on several machines. The mean is a divided copy; the sum itself is never divided.
 
 #include <cstdint>
 #include <map>

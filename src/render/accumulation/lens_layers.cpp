@@ -117,7 +117,7 @@ NumberCounts readCounts(const GlTexture& table) {
         for (std::size_t x = 0; x < width; ++x)
             for (std::size_t e = 0; e < entries; ++e) {
                 const std::uint32_t value = raw[e * pixels + row * width + x];
-                if (value == 0) break;  // entries after the first free one are undefined
+                if (value == 0) break;  // the first 0 ends the list; later entries are undefined
                 counts.values[(y * width + x) * entries + e] = value;
             }
     }

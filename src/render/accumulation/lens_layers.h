@@ -35,7 +35,7 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    std::map<std::string, GlTexture> textures_;  // key: name of the slot
+    std::map<std::string, GlTexture> textures_;  // textures, keyed by the name of the slot
     Target target_;
 };
 
@@ -84,7 +84,7 @@ private:
     std::vector<Layer> layers_;
     glm::ivec2 size_;
     std::filesystem::path shaderFolder_;
-    std::map<std::string, SlotSum> slots_;  // key: name of the slot
+    std::map<std::string, SlotSum> slots_;  // sums, keyed by the name of the slot
     std::map<Layer, Table> tables_;
     Target sums_;  // framebuffer for the sums; its colour is never written
     GlTexture unused_;

@@ -53,7 +53,7 @@ public:
     [[nodiscard]] const WaveTargets& target(std::size_t index) const { return targets_[index]; }
     // Returns GPU times of the frame's passes. Waits for the GPU.
     [[nodiscard]] std::vector<PassTime> times();
-    [[nodiscard]] std::size_t bytes() const;  // needs a prepared frame
+    [[nodiscard]] std::size_t bytes() const;  // graphics memory in bytes; needs a prepared frame
     // Sets the times of all passes to 0.
     void resetTimes();
 

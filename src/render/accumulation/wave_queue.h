@@ -75,7 +75,7 @@ private:
     RendererOptions options_;
     Occlusion occlusion_;
     std::vector<std::unique_ptr<Lane>> lanes_;
-    std::uint32_t active_ = 0;      // the frame uses the first lanes
+    std::uint32_t active_ = 0;      // the frame uses the first `active_` lanes
     bool severalContexts_ = false;  // lanes_ have contexts of their own
     WaveFrame frame_;
     WaveShape shape_;

@@ -11,7 +11,7 @@
 namespace defocus::engine {
 
 struct AovImages {
-    Image depth;  // m along the view axis; +∞ for pixels without a surface
+    Image depth;  // depth in m along the view axis; +∞ for pixels without a surface
     // Signed circle of confusion in px, > 0 behind the focus plane. Pixels without a surface have the value at infinite
     // depth.
     Image coc;

@@ -29,7 +29,7 @@ struct CircularOptions {
     double blendBias = 1;
     bool biasByLuminance = false;
     bool nearPremultiplied = true;
-    bool limited = false;  // blur limited to publishedLargest
+    bool limited = false;  // true: blur is limited to publishedLargest
     ComplexStorage storage = ComplexStorage::half;
     ComplexTaps taps = ComplexTaps::exact;
     KernelConstants constants = KernelConstants::fitted;

@@ -16,7 +16,7 @@
 namespace defocus::engine {
 
 struct CircularComponent {
-    double decay;      // a of F(x), per squared radius
+    double decay;      // decay a of F(x), per squared radius
     double frequency;  // b of F(x), radians per squared radius
     double cosine;     // A, weight of the real part
     double sine;       // B, weight of the imaginary part

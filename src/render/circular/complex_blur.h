@@ -42,7 +42,7 @@ struct ComplexBlurInfo {
     // Horizontal and vertical semi-axis of an elliptical blur, relative to the radius.
     double across = 1;
     double upwards = 1;
-    int components = 1;  // 1 … circularKernelLimit if fitted, else 1 … publishedKernelLimit
+    int components = 1;  // number of components: 1 … circularKernelLimit if fitted, else 1 … publishedKernelLimit
     KernelConstants constants = KernelConstants::fitted;
     ComplexStorage storage = ComplexStorage::half;
     ComplexTaps taps = ComplexTaps::exact;

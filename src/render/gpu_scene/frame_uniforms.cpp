@@ -16,11 +16,11 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double unlimitedBlur = 1e9;  // image widths; finite, so that 0 times unlimitedBlur is 0
+constexpr double unlimitedBlur = 1e9;  // blur in image widths; finite, so that 0 times unlimitedBlur is 0
 constexpr std::size_t maxConstantLights = 4;
 
 // Limits of the uniform blocks in shaders/include/frame.glsl and lighting.glsl.
-constexpr std::size_t everyDriversBlock = 16 << 10;  // bytes; all drivers have GL_MAX_UNIFORM_BLOCK_SIZE ≥ 16 KiB
+constexpr std::size_t everyDriversBlock = 16 << 10;  // every driver allows at least 16 KiB (GL_MAX_UNIFORM_BLOCK_SIZE)
 
 struct GpuLight {
     glm::vec4 directionType;
@@ -80,7 +80,7 @@ GlTexture environmentTexture(const Image& map) {
         for (std::size_t c = 0; c < 4; ++c) {
             const auto channels = static_cast<std::size_t>(map.channels);
             const float value = c == 3 ? 1.0f : map.pixels[i * channels + (channels >= 3 ? c : 0)];
-            rgba[i * 4 + c] = std::min(std::max(0.0f, value), 65504.0f);  // NaN gives 0
+            rgba[i * 4 + c] = std::min(std::max(0.0f, value), 65504.0f);  // this order of arguments maps NaN to 0
         }
     GlTexture texture({.format = TextureFormat::rgba16f, .width = map.width, .height = map.height, .levels = levels});
     texture.upload(0, map.width, map.height, rgba.data());

@@ -58,9 +58,9 @@ private:
     std::array<glm::vec4, 9> irradiance_{};  // diffuseCoefficients of the environment
     Buffer frameBlock_;
     Buffer lightingBlock_;  // empty if shaders contain the lighting as constants
-    Buffer samples_;        // one GpuSample per lens sample
+    Buffer samples_;        // GpuSample of each lens sample
     Buffer moments_;
-    Buffer waves_;         // per wave: WaveBlock of shaders/include/shading.glsl
+    Buffer waves_;         // WaveBlock (shaders/include/shading.glsl) of each wave
     Buffer sampleShifts_;  // one vec4 per lens sample: offset of the sky in the image
     Buffer bandShifts_;
     Buffer sampleBands_;  // SampleBlock of shaders/accumulation/layer_light.glsl

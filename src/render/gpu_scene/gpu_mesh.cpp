@@ -13,8 +13,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t largestSharing = std::size_t{1} << 16;  // bytes; larger meshes have buffers of their own
-constexpr std::size_t sharedBytes = std::size_t{1} << 20;     // bytes; fuller shared buffers accept no further mesh
+constexpr std::size_t largestSharing = std::size_t{1} << 16;  // max bytes; larger meshes have buffers of their own
+constexpr std::size_t sharedBytes = std::size_t{1} << 20;     // max bytes; fuller shared buffers accept no further mesh
 
 // A mesh is far from its origin on an axis if its centre's coordinate is at least this multiple of half its largest
 // side.
@@ -253,7 +253,7 @@ private:
         return writer.finish();
     }
 
-    std::vector<std::pair<std::size_t, GpuMesh>> members_;  // (index of the mesh, mesh)
+    std::vector<std::pair<std::size_t, GpuMesh>> members_;  // pairs of mesh index and mesh
     Extent extent_;
 };
 

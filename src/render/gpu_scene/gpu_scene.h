@@ -56,7 +56,7 @@ private:
     const World* world_;
     SubmissionPacer pacer_;
     std::vector<GpuMesh> meshes_;  // one per mesh of the world; without levels if no frame has used it
-    std::map<std::tuple<int, bool, float>, GlTexture> textures_;  // key: the arguments of texture()
+    std::map<std::tuple<int, bool, float>, GlTexture> textures_;  // textures, keyed by the arguments of texture()
     std::set<GpuMaterialTextures> textureSets_;                   // distinct values of texturesOf()
     // Entry i: textures of material i − 1; entry 0: of the default material. Null if no frame has used the material.
     std::vector<const GpuMaterialTextures*> materialTextures_;

@@ -56,7 +56,7 @@ private:
     };
     UniformBlocks<GpuMaterial> plain_;
     UniformBlocks<GpuTransformedMaterial> transformed_;
-    std::vector<Place> places_;  // one per material
+    std::vector<Place> places_;  // position of each material's block
 };
 
 }  // namespace defocus::engine

@@ -487,7 +487,7 @@ void SurfacePass::drawSky(std::uint32_t first, std::uint32_t count) {
     sky_.use();
     glDisable(GL_CULL_FACE);
     glDepthMask(GL_FALSE);
-    glDepthFunc(GL_GEQUAL);  // passes only where nothing was drawn
+    glDepthFunc(GL_GEQUAL);  // the depth test passes only where nothing was drawn
     glDrawArraysInstancedBaseInstance(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(count), first);
 }
 

@@ -150,7 +150,7 @@ private:
     const GpuScene* scene_;
     SubmissionPacer* pacer_;
     SurfacePassInfo info_;
-    std::map<std::string, Programs> programs_;  // key: defines of the pass
+    std::map<std::string, Programs> programs_;  // programs, keyed by the defines of the pass
     std::array<ShaderDefines, 2>
         passDefines_;  // defines of the frame's pass; index 1: no geometry shader selects the layer
     std::array<Programs*, 2> passPrograms_{};  // programs with passDefines_
@@ -164,7 +164,7 @@ private:
     int shadowSlot_ = 0;  // shadow map into which casters are drawn
     UniformBlocks<GpuObject> objectBlocks_;
     MaterialBlocks materialBlocks_;
-    std::vector<GpuPoses> poses_;  // one per object
+    std::vector<GpuPoses> poses_;  // poses, one entry per object
     std::map<int, std::size_t> materialSlots_;
     std::vector<Draw> opaque_;
     std::vector<Draw> dissolved_;  // parts of stochastically transparent primitives

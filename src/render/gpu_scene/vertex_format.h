@@ -42,7 +42,7 @@ struct AttributeLayout {
     GLint components;
     GLenum type;           // GL type of a component; colours: see GpuLevel::colorType
     std::size_t stride;    // bytes per vertex
-    bool perLevel = true;  // false: all levels share the values
+    bool perLevel = true;  // false: all levels share the attribute's values
 };
 
 inline constexpr AttributeLayout meshAttributes[] = {

@@ -55,7 +55,7 @@ private:
 
     DepthLayersInfo info_;
     GlTexture colors_, surfaces_, front_, depth_;
-    std::vector<Target> targets_;  // one per layer
+    std::vector<Target> targets_;  // one target per layer
     ShadowMaps shadows_;
     SurfacePass pass_;
     GlHandle<destroyQuery> anyDrawn_;

@@ -14,9 +14,9 @@ constexpr std::size_t clipBytes = 4 * sizeof(float);
 constexpr std::size_t ownBlurBytes = 2 * sizeof(float);
 // Mesa's software driver ends the loops of a thread after a total of 65,535 iterations.
 constexpr std::uint32_t maxTilesAtOnce = 50'000;   // tiles per dispatch that a thread tests a triangle against
-constexpr std::uint32_t maxSortedAtOnce = 65'536;  // list length that one dispatch sorts in 136 · 256 iterations
-constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // size in shaders/lens_space/shade_vertices.comp
-constexpr std::size_t attributeBytes = 20 * sizeof(float);   // size in shaders/lens_space/attributes.vert
+constexpr std::uint32_t maxSortedAtOnce = 65'536;  // list length that one dispatch sorts: 136 steps of 256 iterations
+constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // element size in shaders/lens_space/shade_vertices.comp
+constexpr std::size_t attributeBytes = 20 * sizeof(float);   // element size in shaders/lens_space/attributes.vert
 
 // Returns the end of the range of rays for which a level of an object is drawn. If two levels share a boundary sample,
 // the level with more of the sample's pixels gets its ray.

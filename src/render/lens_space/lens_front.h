@@ -152,7 +152,7 @@ private:
     Buffer clips_, clipsAtEnd_, attributes_, triangles_, draws_;
     Buffer bases_;                         // undivided triangles of divided objects
     Buffer ownBlurs_;                      // blur modifiers of the vertices; only with divided objects
-    Buffer firstTriangles_, vertexLight_;  // only with per-vertex lighting
+    Buffer firstTriangles_, vertexLight_;  // used only with per-vertex lighting
     Buffer depths_;                        // sort key of each triangle
     Buffer tileCounts_, tileEnds_, entries_;
     std::vector<std::uint32_t> tilePlaces_;  // offset of each tile's list within its band

@@ -24,7 +24,7 @@ struct GpuRay {
 struct RaySets {
     std::uint32_t rays = 0;             // rays per pixel
     std::uint32_t variants = 1;         // a power of two, at most 64
-    std::vector<GpuRay> table;          // index: ray · variants + variant
+    std::vector<GpuRay> table;          // rays of all sets, with index ray · variants + variant
     std::vector<glm::vec4> lensBounds;  // per ray, over all variants: min u, min k·v, max u, max k·v (k: aspect)
 };
 

@@ -10,7 +10,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double snapping = 0.25;           // px: upper bound of a rasterizer's rounding of vertex positions
+constexpr double snapping = 0.25;           // max rounding of vertex positions by a rasterizer, px
 constexpr double transformation = 0x1p-20;  // relative single-precision error of a transformed position
 constexpr double interpolation = 0x1p-14;   // relative error of depths that are interpolated in a triangle
 

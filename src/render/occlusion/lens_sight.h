@@ -41,7 +41,7 @@ private:
     glm::dmat3 sizes_{1};  // absolute values of linear_
     glm::dvec2 scale_{1};
     glm::dvec2 middle_{0};
-    double lost_ = 0;  // m, max error of a transformed position in single precision
+    double lost_ = 0;  // max error in m of a transformed position in single precision
     double nearPlane_ = 0;
     glm::ivec2 layer_{0};  // size of the layer in px
 };

@@ -113,7 +113,7 @@ private:
     const FramePlan* plan_ = nullptr;
     // Pieces, keyed by mesh, level of detail and primitive.
     std::map<std::tuple<int, std::uint32_t, std::uint32_t>, std::vector<IndexPiece>> pieces_;
-    std::vector<Tested> tested_;  // empty if culling is off
+    std::vector<Tested> tested_;  // tested draws; empty if culling is off
 };
 
 }  // namespace defocus::engine

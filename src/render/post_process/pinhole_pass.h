@@ -52,7 +52,7 @@ private:
     LayerFormat format_;
     std::filesystem::path shaderFolder_;
     PinholeImage image_;
-    PinholeImage multisampled_;         // empty without multisampling
+    PinholeImage multisampled_;         // multisampled image; empty without multisampling
     Target target_, resolvedTarget_;    // targets of the drawn image and, with multisampling, of image_
     bool transparent_ = false;  // true if the background is transparent
     ShadowMaps shadows_;

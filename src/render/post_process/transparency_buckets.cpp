@@ -16,7 +16,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr double minStep = 1;  // min difference between the blur diameters of two buckets, px
-constexpr double margin = 24;  // px; the blur uses reduced images, whose pixels cover several image pixels
+constexpr double margin = 24;  // margin in px; the blur uses reduced images, whose pixels cover several image pixels
 
 // Returns the middle of a range of signed blur diameters in px, clamped to the image's width.
 double middleOf(const CocRange& coc, double width) {

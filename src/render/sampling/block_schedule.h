@@ -60,7 +60,7 @@ public:
 
     // Returns whether the time limit, plus a tolerance of 0.7 s for the end of a block, has passed.
     [[nodiscard]] bool outOfTime(double seconds) const;
-    // Ends the frame within a block, of which `drawn` samples are complete.
+    // Ends the frame within a block that has `drawn` complete samples.
     void endWithinBlock(std::uint32_t drawn);
 
     [[nodiscard]] std::uint32_t samples() const { return samples_; }  // samples in complete blocks

@@ -40,7 +40,7 @@ public:
     [[nodiscard]] const FramePlan& plan() const { return plan_; }  // plan of the latest frame or block
     [[nodiscard]] const GlTexture* texture() { return renderer_->imageTexture(); }
     [[nodiscard]] RenderStats stats() const { return renderer_->stats(); }
-    [[nodiscard]] double millisecondsPerSample() const { return millisecondsPerSample_; }  // of the latest grow()
+    [[nodiscard]] double millisecondsPerSample() const { return millisecondsPerSample_; }  // time in the latest grow()
 
 private:
     void planBlock();
@@ -54,7 +54,7 @@ private:
     std::uint32_t growingWave_;
     std::uint32_t block_ = 0;
     std::uint32_t blocks_ = 0;
-    std::optional<BlockSchedule> schedule_;  // nullopt without a target error
+    std::optional<BlockSchedule> schedule_;  // schedule of blocks; nullopt without a target error
     bool usesLensSamples_ = true;
     bool sumsBlocks_ = false;
     bool finished_ = true;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t pointTile = 8;                                // tile side in px
 constexpr std::uint32_t maxEntries = 40'000;                          // max list entries of a tile per dispatch
-constexpr std::size_t boundBytes = blockSamples * sizeof(glm::vec4);  // bytes per wave of the rays' lens bounds
+constexpr std::size_t boundBytes = blockSamples * sizeof(glm::vec4);  // bytes of the rays' lens bounds per wave
 
 class StochasticKernel final : public VisibilityKernel {
 public:

@@ -180,7 +180,7 @@ TilingNeeds measuredNeeds(const World& world, const FramePlan& plan, const DrawL
     static_cast<void>(renderer.image());  // drivers may keep layers until the result is read
     const std::uint64_t uploaded = remainder(renderer.stats().peakBytes, drawn);
     TilingNeeds needs = currentNeeds(world, plan, limits, limit, drawn, uploaded);
-    if (needs.shared) reserve(needs, remainder(sceneBytes(world, plan), uploaded));  // for objects outside `trial`
+    if (needs.shared) reserve(needs, remainder(sceneBytes(world, plan), uploaded));  // memory of objects not in `trial`
     return needs;
 }
 

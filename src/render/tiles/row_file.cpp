@@ -81,8 +81,8 @@ RowFileHeader readRowHeader(const fs::path& path) {
 
 ImageRowWriter rowFileWriter(const fs::path& path, const RowFileHeader& header, int channels) {
     Metadata metadata = header.metadata;
-    metadata.erase("defocus:seconds");    // render time differs between runs
-    metadata["capDate"] = std::string();  // empty, because OpenImageIO would otherwise write the current time
+    metadata.erase("defocus:seconds");    // the render time differs between runs
+    metadata["capDate"] = std::string();  // no date; otherwise, OpenImageIO would write the current time
     metadata[settingsAttribute] = header.settings;
     metadata[tileAttribute] = header.share.empty() ? byMemory : header.share;
     return {path,

@@ -16,7 +16,7 @@
 namespace defocus::engine {
 
 struct FramePart {
-    SampleRange range;               // clamped to the frame's samples
+    SampleRange range;               // samples of the part, clamped to the frame's samples
     std::uint32_t frameSamples = 0;  // samples of the full frame
     std::string settings;            // settings of the frame, equal for all parts
     int width = 0;

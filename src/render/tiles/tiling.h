@@ -34,7 +34,7 @@ struct Band {
 
 struct Tiling {
     std::uint32_t wave = 1;   // layers per wave K
-    std::vector<Band> bands;  // from top to bottom
+    std::vector<Band> bands;  // bands from top to bottom
 };
 
 // Bytes per pixel of the sums on the device, and of a tile and a band on the host.
