@@ -23,7 +23,7 @@ namespace defocus::engine {
 // Images of the individual lens samples, from which pictures with another focus are computed later (src/refocus).
 struct LensImageOrder {
     FocusRange range;  // focus distances of these pictures; see RenderSettings::refocus
-    int margin = 0;    // px that the images extend beyond the request's size, on each side
+    int margin = 0;    // width in px by which the images extend beyond the request's size on each side
     SampleSink take;
 };
 
@@ -73,7 +73,7 @@ public:
     [[nodiscard]] const FrameDriver& driver() const;
     [[nodiscard]] Image image();  // throws Error before the first sample is drawn
     [[nodiscard]] AovImages aovs();
-    [[nodiscard]] std::optional<LayerImages> layerImages();  // nullopt without Request::layers
+    [[nodiscard]] std::optional<LayerImages> layerImages();  // returns nullopt without Request::layers
     [[nodiscard]] Image work();
     [[nodiscard]] Image sweptWork() const;
     // Returns the settings for encoding the image as PNG and JPEG. A metered exposure is measured for the first frame

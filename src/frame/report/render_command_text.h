@@ -12,7 +12,7 @@ struct RenderCommandText {
     const Request& options;      // scene, method, levels of detail, samples
     const PreparedFrame& frame;  // frame placed with the camera that options.camera names
     const View& view;            // view to render
-    double pivotDistance = 1;    // m, > 0: distance from the camera to its target
+    double pivotDistance = 1;    // distance in m from the camera to its target, > 0
     WriteOptions write;
     std::string output = "out.png";
 };

@@ -21,6 +21,6 @@ Rows lensRows();
 Rows sampleRows();
 Rows methodRows();
 Rows displayRows();
-Rows developerRows();  // for measuring and debugging
+Rows developerRows();  // settings for measuring and debugging
 
 }  // namespace defocus::engine

@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double defaultFocusDistance = 2.5;  // m, if the centre of the scene is beside or behind the camera
+constexpr double defaultFocusDistance = 2.5;  // focus in m if the scene's centre is beside or behind the camera
 
 double depthOfCentre(const Bounds& bounds, const View& view) {
     const double depth = bounds.empty() ? 0 : -(glm::inverse(view.worldFromCamera) * glm::dvec4(bounds.centre(), 1)).z;
@@ -60,7 +60,7 @@ void planeThrough(std::span<const glm::dvec3, 3> points, Lens& lens, const std::
 // the distance from the image's centre in units of half the image width. A small term on the diagonal of the normal
 // equations sets undetermined unknowns to 0.
 void surfaceNear(std::span<const glm::dvec3> points, Lens& lens, const std::string& what) {
-    constexpr double raised = 1e-12;  // added to the diagonal for each point
+    constexpr double raised = 1e-12;  // addition to the matrix's diagonal for each point
     const double tanX = tanHalfHorizontalFov(lens);
     glm::dmat4 matrix(raised * static_cast<double>(points.size()));
     glm::dvec4 right(0);

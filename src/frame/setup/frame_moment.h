@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 struct FrameMoment {
     int frame = 0;    // frame number in the film
-    double time = 0;  // s, in the animation clip
+    double time = 0;  // time in the animation clip, s
     Pose pose;        // pose in the middle of the exposure
     Shutter shutter;
     std::vector<PlacedLight> lights;

@@ -52,7 +52,7 @@ void setNodeBlur(const Request& request, Scene& scene);
 // can't be used.
 void setCameraTrack(const Request& request, Scene& scene);
 
-// Returns whether the scene's camera track is the one that the request names.
+// Returns whether the request names the scene's camera track.
 bool hasCameraTrack(const Request& request, const Scene& scene);
 
 // Draws the scene's points and lines as triangles, one pixel wide in the request's view; see scene/strokes.h. The

@@ -20,7 +20,7 @@ constexpr int dragFrames = 20;
 // A drag of the focus distance or the f-number.
 struct Drag {
     std::string name;
-    double focusDistance = 1;  // m, at the end of the drag
+    double focusDistance = 1;  // focus distance in m at the end of the drag
     double fStop = 1;          // f-number at the end of the drag
 };
 

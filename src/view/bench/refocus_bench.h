@@ -7,7 +7,7 @@
 namespace defocus::engine {
 
 struct RefocusBenchRow {
-    std::string method;             // in the format of MethodUse::text
+    std::string method;             // method in the format of MethodUse::text
     std::string change;             // such as "focus 2 to 1.4 m"
     std::uint32_t keptImages = 0;   // lens images that the window keeps; 0: keeps none
     double dragMilliseconds = 0;    // median time of a frame while the value is dragged

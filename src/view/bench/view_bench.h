@@ -21,17 +21,17 @@ struct ViewBenchOptions {
     double restSeconds = 10;               // max time that the picture is watched after the movement, s
     double convergedError = 0.005;         // estimated error at which the picture at rest counts as converged
     std::uint32_t referenceSamples = 512;  // lens samples of a reference at full detail, 2 … maxSamples
-    std::filesystem::path shaderFolder;    // empty: use the embedded shaders
+    std::filesystem::path shaderFolder;    // replacement shaders; empty: the embedded shaders
     bool software = false;                 // OpenGL runs on the CPU
 };
 
 struct ViewBenchRow {
-    std::string method;          // in the format of MethodUse::text
-    double framesPerSecond = 0;  // mean over the movement
+    std::string method;          // method in the format of MethodUse::text
+    double framesPerSecond = 0;  // mean frame rate over the movement
     double slowFrame = 0;        // 95th percentile of the frame times, ms
     double firstPicture = 0;     // time from the first change of the camera to its finished frame, ms
     FrameQuality quality;        // quality of the last frame of the movement
-    double movingPsnr = 0;       // dB, from the mean squared error of three frames of the movement
+    double movingPsnr = 0;       // PSNR in dB, from the mean squared error of three frames of the movement
     double stillPicture = 0;     // time from the end of the movement to the first picture that accumulates, s
     double converged = 0;        // time from the end of the movement to the converged picture, s; infinity: not reached
     std::uint32_t samples = 0;   // lens samples of the picture at the end

@@ -94,7 +94,7 @@ void stepThroughHistory(Document& document, ViewState& state, const ViewActions&
     static_cast<ViewEdit&>(state) = *edit;
     state.options.time = time;
     state.options.clip = clip;
-    document.shown.lens.apertureImage = state.options.lens.apertureImage;  // the edit's lens already contains the image
+    document.shown.lens.apertureImage = state.options.lens.apertureImage;  // already loaded with the edit's lens
     document.poseIsStale = !document.frame->scene->clips.empty();          // the camera may be animated
     state.aperturePath = state.options.lens.apertureImage.string();
     state.marker.shown = false;

@@ -8,11 +8,11 @@
 namespace defocus::engine {
 
 struct Document {
-    std::filesystem::path shaderFolder;  // empty: use the embedded shaders
-    bool remembersFiles = true;          // add opened scenes to the recent files
+    std::filesystem::path shaderFolder;  // replacement shaders; empty: the embedded shaders
+    bool remembersFiles = true;          // true: opened scenes are added to the recent files
 
     SceneLoader loader;
-    std::unique_ptr<PreparedFrame> frame;  // null: no scene is open
+    std::unique_ptr<PreparedFrame> frame;  // the scene, ready to draw; null: no scene is open
     bool draft = false;                    // `frame` has draft pyramids; the final ones are being built
     EditHistory history;
     Request shown;                           // request that `frame` was last updated to; see updateWorld

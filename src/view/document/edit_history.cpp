@@ -11,7 +11,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t maxSteps = 200;
-constexpr double restTime = 0.5;  // s without change after which an edit is complete
+constexpr double restTime = 0.5;  // seconds without change after which an edit is complete
 
 bool sameOptions(const Request& a, const Request& b) {
     return std::ranges::all_of(settings(), [&](const Setting& setting) {

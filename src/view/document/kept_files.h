@@ -14,8 +14,8 @@ std::filesystem::path recentFilesPath();
 struct ViewSettings {
     bool dark = true;
     bool panel = true;
-    double interfaceScale = 1;                 // factor, 0.5 … 3
-    std::optional<double> budgetMilliseconds;  // ms per frame; nullopt: depends on the driver
+    double interfaceScale = 1;                 // scale factor, 0.5 … 3
+    std::optional<double> budgetMilliseconds;  // budget in ms per frame; nullopt: depends on the driver
     int width = 0;                             // size in window units; 0: not stored
     int height = 0;
 };

@@ -48,7 +48,7 @@ private:
         Request options;
         std::atomic<bool> cancelled = false;
         bool draftTaken = false;
-        mutable std::mutex mutex;  // guards opening, ready and ended
+        mutable std::mutex mutex;  // guards `opening`, `ready` and `ended`
         Opening opening;
         std::optional<LoadedScene> ready;  // next result for take()
         bool ended = false;

@@ -8,7 +8,7 @@
 
 namespace defocus::engine {
 
-inline constexpr int framesBetweenKeys = 48;  // 2 s at 24 frames per second
+inline constexpr int framesBetweenKeys = 48;  // number of frames: 2 s at 24 frames per second
 
 struct ShotRecording {
     const Request& options;  // scene, clip, samples, levels, method

@@ -10,7 +10,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double markerDuration = 2.2;  // s until the focus marker disappears
+constexpr double markerDuration = 2.2;  // seconds until the focus marker disappears
 
 ImU32 faded(ImU32 color, float alpha) {
     const auto own = static_cast<float>(color >> IM_COL32_A_SHIFT & 0xff);

@@ -14,11 +14,11 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double hoverDelay = 0.12;  // s without mouse movement before picking
+constexpr double hoverDelay = 0.12;  // seconds without mouse movement before picking
 
 struct Legend {
     const char* title;
-    const char* shortTitle;            // used in narrow pictures
+    const char* shortTitle;            // title in narrow pictures
     glm::vec3 (*colour)(float);        // maps a position on the scale, 0 … 1, to a linear colour
     std::array<const char*, 5> marks;  // labels at even spacing
 };

@@ -65,7 +65,7 @@ private:
 
     const World* world_;
     RendererOptions options_;
-    std::unique_ptr<Renderer> renderer_;  // null unless images are being drawn
+    std::unique_ptr<Renderer> renderer_;  // draws images; null when none are being drawn
     LightFieldInfo info_;
     FramePlan plan_;
     std::uint32_t drawn_ = 0;

@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 struct ViewCamera {
     glm::dmat4 worldFromCamera{1.0};  // rigid; the camera looks along −z
-    double pivotDistance = 1;         // m in front of the camera, > 0; orbit and zoom are about the pivot
+    double pivotDistance = 1;         // distance in m from the camera, > 0; orbit and zoom are about the pivot
 
     [[nodiscard]] glm::dvec3 position() const { return worldFromCamera[3]; }
     [[nodiscard]] glm::dvec3 forward() const { return -glm::dvec3(worldFromCamera[2]); }

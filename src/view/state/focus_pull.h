@@ -16,10 +16,10 @@ inline double eased(double t) {
 }
 
 struct FocusPull {
-    double from = 1;  // m, > 0; may be infinite
+    double from = 1;  // start distance in m, > 0; may be infinite
     double to = 1;
     double begin = 0;       // start time in s, on any clock
-    double duration = 0.4;  // s
+    double duration = 0.4;  // duration in s
 
     [[nodiscard]] bool over(double now) const { return now >= begin + duration; }
     // Returns the focus distance (m) at the time `now` (s); exactly `to` after the end of the pull.

@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 struct FrameQuality {
     double resolution = 1;       // rendered pixels per window pixel, in each dimension
-    std::uint32_t samples = 64;  // 1: pinhole, without blur
+    std::uint32_t samples = 64;  // lens samples; 1: pinhole, without blur
     double thresholdBias = 1;    // multiplies the level-of-detail thresholds; > 1: coarser meshes
 };
 
@@ -26,7 +26,7 @@ inline std::span<const FrameQuality> frameQualities() {
 }
 
 struct FrameBudget {
-    double milliseconds = 16;  // ms per frame
+    double milliseconds = 16;  // budget in ms per frame
     std::size_t rung = 3;      // index into frameQualities()
     [[nodiscard]] const FrameQuality& quality() const { return frameQualities()[rung]; }
 };

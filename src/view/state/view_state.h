@@ -29,8 +29,8 @@ glm::dvec2 tanHalfFov(const Lens& lens, const PictureArea& area);
 
 struct PickedSurface {
     int object = -1;        // index into Pose::objects
-    double depth = 0;       // m, along the view axis
-    glm::dvec3 point{0.0};  // in world space
+    double depth = 0;       // depth in m along the view axis
+    glm::dvec3 point{0.0};  // position in world space
 };
 
 // Returns the surface under a window position; nullopt if the picture shows no surface there.
@@ -58,7 +58,7 @@ struct Message {
 struct FocusMarker {
     bool shown = false;
     std::uint64_t number = 0;  // index of the click, from 1
-    glm::dvec3 point{0.0};     // in world space
+    glm::dvec3 point{0.0};     // position in world space
     double since = 0;          // time of the click, s, as ViewState::now
     std::string name;          // name of the object; empty: no surface was hit
     double distance = 0;       // focus distance, m
@@ -90,7 +90,7 @@ struct ViewEdit {
     Lens lens;
     double nearPlane = 0.01;     // m
     bool followsCamera = false;  // the view follows the file's camera, which may be animated
-    double exposure = 0;         // EV; with `meters`, the latest metered value
+    double exposure = 0;         // exposure in EV; with `meters`, the latest metered value
     bool meters = false;         // meter the exposure whenever the view comes to rest
 };
 
@@ -108,7 +108,7 @@ struct SceneState {
 
 struct ViewState : ViewEdit, SceneState {
     // State of the current frame, set by the window loop.
-    double now = 0;             // s since the window was opened
+    double now = 0;             // seconds since the window was opened
     PictureArea area;           // window units
     glm::ivec2 pictureSize{1};  // size of the picture, px
 

@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double fontSize = 15;            // in interface units
+constexpr double fontSize = 15;            // font size in interface units
 constexpr double bitmapShare = 13.0 / 15;  // fraction of fontSize at which the bitmap font looks as large as others
 
 // Ranges of glyphs: Latin, Greek (λ), punctuation, arrows, simple shapes and the check mark.

@@ -23,7 +23,7 @@ struct Ui {
     const std::optional<StillExport>& still;
     const FrameTimes& times;
     const std::string& device;  // name of the GPU
-    float scale = 1;            // px per interface unit
+    float scale = 1;            // scale in px per interface unit
 
     [[nodiscard]] const Scene& scene() const { return *document.frame->scene; }
     [[nodiscard]] const Pose& pose() const { return document.frame->world.pose; }

@@ -18,7 +18,7 @@ struct SessionOptions {
     Request request;                     // Request::size is the size of the picture
     std::filesystem::path screenshot;    // file for a screenshot at the end; empty: none
     int frames = 0;                      // frames with the complete scene before the window closes; 0: no limit
-    std::filesystem::path shaderFolder;  // empty: use the embedded shaders
+    std::filesystem::path shaderFolder;  // replacement shaders; empty: the embedded shaders
     bool quiet = false;                  // print no warnings on stderr
     std::filesystem::path stats;         // JSON file for the state, updated continuously; empty: none
 };
@@ -52,7 +52,7 @@ struct Session {
     const Clock::time_point begin = Clock::now();
     int framesWithScene = 0;  // frames drawn with the complete scene, not with a draft
     std::uint64_t framesDrawn = 0;
-    double statsWrittenAt = -1;  // s since the window was opened; -1: not written yet
+    double statsWrittenAt = -1;  // seconds since the window was opened; -1: not written yet
     Places places;               // positions of the widgets in the latest frame
 };
 
