@@ -24,7 +24,7 @@ public:
     // `world` must outlive the check.
     PopCheck(const World& world, const MethodUse& method, RendererOptions options);
 
-    // Compares the plan with that of the preceding frame, and draws the frame with its own and with the preceding
+    // Compares the plan with the plan of the preceding frame, and draws the frame with its own and with the preceding
     // levels if they differ. `world` has the pose of the frame. If the preceding frame was not noted, only keeps the
     // plan for the next call. Needs a current GL context.
     void note(int frame, const FramePlan& plan);

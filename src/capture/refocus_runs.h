@@ -25,7 +25,7 @@ struct RefocusRun {
 };
 
 struct RefocusRuns {
-    std::vector<RefocusRun> runs;       // in frame order
+    std::vector<RefocusRun> runs;       // runs in frame order
     std::vector<std::string> rendered;  // why frames are rendered one by one although they could form a run
 };
 

@@ -38,13 +38,13 @@ using FocusTarget = std::variant<FocusDistance, FocusNode, FocusPixel, FocusAuto
 
 struct FocusTrack {
     std::vector<Key<FocusTarget>> keys;
-    Easing easing = Easing::smooth;  // applies to 1/distance, like turning a focus ring
+    Easing easing = Easing::smooth;  // interpolation in 1/distance, as on a focus ring
 };
 
 struct CameraKeys {
     std::vector<Key<Place>> positions;
     std::vector<Key<Place>> targets;  // points that the camera looks at; same frames as `positions`
-    std::vector<Key<double>> rolls;   // degrees, counter-clockwise seen from behind; same frames as `positions`
+    std::vector<Key<double>> rolls;   // angles in degrees, counter-clockwise from behind; same frames as `positions`
     Easing easing = Easing::smooth;
 };
 
@@ -52,13 +52,13 @@ struct CameraKeys {
 // the camera is at its original position.
 struct Turntable {
     double turns = 1;                  // number of rotations; > 0: counter-clockwise seen from above
-    std::optional<Place> centre;       // nullopt: the centre of the scene
+    std::optional<Place> centre;       // centre of the rotation; nullopt: the centre of the scene
     std::optional<FrameRange> frames;  // duration of all turns; nullopt: the shot's range
 };
 
 // Moves the camera along its view axis. At the first frame of the movement, the camera is at its original position.
 struct Dolly {
-    double distance = 0;  // m; > 0: forward
+    double distance = 0;  // distance in m; > 0: forward
     Easing easing = Easing::smooth;
     std::optional<FrameRange> frames;  // duration of the movement; nullopt: the shot's range
 };
@@ -78,7 +78,7 @@ inline Request shotDefaults() {
 
 struct Shot {
     std::filesystem::path file;  // shot file, for messages; its folder is the base of relative paths
-    // Values that are constant during the shot. The time is that of frame 0.
+    // Values that are constant during the shot. The time is the time of frame 0.
     Request request;
     // Names of the settings (frame/settings/settings.h) that the shot file contains.
     std::set<std::string, std::less<>> given;
@@ -88,7 +88,7 @@ struct Shot {
     double frameRate = 24;  // frames per second
     FrameRange range{0, 0};
     double animationSpeed = 1;           // speed factor of the animation; 0: no motion
-    std::optional<double> shutterAngle;  // degrees, replaces the shutter's seconds; 360: always open
+    std::optional<double> shutterAngle;  // angle in degrees, replaces the shutter's seconds; 360: always open
     ShotMovement movement;
     std::optional<FocusTrack> focus;
     std::map<std::string, LensTrack, std::less<>> lens;        // constant or keyed values, by name of the lens field
@@ -96,7 +96,7 @@ struct Shot {
     bool animateSeed = false;                                  // new sample positions, thus new noise, in each frame
 
     std::vector<std::string> outputs = {"frames/####.exr"};
-    std::filesystem::path video;  // empty: no video
+    std::filesystem::path video;  // path of the video; empty: no video
 };
 
 }  // namespace defocus::engine

@@ -233,7 +233,7 @@ void writeVideo(const fs::path& path, const std::vector<VideoFrame>& frames, dou
     if (path.extension() != ".gif") std::ranges::copy(bt709(first.width, first.height), std::back_inserter(arguments));
     const std::vector<std::string>& encoder = encoderOf(path);
     arguments.insert(arguments.end(), encoder.begin(), encoder.end());
-    if (sourceDate()) arguments.insert(arguments.end(), {"-fflags", "+bitexact"});  // no random identifiers
+    if (sourceDate()) arguments.insert(arguments.end(), {"-fflags", "+bitexact"});  // omits random identifiers
     arguments.push_back(fileName(film.temporaryPath()));
 
     // Write the frames in order. When ffmpeg fails, it closes the pipe; SIGPIPE is ignored so that this program can

@@ -41,7 +41,7 @@ Image centralDepth(LightField& field) {
 
 Image centralCoc(LightField& field, const Refocusing& refocusing) {
     const LightFieldInfo& info = field.info();
-    static_cast<void>(shiftedImages(info, refocusing, field.name()));  // checks the ranges
+    static_cast<void>(shiftedImages(info, refocusing, field.name()));  // throws for values outside the rendered range
     const double diameter = diameterPerDioptre(info, refocusing);
     Image image = centralDepth(field);
     for (float& value : image.pixels)
@@ -53,7 +53,7 @@ Image allInFocus(LightField& field, const Progress& progress) {
     const LightFieldInfo& info = field.info();
     const PartSize& size = info.size;
     const Image depth = centralDepth(field);
-    const double tolerance = 1 / std::max(info.pixelsPerDioptre, 1e-12);  // in dioptres: one pixel of blur
+    const double tolerance = 1 / std::max(info.pixelsPerDioptre, 1e-12);  // one pixel of blur, in dioptres
     Image sum(size.width, size.height, 4);
     std::vector<int> counts(depth.pixels.size());
     // The central image comes first: pixels at which no other image shows the surface keep its colour.

@@ -10,11 +10,11 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t channels = 5;  // RGBA and weight
+constexpr std::size_t channels = 5;  // red, green, blue, alpha and weight
 // Standard deviation of a cell's blur, as a fraction of c/√N. A disk has 1/4. Cells around the points of a sequence
 // differ in size and shape; twice the blur of a disk has the smallest error (docs/refocus.md).
 constexpr double cellBlur = 0.5;
-constexpr double minVariance = 0.01;  // px², subtracted from every variance; invisible within a pixel
+constexpr double minVariance = 0.01;  // variance in px², subtracted from every variance; invisible within a pixel
 
 // Returns the blur variance in px² of class k, a group of pixels with similar blur.
 double classVariance(std::size_t k) {
@@ -94,7 +94,7 @@ void GapFilling::add(std::span<const DeepMovedImage> images) {
         const int y = static_cast<int>(row);
         for (const DeepMovedImage& moved : images) {
             const int column = size_.margin - moved.move.x;
-            const int line = y + size_.margin + moved.move.y;  // rows run downwards, moves upwards
+            const int line = y + size_.margin + moved.move.y;  // row indices grow downwards, moves grow upwards
             const std::uint16_t* const colours = moved.colour->at(column, line);
             const float* const depths = moved.depth->at(column, line);
             const std::size_t first = row * static_cast<std::size_t>(size_.width);

@@ -22,13 +22,13 @@ namespace defocus::engine {
 struct DeepMovedImage {
     const HalfImage* colour = nullptr;  // image with its margin
     const Image* depth = nullptr;       // depths with the same margin
-    glm::ivec2 move{0};                 // px, to the right and up
+    glm::ivec2 move{0};                 // move in px, to the right and up
     float weight = 1;                   // > 0
 };
 
 // Circle of confusion: diameter · (focus − 1/depth) px, > 0 behind the focus plane.
 struct DioptreBlur {
-    double diameter = 0;  // px per dioptre
+    double diameter = 0;  // diameter in px per dioptre
     double focus = 1;     // dioptres
 };
 

@@ -23,8 +23,8 @@
 namespace defocus::engine {
 
 struct LightFieldInfo {
-    PartSize size;                   // px; the margin has the pixels that enter the image when images move
-    double focusDistance = 1;        // m, s in the equation above
+    PartSize size;                   // size in px; the margin has the pixels that enter the image when images move
+    double focusDistance = 1;        // focus distance s in the equation above, m
     double fStop = 1;                // f-number of the rendered aperture
     double pixelsPerDioptre = 0;     // P in the equation above
     FocusRange range;                // focus distances for which margin and levels of detail are sufficient

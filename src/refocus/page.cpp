@@ -22,7 +22,7 @@ namespace {
 
 constexpr double curveFactor = 24;  // k of log2(1 + k·r); larger values keep more detail in shadows, less in lights
 constexpr double mostRadiance = 4096;
-constexpr int depthColumns = 256;  // max columns of the depths for focusing on a click
+constexpr int depthColumns = 256;  // max columns of the depth image from which a click reads the focus
 constexpr int maxQuality = 90;
 constexpr int minQuality = 20;
 
@@ -142,7 +142,7 @@ std::string escapedHtml(const std::string& text) {
 std::string refocusPage(LightField& field, const std::string& title, const Refocusing& start, const WriteOptions& write,
                         const Progress& progress) {
     const LightFieldInfo& info = field.info();
-    static_cast<void>(shiftedImages(info, {start.focusDistance, start.fStop, {}}, field.name()));  // checks the range
+    static_cast<void>(shiftedImages(info, {start.focusDistance, start.fStop, {}}, field.name()));  // validates `start`
     const std::size_t count = std::min(info.points.size(), maxPageImages);
     const double maximum = largestRadiance(field, count);
     const double share = double(info.size.width) * info.size.height / (1024.0 * 768);

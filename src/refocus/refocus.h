@@ -20,7 +20,7 @@
 namespace defocus::engine {
 
 struct Refocusing {
-    double focusDistance = 1;        // m; within LightFieldInfo::range
+    double focusDistance = 1;        // focus distance in m, within LightFieldInfo::range
     double fStop = 1;                // f-number, at least LightFieldInfo::fStop
     std::optional<Lens> shape = {};  // lens with the aperture's shape; nullopt: as rendered
     bool fillGaps = false;           // true: each image is blurred like its cell of the lens (gap_filling.h)
@@ -32,7 +32,7 @@ Refocusing asRendered(const LightFieldInfo& info);
 // Contribution of a lens image to a refocused picture.
 struct ShiftedImage {
     std::size_t image = 0;  // index of the lens image
-    glm::ivec2 move{0};     // px, to the right and up
+    glm::ivec2 move{0};     // move in px, to the right and up
     double weight = 1;      // > 0
 };
 

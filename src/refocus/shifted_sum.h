@@ -15,7 +15,7 @@ namespace defocus::engine {
 // An image that is moved and weighted.
 struct MovedImage {
     const HalfImage* image = nullptr;  // image with its margin
-    glm::ivec2 move{0};                // px, to the right and up; each component at most the margin
+    glm::ivec2 move{0};                // move in px, to the right and up; each component at most the margin
     float weight = 1;                  // ≥ 0
 };
 
@@ -36,8 +36,8 @@ private:
 
     PartSize size_;
     Sum block_, frame_;
-    int inBlock_ = 0;     // images in block_
-    double weights_ = 0;  // sum of the weights
+    int inBlock_ = 0;     // number of images in block_
+    double weights_ = 0;  // sum of all weights
 };
 
 }  // namespace defocus::engine

@@ -12,13 +12,13 @@ namespace defocus::engine {
 // Lens and sensor of a camera from the draft glTF extension EXT_camera_physical. They do not change the field of view,
 // Camera::yfov.
 struct PhysicalCamera {
-    double focalLength = 0;    // mm, > 0
-    glm::dvec2 sensorSize{0};  // mm, width and height, > 0
+    double focalLength = 0;    // focal length in mm, > 0
+    glm::dvec2 sensorSize{0};  // width and height in mm, > 0
 };
 
 struct Camera {
     std::string name;
-    double yfov = 0.6911112;            // radians, full vertical field of view
+    double yfov = 0.6911112;            // full vertical field of view, radians
     std::optional<double> aspectRatio;  // width / height of the image for which yfov was chosen
     double znear = 0.01;                // m
     // Numeric extras of the camera by name, such as "fStop" and "focusDistance"; booleans are 0 or 1.

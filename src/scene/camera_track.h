@@ -12,8 +12,8 @@
 namespace defocus::engine {
 
 struct TrackedCamera {
-    Camera camera;                    // lengths in m
-    glm::dmat4 worldFromCamera{1.0};  // in m, y up; the camera looks along its −z axis
+    Camera camera;                    // camera with lengths in m
+    glm::dmat4 worldFromCamera{1.0};  // transform in m, y up; the camera looks along its −z axis
     // true: the image shows the complete sensor of Camera::physical, and more along one side if the aspect ratios
     // differ (USD's conform policy "expandAperture"). false: Camera::yfov applies.
     bool showsSensor = false;
@@ -30,7 +30,7 @@ struct CameraTrack {
     std::string source;                               // file and camera, as the user names them
     std::function<TrackedCamera(double seconds)> at;  // state of the camera at a time of the animation
     bool moves = false;                               // false: the camera is the same at all times
-    std::optional<ShutterInterval> shutter;           // nullopt: the file has none
+    std::optional<ShutterInterval> shutter;           // shutter of the camera; nullopt: the file has none
     std::vector<std::string> warnings;                // properties of the file that have no effect, one line each
 };
 

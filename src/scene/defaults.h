@@ -37,8 +37,8 @@ struct StudioLight {
     double azimuth = 0;
     double elevation = 0;
     glm::vec3 color{1.0f};
-    float illuminance = 1;       // lux on a surface that faces the light
-    double angularDiameter = 0;  // rad; angular diameter of the softbox
+    float illuminance = 1;       // illuminance in lux of a surface that faces the light
+    double angularDiameter = 0;  // angular diameter of the softbox, rad
     // Returns the unit vector towards the light in camera axes: +x right, +y up, +z backwards.
     [[nodiscard]] glm::dvec3 toLight() const;
 };

@@ -18,8 +18,8 @@ namespace defocus::engine {
 // linear C(t) of Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization.
 struct VertexBlur {
     float factor = 1;   // factor on the lens's blur, ≥ 0; 0: only the added blur
-    float opening = 0;  // mm, added blur when the shutter opens
-    float closing = 0;  // mm, added blur when the shutter closes
+    float opening = 0;  // added blur in mm when the shutter opens
+    float closing = 0;  // added blur in mm when the shutter closes
     bool operator==(const VertexBlur&) const = default;
 };
 
@@ -27,7 +27,7 @@ struct VertexBlur {
 struct VertexBlurBounds {
     float factorMin = 1;
     float factorMax = 1;
-    float addedMin = 0;  // mm, min over the exposure
+    float addedMin = 0;  // min added blur over the exposure, mm
     float addedMax = 0;
     bool moves = false;  // true if a vertex blur changes during the exposure
     bool operator==(const VertexBlurBounds&) const = default;

@@ -10,7 +10,7 @@
 namespace defocus::engine {
 
 struct Hit {
-    double distance = 0;  // m from the ray's origin
+    double distance = 0;  // distance in m from the ray's origin
     int object = -1;      // index into Pose::objects
 };
 

@@ -217,7 +217,7 @@ void leaveOutFaintLights(Pose& pose) {
         const Light& from = pose.lights[light].light;
         if (from.type == LightType::directional) return std::numeric_limits<double>::infinity();
         const double candela = from.intensity * glm::dot(glm::dvec3(from.color), glm::dvec3(0.2126, 0.7152, 0.0722));
-        return std::max(0.0, candela);  // 0 for NaN
+        return std::max(0.0, candela);  // this order of arguments maps NaN to 0
     };
     std::vector<std::size_t> order(pose.lights.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -230,7 +230,7 @@ void leaveOutFaintLights(Pose& pose) {
     pose.lights = std::move(kept);
 }
 
-// Visibility of a node, which depends on its ancestors too.
+// Visibility of a node, including the visibility of its ancestors.
 struct Visibility {
     bool now = true;
     bool everShown = true;  // false: hidden at all times

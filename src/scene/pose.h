@@ -33,10 +33,10 @@ struct PlacedLight {
     glm::dvec3 direction{0.0, 0.0, -1.0};  // unit vector along which the light shines
 };
 
-inline constexpr std::size_t maxLights = 336;  // max lights; fits into a uniform block on every OpenGL driver
+inline constexpr std::size_t maxLights = 336;  // max lights that fit into a uniform block on every OpenGL driver
 
 struct Pose {
-    std::vector<glm::dmat4> worldFromNode;  // one per entry of Scene::nodes
+    std::vector<glm::dmat4> worldFromNode;  // one matrix per entry of Scene::nodes
     std::vector<Object> objects;
     std::vector<PlacedLight> lights;       // at most maxLights; intensity 0 while an animation hides the light
     std::size_t faintLights = 0;           // number of fainter lights that were dropped

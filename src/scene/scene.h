@@ -41,23 +41,23 @@ struct Texture {
 
 struct TextureUse {
     int texture = -1;             // index into Scene::textures; -1: none
-    int uvSet = 0;                // 0 or 1
+    int uvSet = 0;                // texture coordinate set, 0 or 1
     glm::mat3 uvTransform{1.0f};  // KHR_texture_transform: uv' = (uvTransform · (u, v, 1)).xy
     [[nodiscard]] bool used() const { return texture >= 0; }
 };
 
 struct Material {
     std::string name;
-    glm::vec4 baseColorFactor{1.0f};  // linear, straight alpha
+    glm::vec4 baseColorFactor{1.0f};  // linear colour, straight alpha
     float metallicFactor = 1.0f;
     float roughnessFactor = 1.0f;
     glm::vec3 emissiveFactor{0.0f};  // includes KHR_materials_emissive_strength
     float normalScale = 1.0f;
     float occlusionStrength = 1.0f;
     TextureUse baseColor;          // sRGB-encoded
-    TextureUse metallicRoughness;  // linear; roughness in G, metalness in B
-    TextureUse normal;             // linear; tangent space, +y up
-    TextureUse occlusion;          // linear; uses R
+    TextureUse metallicRoughness;  // linear texture; roughness in G, metalness in B
+    TextureUse normal;             // linear texture; normal in tangent space, +y up
+    TextureUse occlusion;          // linear texture, channel R
     TextureUse emissive;           // sRGB-encoded
     AlphaMode alphaMode = AlphaMode::opaque;
     float alphaCutoff = 0.5f;  // for AlphaMode::mask
@@ -65,47 +65,47 @@ struct Material {
     bool unlit = false;  // KHR_materials_unlit
 
     // KHR_materials_ior and KHR_materials_specular: reflectance of the dielectric part of the material.
-    float ior = 1.5f;  // ≥ 1, or 0: reflectance 1 at all angles
+    float ior = 1.5f;  // index of refraction ≥ 1; 0: reflectance 1 at all angles
     float specularFactor = 1.0f;
     glm::vec3 specularColorFactor{1.0f};
-    TextureUse specular;       // linear; uses A
+    TextureUse specular;       // linear texture, channel A
     TextureUse specularColor;  // sRGB-encoded
 
     // KHR_materials_transmission and KHR_materials_volume.
     float transmissionFactor = 0.0f;
-    TextureUse transmission;       // linear; uses R
-    float thicknessFactor = 0.0f;  // object units; 0: thin wall without refraction
-    TextureUse thickness;          // linear; uses G
-    float attenuationDistance = std::numeric_limits<float>::infinity();  // scene units; +∞: no absorption
+    TextureUse transmission;       // linear texture, channel R
+    float thicknessFactor = 0.0f;  // thickness in object units; 0: thin wall without refraction
+    TextureUse thickness;          // linear texture, channel G
+    float attenuationDistance = std::numeric_limits<float>::infinity();  // distance in scene units; +∞: no absorption
     glm::vec3 attenuationColor{1.0f};
 
     // KHR_materials_clearcoat.
     float clearcoatFactor = 0.0f;
     float clearcoatRoughnessFactor = 0.0f;
     float clearcoatNormalScale = 1.0f;
-    TextureUse clearcoat;           // linear; uses R
-    TextureUse clearcoatRoughness;  // linear; uses G
+    TextureUse clearcoat;           // linear texture, channel R
+    TextureUse clearcoatRoughness;  // linear texture, channel G
     TextureUse clearcoatNormal;     // like `normal`; without a texture, the coat uses the mesh normal
 
     // KHR_materials_sheen.
     glm::vec3 sheenColorFactor{0.0f};
     float sheenRoughnessFactor = 0.0f;
     TextureUse sheenColor;      // sRGB-encoded
-    TextureUse sheenRoughness;  // linear; uses A
+    TextureUse sheenRoughness;  // linear texture, channel A
 
     // KHR_materials_anisotropy. The rotation is the angle from the tangent to the direction of stretched highlights,
     // counter-clockwise.
     float anisotropyStrength = 0.0f;
     float anisotropyRotation = 0.0f;  // rad
-    TextureUse anisotropy;            // linear; direction in RG, strength in B
+    TextureUse anisotropy;            // linear texture; direction in RG, strength in B
 
     // KHR_materials_iridescence: a thin film on the surface.
     float iridescenceFactor = 0.0f;
     float iridescenceIor = 1.3f;                 // ≥ 1
     float iridescenceThicknessMinimum = 100.0f;  // nm
-    float iridescenceThicknessMaximum = 400.0f;  // nm; also the thickness without a texture
-    TextureUse iridescence;                      // linear; uses R
-    TextureUse iridescenceThickness;             // linear; uses G
+    float iridescenceThicknessMaximum = 400.0f;  // max thickness in nm; also the thickness without a texture
+    TextureUse iridescence;                      // linear texture, channel R
+    TextureUse iridescenceThickness;             // linear texture, channel G
 
     // KHR_materials_dispersion: 20 divided by the Abbe number; 0: none.
     float dispersion = 0.0f;
@@ -113,7 +113,7 @@ struct Material {
     // KHR_materials_diffuse_transmission.
     float diffuseTransmissionFactor = 0.0f;
     glm::vec3 diffuseTransmissionColorFactor{1.0f};
-    TextureUse diffuseTransmission;       // linear; uses A
+    TextureUse diffuseTransmission;       // linear texture, channel A
     TextureUse diffuseTransmissionColor;  // sRGB-encoded
 
     // Returns whether surfaces behind this material are visible through it by transmission.
@@ -163,14 +163,14 @@ struct Light {  // KHR_lights_punctual
     std::string name;
     LightType type = LightType::directional;
     glm::vec3 color{1.0f};
-    float intensity = 1.0f;       // lux (directional) or candela (point, spot)
-    float range = 0.0f;           // m; 0: unlimited
+    float intensity = 1.0f;       // illuminance in lux (directional) or intensity in candela (point, spot)
+    float range = 0.0f;           // range in m; 0: unlimited
     float innerConeAngle = 0.0f;  // rad
     float outerConeAngle = 0.785398163f;
     // Size of the light, which is a disk that faces the lit point. The size softens shadows. glTF has no light sizes:
     // the defaults are the sizes of the sun and of a light bulb.
-    float angularDiameter = 0.00925f;  // rad; directional lights
-    float radius = 0.03f;              // m; point and spot lights
+    float angularDiameter = 0.00925f;  // angular diameter of directional lights, rad
+    float radius = 0.03f;              // radius in m of point and spot lights
 };
 
 // Type of the environment that surrounds and lights the scene. L(d) is its radiance in the unit direction d; d.y is up.
@@ -186,7 +186,7 @@ struct Environment {
     glm::vec3 zenith{0.0f};
     glm::vec3 horizon{0.0f};
     glm::vec3 nadir{0.0f};
-    std::shared_ptr<const Image> map;  // for EnvironmentType::map; NaN counts as black
+    std::shared_ptr<const Image> map;  // image of EnvironmentType::map; NaN counts as black
     bool visible = true;               // false: the environment lights the scene, but the background is transparent
     float lighting = 1.0f;             // factor on the radiance that lights surfaces; does not apply to the background
 };
@@ -215,7 +215,7 @@ struct Node {
 struct Skin {
     std::string name;
     std::vector<int> joints;                     // indices into Scene::nodes
-    std::vector<glm::mat4> inverseBindMatrices;  // one per joint
+    std::vector<glm::mat4> inverseBindMatrices;  // one matrix per joint
 };
 
 enum class Interpolation { step, linear, cubicSpline };
@@ -264,14 +264,14 @@ struct Scene {
     std::vector<Material> materials;  // does not include glTF's default material (Primitive::material −1)
     std::vector<Texture> textures;
     std::vector<TextureImage> images;     // images that materials use
-    std::vector<std::string> imageNames;  // one per entry of `images`
+    std::vector<std::string> imageNames;  // one name per entry of `images`
     std::vector<Light> lights;
     std::vector<Camera> cameras;
     std::vector<Node> nodes;  // nodes of the chosen glTF scene, and joints with their ancestors
     std::vector<int> roots;
     std::vector<Skin> skins;
     std::vector<AnimationClip> clips;
-    std::optional<Environment> environment;  // nullopt: see environmentOrDefault
+    std::optional<Environment> environment;  // environment; nullopt: see environmentOrDefault
     double metresPerUnit = 1;                // length unit of all lengths in this scene; a Pose is in metres
     std::optional<double> ownMetresPerUnit;  // unit from the file's extras; nullopt: not stated
     std::vector<std::string> variants;       // names of the variants of materials (KHR_materials_variants)

@@ -10,7 +10,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr float rimHalfThickness = 0.0013f;  // in body lengths
+constexpr float rimHalfThickness = 0.0013f;  // half thickness in body lengths
 constexpr float rootHalfThickness = 0.007f;
 constexpr float rayRelief = 0.0018f;
 

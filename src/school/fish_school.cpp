@@ -22,7 +22,7 @@ namespace {
 constexpr int maximumFish = 10'000;
 constexpr int minimumTriangles = 200;
 constexpr int maximumTriangles = 10'000'000;
-constexpr std::int64_t maximumTotal = 400'000'000;  // triangles; about 10 GB of meshes
+constexpr std::int64_t maximumTotal = 400'000'000;  // max triangles of a school, which take about 10 GB
 
 // Camera: 50 mm lens at f/0.95 on a 36 mm sensor, focused at 2 m. The CoC diameter at 1024 px width is 74.9 px · |1/2 −
 // 1/z|, z in m. It is 37 px at 1 m, under 2 px from 1.90 to 2.11 m, and at most 37 px behind the focus.
@@ -38,8 +38,8 @@ struct Placement {
     int variant;
     double x, y;        // image position in [−1, 1]; +x right, +y up
     double depth;       // m
-    float length;       // m, without tail fin
-    double yaw, pitch;  // degrees; 0: swims to the right, yaw > 0: towards the camera, pitch > 0: upwards
+    float length;       // length in m without tail fin
+    double yaw, pitch;  // degrees; yaw 0: swims to the right, yaw > 0: towards the camera, pitch > 0: upwards
 };
 
 using enum FishSpecies;

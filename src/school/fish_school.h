@@ -10,8 +10,8 @@
 namespace defocus::engine {
 
 struct FishSchoolOptions {
-    int fishCount = 20;             // 1 to 10,000
-    int trianglesPerFish = 90'000;  // approximate; 200 to 10,000,000
+    int fishCount = 20;             // number of fish, 1 to 10,000
+    int trianglesPerFish = 90'000;  // approximate number of triangles, 200 to 10,000,000
     std::uint32_t seed = 1;
 };
 

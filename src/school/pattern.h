@@ -12,8 +12,8 @@ namespace defocus::engine {
 struct FishBand {  // band around the body
     float a = 0.5f;
     float halfWidth = 0.05f;
-    float bow = 0.0f;    // curvature: shift towards the tail at back and belly
-    float slant = 0.0f;  // shift from belly to back
+    float bow = 0.0f;    // bend of the band: shift towards the tail at back and belly
+    float slant = 0.0f;  // slant of the band: shift from belly to back
     glm::vec3 color{0.0f};
     glm::vec3 rim{0.0f};
     float rimWidth = 0.0f;
@@ -31,7 +31,7 @@ struct FishStripes {      // stripes along the body
 
 struct FishSpots {
     float size = 0.0f;    // spacing of the spots in body lengths; 0: no spots
-    float radius = 0.3f;  // relative to `size`
+    float radius = 0.3f;  // radius relative to `size`
     float from = 0.3f;
     float to = 1.0f;
     float lowest = -1.0f;  // height range, from −1 at the belly to 1 at the back

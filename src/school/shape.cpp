@@ -61,7 +61,7 @@ void addScales(const FishShape& shape, float a, float alongGirth, float detail, 
     const float held = 1.0f - glm::smoothstep(0.22f, 0.5f, detail / shape.scaleSize);
     const float strength = behindGill * beforeTail * held;
     if (strength <= 0.0f) return;
-    constexpr float radius = 0.66f;  // relative to the scale size
+    constexpr float radius = 0.66f;  // radius relative to the scale size
     constexpr float rowHeight = 0.56f;
     const glm::vec2 p(a / shape.scaleSize, alongGirth / shape.scaleSize);
     const int row = static_cast<int>(std::floor(p.y / rowHeight + 0.5f));

@@ -33,7 +33,7 @@ struct MedianFin {
     float start = 0.3f;  // position `a` of the first fin ray
     float end = 0.9f;
     std::array<float, 6> heights{};  // lengths of evenly spaced fin rays, from first to last
-    float leanFront = 0.5f;          // radians backwards from upright
+    float leanFront = 0.5f;          // angle in radians backwards from upright
     float leanRear = 0.8f;
     float curl = 0.1f;      // backward bend of the tips, in fin ray lengths
     float scallop = 0.03f;  // depth of notches between fin rays, in fin ray lengths
@@ -42,7 +42,7 @@ struct MedianFin {
 
 struct CaudalFin {
     float length = 0.28f;
-    float spread = 0.6f;    // radians between the axis and the outer fin rays
+    float spread = 0.6f;    // angle in radians between the axis and the outer fin rays
     float fork = 0.4f;      // shortening of the middle fin rays, 0 to 1
     float rounding = 0.1f;  // shortening of the outermost fin rays, 0 to 1
     int rays = 22;
@@ -53,9 +53,9 @@ struct PairedFin {
     float a = 0.3f;        // position `a` of the root
     float height = -0.2f;  // height of the root, relative to the section's halfHeight
     float length = 0.2f;
-    float spread = 0.9f;     // radians between the first and last fin ray
-    float outwards = 0.5f;   // radians away from the body
-    float downwards = 0.4f;  // radians below the axis
+    float spread = 0.9f;     // angle in radians between the first and last fin ray
+    float outwards = 0.5f;   // angle in radians away from the body
+    float downwards = 0.4f;  // angle in radians below the axis
     float rootWidth = 0.05f;
     int rays = 12;
 };
@@ -72,9 +72,9 @@ struct FishShape {
     float scaleSize = 0.043f;
     float finRipple = 0.02f;  // amplitude of sideways waves at the fins' edges
     float finPhase = 0.0f;
-    float swimAmplitude = 0.3f;  // radians, heading amplitude at the tail
+    float swimAmplitude = 0.3f;  // heading amplitude at the tail, radians
     float swimPhase = 0.0f;
-    float turn = 0.0f;  // radians, uniform bend from head to tail
+    float turn = 0.0f;  // uniform bend from head to tail, radians
     std::vector<MedianFin> medianFins;
     CaudalFin caudal;
     PairedFin pectoral;
@@ -98,7 +98,7 @@ struct FishRelief {
     float displacement = 0;
     float groove = 0;     // darkness of grooves, 0 to 1
     float scaleEdge = 0;  // 0 to 1; 1 on a scale's pale rim
-    float scaleTone = 0;  // −1 to 1, constant per scale
+    float scaleTone = 0;  // tone from −1 to 1, constant per scale
 };
 FishRelief fishRelief(const FishShape& shape, const FishSkinPoint& point, float detail);
 
@@ -114,7 +114,7 @@ private:
     static constexpr float first = -0.2f;  // position `a` of the first tabulated spine point
     static constexpr float last = 2.3f;
     struct Station {
-        glm::vec2 position{0.0f};  // x and z
+        glm::vec2 position{0.0f};  // x and z coordinates
         float heading = 0;
     };
     std::array<Station, steps + 1> table_;

@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 struct CameraSample {
     double time = 0;                  // s
-    glm::dmat4 worldFromCamera{1.0};  // rigid, in m, y up
+    glm::dmat4 worldFromCamera{1.0};  // rigid transform in m, y up
     double nearPlane = 0.01;          // m
     // Lens values by their names in lens/lens_fields.h; focalLength and horizontalAperture give the field of view.
     std::map<std::string, double, std::less<>> lens;

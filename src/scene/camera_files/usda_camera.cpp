@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double widestSensor = 1000;  // mm; a wider sensor is probably given in mm instead of tenths of a unit
+constexpr double widestSensor = 1000;  // width in mm; a wider sensor is probably in mm instead of tenths of a unit
 constexpr double plainUnit = 0.01;     // default of the layer entry metersPerUnit; a tenth of this unit is 1 mm
 constexpr const char* lensPrefix = "defocus:";
 

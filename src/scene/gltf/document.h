@@ -20,7 +20,7 @@ struct Document {
     std::string file;                                   // path as given by the user, for error messages
     std::filesystem::path folder;                       // base folder of relative URIs
     nlohmann::json json;                                // always a JSON object
-    std::optional<std::vector<std::byte>> binaryChunk;  // only for .glb files
+    std::optional<std::vector<std::byte>> binaryChunk;  // binary chunk; only for .glb files
     std::uint64_t fileBytes = 0;
 };
 

@@ -125,7 +125,7 @@ Strokes readStrokes(Source& source, const tinygltf::Primitive& primitive, const 
     strokes.vertices.weights = strokes.vertices.weights1 = {};
     strokes.indices =
         strokeList(primitive.mode, readIndices(source, primitive, strokes.vertices.count(), nullptr, what));
-    constexpr std::uint64_t quadBytes = 512;  // memory of four vertices and two triangles
+    constexpr std::uint64_t quadBytes = 512;  // bytes of four vertices and two triangles
     takeBudget(source, strokes.indices.size(), quadBytes, what);
     dropUnplacedStrokes(source, strokes);
     return strokes;

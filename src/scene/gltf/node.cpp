@@ -198,7 +198,7 @@ std::map<std::string, double, std::less<>> lensValues(const nlohmann::json& json
 // take precedence.
 void readPhysicalCamera(Source& source, const nlohmann::json& json, const std::string& label, Camera& camera) {
     constexpr double millimetres = 1e3;
-    constexpr double longest = 10;  // m; a larger focal length, such as 35, is probably in millimetres
+    constexpr double longest = 10;  // focal length in m; a longer one, such as 35, is probably in millimetres
     const nlohmann::json* extension = findExtension(json, "EXT_camera_physical");
     if (extension == nullptr) return;
     const auto number = [&](const nlohmann::json& value, const char* name) {

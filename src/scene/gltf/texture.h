@@ -8,7 +8,7 @@ namespace defocus::engine::gltf {
 struct Textures {
     std::vector<Texture> textures;     // one per glTF texture; `image` is −1 unless a material draws the texture
     std::vector<TextureImage> images;  // images that materials use
-    std::vector<std::string> names;    // one per entry of `images`
+    std::vector<std::string> names;    // one name per entry of `images`
 };
 
 // Reads the textures, and decodes the images that `materials` use in parallel. A texture whose image is missing or
