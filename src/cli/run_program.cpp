@@ -174,7 +174,7 @@ void refuseEmptyNames(CLI::App& command) {
 
 // Returns the message that standard output cannot be written, with the reason; empty if all of it was written.
 std::string outputFault() {
-    std::cout.flush();  // the text of --help or --version
+    std::cout.flush();  // writes the text of --help or --version
     errno = 0;
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout) return {};
     if (errno == 0) {  // an earlier write failed; another write sets errno
@@ -196,7 +196,7 @@ int run(int argc, char** argv) {
     addCommands(program, global);
     try {
         std::vector<std::string> words = withoutBooleanValues({argv + 1, argv + argc});
-        std::ranges::reverse(words);  // the order that CLI11 expects
+        std::ranges::reverse(words);  // CLI11 expects reversed words
         program.parse(std::move(words));
     } catch (const CLI::Success& shown) {  // thrown for --help and --version
         return program.exit(shown);

@@ -31,7 +31,7 @@ public:
 
 private:
     struct Arena;
-    std::unique_ptr<Arena> arena_;  // nullptr without workers
+    std::unique_ptr<Arena> arena_;  // arena of the workers; nullptr without workers
 };
 
 }  // namespace defocus::engine

@@ -34,7 +34,7 @@ std::string inSmallLetters(std::string_view text) {
 }  // namespace
 
 std::string nearestWord(std::string_view word, const std::vector<std::string>& known) {
-    constexpr std::size_t longestWord = 64;  // bytes; limits the cost of the edit distance
+    constexpr std::size_t longestWord = 64;  // max bytes of a word; limits the cost of the edit distance
     if (word.size() > longestWord) return {};
     const std::string small = inSmallLetters(word);
     std::string nearest;

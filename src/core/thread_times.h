@@ -7,7 +7,7 @@ namespace defocus::engine {
 
 // CPU time of an interval, in ms; 0 if the system does not report the times of threads.
 struct CpuTime {
-    double milliseconds = 0;         // sum over all threads
+    double milliseconds = 0;         // CPU time of all threads
     double busiestMilliseconds = 0;  // CPU time of the thread with the largest time
     CpuTime& operator+=(const CpuTime& other) {
         milliseconds += other.milliseconds;

@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 class BufferWriter {
 public:
-    // Creates a buffer of `bytes`, of which all must be appended.
+    // Creates a buffer of `bytes` bytes, all of which must be appended.
     explicit BufferWriter(std::size_t bytes) : buffer_(bytes) {}
 
     template <typename T>
@@ -26,8 +26,8 @@ private:
     void flush();
 
     Buffer buffer_;
-    std::size_t written_ = 0;         // bytes that are in the buffer
-    std::vector<std::byte> pending_;  // bytes to write after them
+    std::size_t written_ = 0;         // bytes already in buffer_
+    std::vector<std::byte> pending_;  // following bytes that are not in buffer_ yet
 };
 
 }  // namespace defocus::engine

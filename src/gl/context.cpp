@@ -57,7 +57,7 @@ bool listed(const char* extensions, std::string_view name) {
 // EGL display to try. The display is created only when it is tried, because creation may load a driver.
 struct Candidate {
     std::string name;
-    EGLenum platform = EGL_NONE;  // EGL_NONE: default display
+    EGLenum platform = EGL_NONE;  // type of the display; EGL_NONE: default display
     void* native = nullptr;
     std::string missing = {};  // reason why this display is unavailable; empty if available
 };
@@ -243,7 +243,7 @@ bool currentIsSoftware() {
 
 bool drawsInThreads(const std::string& device, const std::string& driver) {
     if (device.find("llvmpipe") == std::string::npos) return true;
-    if (device.find("zink") != std::string::npos) return false;  // zink over lavapipe: not tested
+    if (device.find("zink") != std::string::npos) return false;  // zink over lavapipe is not tested
     constexpr std::string_view mesa = "Mesa ";
     const std::size_t at = driver.find(mesa);
     int version = 0;

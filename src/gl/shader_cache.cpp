@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t room = std::uint64_t{16} << 20;  // bytes; index and shaders of one frame need a third of this
+constexpr std::uint64_t room = std::uint64_t{16} << 20;  // free bytes; index and shaders of a frame need a third
 
 fs::path pathIn(const char* variable) {
     const char* const value = std::getenv(variable);

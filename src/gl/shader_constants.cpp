@@ -102,7 +102,7 @@ constexpr ShaderConstant constants[] = {
     {"int", "extentLevels", "1"},
 
     // Lens space
-    {"int", "tileSize", "1"},  // px; also used by the circular method
+    {"int", "tileSize", "1"},  // tile side in px; also used by the circular method
     {"int", "maxRays", "1"},   // max lens samples drawn in one pass
     {"uint", "rayVariants", "1u"},
     {"bool", "countsOnly", "false", "COUNTS_ONLY"},

@@ -53,7 +53,7 @@ struct WindowEvent {
 };
 
 struct WindowOptions {
-    int width = 1280;  // in px of a standard screen; enlarged on high-density screens
+    int width = 1280;  // width in px of a standard screen; enlarged on high-density screens
     int height = 800;
     std::string title = "defocus";
 };
@@ -79,7 +79,7 @@ public:
     void setFullscreen(bool on);
 
     // Both sizes are read during the same poll(), so that they match.
-    [[nodiscard]] glm::ivec2 size() const { return size_; }                        // in window units
+    [[nodiscard]] glm::ivec2 size() const { return size_; }                        // size in window units
     [[nodiscard]] glm::ivec2 framebufferSize() const { return framebufferSize_; }  // in px; 0 x 0 while minimised
     [[nodiscard]] double contentScale() const;  // scale for text and controls; 1 on a standard screen
 
@@ -105,7 +105,7 @@ private:
     std::vector<WindowEvent> events_;
     glm::dvec2 mouse_{0.0};
     glm::ivec2 size_{0}, framebufferSize_{0};
-    glm::ivec2 windowedPosition_{0}, windowedSize_{0};  // restored when full screen ends
+    glm::ivec2 windowedPosition_{0}, windowedSize_{0};  // position and size to restore after full screen
     std::string device_;
     bool software_ = false;
 };

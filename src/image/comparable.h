@@ -14,8 +14,8 @@ namespace defocus::engine {
 enum class PixelState : std::uint8_t { finite, nonFiniteInOne, nonFiniteInBoth };
 
 struct ComparablePair {
-    Image reference;                // 3 channels, linear
-    Image test;                     // 3 channels, linear
+    Image reference;                // linear image with 3 channels
+    Image test;                     // linear image with 3 channels
     std::vector<PixelState> state;  // width · height entries, top row first
 };
 

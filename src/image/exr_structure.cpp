@@ -22,7 +22,7 @@ using Bytes = std::span<const std::byte>;
 
 constexpr std::size_t headersBegin = 8;
 constexpr std::size_t channelBytes = 16;     // bytes after each channel's name in a channel list
-constexpr std::int64_t widestRow = 1 << 20;  // px; limits memory, because OpenEXR allocates several rows at once
+constexpr std::int64_t widestRow = 1 << 20;  // max width in px; limits memory: OpenEXR allocates several rows at once
 
 // Attribute types with a fixed size in bytes.
 constexpr std::array<std::pair<std::string_view, std::uint64_t>, 23> sizes = {{

@@ -79,7 +79,7 @@ void writeImage(const std::filesystem::path& path, const ImageView& image, const
 // throws if the file has no layers.
 struct ImageLayer {
     std::string name;
-    Image image;  // 3 or 4 channels
+    Image image;  // image with 3 or 4 channels
 };
 // Writes named channels, of images of equal size, to one EXR file in the same format. Throws Error if images differ in
 // size or if two channels have the same name.

@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 struct Moments {             // moments of an image's first channel
     double energy = 0;       // sum over all pixels
-    glm::dvec2 mean{0};      // px from the top left corner; NaN if energy is 0
+    glm::dvec2 mean{0};      // centroid in px from the top left corner; NaN if energy is 0
     glm::dvec2 variance{0};  // px²
 };
 

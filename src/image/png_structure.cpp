@@ -21,7 +21,7 @@ constexpr std::size_t chunkOverhead = 12;  // bytes of a chunk's length, type an
 constexpr std::array<std::string_view, 8> keptChunks = {"IHDR", "PLTE", "IDAT", "IEND", "tRNS", "gAMA", "sRGB", "tEXt"};
 
 constexpr unsigned char filterTypes = 5;      // number of filter types (section 9.2)
-constexpr std::uint32_t maxSide = 1'000'000;  // px, libpng's limit
+constexpr std::uint32_t maxSide = 1'000'000;  // max width and height in px, libpng's limit
 constexpr std::size_t headerLength = 13, maxPaletteLength = 3 * 256;
 
 std::uint32_t checksum(std::span<const std::byte> bytes) {

@@ -170,8 +170,8 @@ bool isAsked(const ConvergenceOptions& options, const MethodUse& published) {
            });
 }
 
-// Returns the requested published forms of the methods, built from the presets. Forms that draw levels get pyramids of
-// their own, in worlds stored in `frames`. `frame` needs no pyramids yet.
+// Returns the requested methods with published settings, built from the presets. Methods that draw levels get pyramids
+// of their own, in worlds stored in `frames`. `frame` needs no pyramids yet.
 std::vector<PublishedForm> publishedForms(const Request& scene, const PreparedFrame& frame,
                                           const ConvergenceOptions& options, std::deque<PreparedFrame>& frames,
                                           Progress& progress) {

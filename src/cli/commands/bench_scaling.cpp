@@ -27,10 +27,10 @@ namespace fs = std::filesystem;
 
 struct ScalingArguments {
     ScalingOptions options;
-    Request request;      // only the cache folder is used
+    Request request;      // request of which only the cache folder is used
     fs::path folder;      // folder of the results; empty: print the table only
     fs::path report;      // folder of the report; empty: no report
-    bool scenes = false;  // also measure the two large scenes
+    bool scenes = false;  // true: the two large scenes are also measured
     bool allowChanged = false;
 };
 

@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 struct CameraQuestion {
     std::optional<double> acceptableCoc;  // diameter on the sensor, mm; nullopt: the customary value
-    std::vector<double> depths;           // m, > 0, may be infinite; empty: depths around the focus distance
+    std::vector<double> depths;           // depths in m, > 0, may be infinite; empty: depths around the focus distance
 };
 
 // Parses depths (m) separated by commas; "inf" is infinity. Throws Error for any other text.

@@ -167,7 +167,7 @@ FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& 
         options.seed = frame.settings.seed;
         Metadata metadata = renderMetadata({options, method, prepared, plan, stats, false, 0, exposure});
         metadata.erase("defocus:seconds");
-        metadata["capDate"] = std::string();  // empty, because the image library would insert the current time
+        metadata["capDate"] = std::string();  // no date; otherwise, the image library would insert the current time
         metadata["defocus:frame"] = frame.frame;
         metadata["defocus:frameRate"] = arguments.shot.frameRate;
         metadata["framesPerSecond"] = rationalFrameRate(arguments.shot.frameRate);
@@ -376,7 +376,7 @@ void addShot(CLI::App& command, CaptureArguments& arguments) {
                              for (const std::string& text : texts)
                                  arguments.overrides.push_back(parseShotOverride(text));
                          } catch (const Error& error) {
-                             throw CLI::ValidationError(error.what());  // reported as a command-line error
+                             throw CLI::ValidationError(error.what());  // CLI11 reports this as a command-line error
                          }
                      },
                      "Replace a value of the shot, given by its JSON pointer, such as --set /lens/fStop=1.4. Can be "

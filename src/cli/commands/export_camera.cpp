@@ -43,7 +43,7 @@ TextOf writerFor(const std::filesystem::path& output) {
 
 // Returns the lens values to write: some of them always, the others only if they differ from their defaults.
 std::map<std::string, double, std::less<>> lensOf(const Lens& lens) {
-    constexpr double farthest = 1e12;  // m, for a focus at infinity
+    constexpr double farthest = 1e12;  // distance in m for a focus at infinity
     const Lens defaults;
     std::map<std::string, double, std::less<>> values;
     for (const LensField& field : lensFields()) {

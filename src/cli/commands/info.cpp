@@ -71,7 +71,7 @@ const char* alphaName(AlphaMode mode) {
 }
 
 struct Totals {
-    std::uint64_t triangles = 0;         // sum over all meshes
+    std::uint64_t triangles = 0;         // triangles of all meshes
     std::uint64_t trianglesInScene = 0;  // sum over all objects of the scene
     std::uint64_t vertices = 0;
     std::uint64_t points = 0;

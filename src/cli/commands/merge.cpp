@@ -46,7 +46,7 @@ std::string shownOutputs(const MergeArguments& arguments) {
 void mergeTiles(const MergeArguments& arguments, const GlobalOptions& global) {
     const std::vector<RowFile> tiles = completeRows(arguments.parts);
     Metadata metadata = tiles.front().header.metadata;
-    metadata.try_emplace("capDate", std::string());  // empty, so that the image library doesn't insert the current time
+    metadata.try_emplace("capDate", std::string());  // no date; otherwise, OpenImageIO would insert the current time
     std::vector<JoinedOutput> outputs;
     for (const std::filesystem::path& path : arguments.outputs) {
         if (isStandardOutput(path)) throw UsageError("tiles can only be merged to files; give a file name with -o");

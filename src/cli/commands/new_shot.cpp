@@ -31,7 +31,7 @@ constexpr const char* schemaName = "shot.schema.json";
 
 struct NewShotArguments {
     Request request;
-    fs::path output;  // empty: derived from the scene's name
+    fs::path output;  // file to write; empty: named after the scene
     bool overwrite = false;
 };
 

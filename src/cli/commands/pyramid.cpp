@@ -47,9 +47,9 @@ using Json = nlohmann::ordered_json;
 struct PyramidArguments {
     Request request;        // only the scene and levelVertices are used
     std::string mesh;       // name of the mesh; empty: all meshes
-    fs::path exportFolder;  // empty: no export
-    fs::path turntable;     // empty: no turntable
-    fs::path cacheFolder;   // empty: no cache
+    fs::path exportFolder;  // folder for exported levels; empty: no export
+    fs::path turntable;     // file of the turntable; empty: no turntable
+    fs::path cacheFolder;   // cache of pyramids; empty: no cache
     std::size_t points = 16'384;
     bool noMeasure = false;
     bool json = false;

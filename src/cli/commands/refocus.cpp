@@ -37,7 +37,7 @@ struct RefocusArguments {
     std::filesystem::path file;
     std::vector<std::filesystem::path> outputs = {"out.exr"};
     Request request;                 // values of ownSettings()
-    std::optional<double> exposure;  // EV; nullopt: as rendered
+    std::optional<double> exposure;  // exposure in EV; nullopt: as rendered
     std::filesystem::path page;      // write a web page to this file, instead of outputs
     FocusPullFilm pull;              // write the film of a focus pull if pull.video isn't empty
     bool fillGaps = true;            // fill the gaps between the lens images
