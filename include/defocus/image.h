@@ -99,7 +99,7 @@ enum class ToneMap {
 
 struct WriteOptions {
     ToneMap toneMap = ToneMap::none;  // PNG and JPEG only
-    double exposure = 0;              // EV; PNG and JPEG only
+    double exposure = 0;              // exposure in EV; PNG and JPEG only
 };
 
 // Reads a PNG, JPEG, OpenEXR, Radiance HDR or TIFF file as linear float with 1, 3 or 4 channels. The content, not the
@@ -122,7 +122,7 @@ DEFOCUS_API void writeImage(const std::filesystem::path& path, const ImageView& 
 struct Difference {
     double mae = 0;                // mean absolute error over pixels and colour channels
     double rmse = 0;               // root mean squared error over pixels and colour channels
-    double psnr = 0;               // dB; infinity for equal images
+    double psnr = 0;               // PSNR in dB; infinity for equal images
     double ssim = 1;               // mean structural similarity (Wang et al. 2004), on luma
     double flip = 0;               // mean FLIP (Andersson et al. 2020) at 67 pixels per degree
     double maxError = 0;           // max absolute difference of a colour channel

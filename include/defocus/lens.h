@@ -10,33 +10,33 @@ namespace defocus {
 
 struct LensSettings {
     // Camera.
-    std::optional<double> focalLength;         // mm; sets the field of view. Default: from the camera
+    std::optional<double> focalLength;         // focal length in mm; sets the field of view. Default: from the camera
     std::optional<double> fStop;               // f-number N, > 0: aperture diameter = focalLength / N. Default: 2.8
-    std::optional<double> horizontalAperture;  // mm, sensor width. Default: 36
+    std::optional<double> horizontalAperture;  // sensor width in mm. Default: 36
     std::optional<bool> dofEnabled;            // false: pinhole camera, for any f-number
     std::optional<double> blurScale;           // factor on the blur diameter, ≥ 0. Default: 1 (physically correct)
     std::optional<bool> focusBreathing;        // true: the field of view narrows for near focus, as for a thin lens
-    std::optional<double> exposureTime;        // s; with f-number and ISO, sets the exposure of 8-bit images; 0: unused
+    std::optional<double> exposureTime;        // time in s; with f-number and ISO, exposes 8-bit images; 0: unused
     std::optional<double> iso;                 // sensitivity, 1 … 1e7. Default: 100
 
     // Aperture.
-    std::optional<int> bladeCount;                   // 3 … 64; 0: circular aperture
+    std::optional<int> bladeCount;                   // number of blades, 3 … 64; 0: circular aperture
     std::optional<double> bladeRotation;             // degrees
-    std::optional<double> bladeCurvature;            // 0: straight blades, 1: a circle
+    std::optional<double> bladeCurvature;            // curvature; 0: straight blades, 1: a circle
     std::optional<double> anamorphicRatio;           // aperture height / width; > 1: tall ovals
     std::optional<double> obstruction;               // mirror lens: inner / outer diameter, [0, 1)
     std::optional<double> sphericalAberration;       // [−1, 1]; > 0: bokeh has a brighter rim; < 0: brighter centre
-    std::optional<double> catEye;                    // [0, 1]; fraction of the aperture radius hidden in the corners
-    std::optional<double> axialChromaticAberration;  // dioptres; > 0: red focuses farther away than blue
-    std::optional<double> astigmatism;               // mm on the sensor; length of a focused point's image at the edges
-    std::optional<double> coma;                      // mm on the sensor; comet tail length at the edges; > 0: outwards
+    std::optional<double> catEye;                    // fraction of the aperture radius hidden in the corners, [0, 1]
+    std::optional<double> axialChromaticAberration;  // focus shift in dioptres; > 0: red focuses farther away than blue
+    std::optional<double> astigmatism;               // length in mm on the sensor of a focused point at the edges
+    std::optional<double> coma;                      // comet tail length in mm on the sensor at edges; > 0: outwards
     std::filesystem::path apertureImage;             // replaces blades, obstruction, spherical aberration; empty: none
 
     // Artistic blur controls (Munkberg, Toth and Akenine-Möller 2012).
-    std::optional<double> foregroundLimit;    // px, max blur diameter in front of the focus plane
-    std::optional<double> backgroundLimit;    // px, max blur diameter behind the focus plane
-    std::optional<double> focusRangeFront;    // m; depth of the sharp range in front of the focus distance
-    std::optional<double> focusRangeBehind;   // m; depth of the sharp range behind the focus distance
+    std::optional<double> foregroundLimit;    // max blur diameter in px in front of the focus plane
+    std::optional<double> backgroundLimit;    // max blur diameter in px behind the focus plane
+    std::optional<double> focusRangeFront;    // depth in m of the sharp range in front of the focus distance
+    std::optional<double> focusRangeBehind;   // depth in m of the sharp range behind the focus distance
     std::optional<bool> focusRangeRefocuses;  // true: blur behind the range as if the lens were focused at its far end
     std::optional<double> focusTilt;          // degrees about the horizontal axis; > 0: focus plane's top is nearer
     std::optional<double> focusSwing;         // degrees about the vertical axis; > 0: focus plane's right is nearer

@@ -27,7 +27,7 @@ namespace defocus {
 
 // Settings that can be chosen after rendering. refocusSettings() lists them; any other setting throws UsageError.
 struct RefocusSettings {
-    Focus focus = {};        // FocusDistance or FocusPixel; CameraFocus: as rendered
+    Focus focus = {};        // FocusDistance or FocusPixel; CameraFocus: focus as rendered
     LensSettings lens = {};  // f-number and shape of the aperture; unset values: as rendered
     bool fillGaps = true;    // true: fills gaps between the lens images by blurring each over its part of the lens
 };
@@ -36,10 +36,10 @@ struct RefocusSettings {
 struct LightFieldInfo {
     int width = 0;                  // px
     int height = 0;                 // px
-    double focusDistance = 1;       // m, focus distance of the rendered images
+    double focusDistance = 1;       // focus distance of the rendered images, m
     double fStop = 1;               // f-number of the rendered aperture; the widest one that can be chosen
-    double focalLength = 0;         // mm; 0: unknown
-    double horizontalAperture = 0;  // mm, sensor width; 0: unknown
+    double focalLength = 0;         // focal length in mm; 0: unknown
+    double horizontalAperture = 0;  // sensor width in mm; 0: unknown
     FocusRange focusRange;          // focus distances that can be chosen
     bool fullDisk = true;           // whether f-number and aperture shape can be chosen
     // For a focus at s, the image of lens point (u, v) moves by pixelsPerDioptre · (1/s − 1/focusDistance) · (u, v) px.

@@ -25,8 +25,8 @@ struct PlannedDraw {
 
 struct PlannedObject {
     std::string name;
-    double nearestDepth = 0;   // m, min depth of the bounding box
-    double farthestDepth = 0;  // m, max depth of the bounding box
+    double nearestDepth = 0;   // min depth of the bounding box, m
+    double farthestDepth = 0;  // max depth of the bounding box, m
     // Diameters of the circle of confusion in px: signed (> 0 behind the focus plane) at the nearest and farthest
     // depth, then min and max of the unsigned diameter over the bounding box. Infinite for a box that extends to the
     // camera.
@@ -34,7 +34,7 @@ struct PlannedObject {
     double farthestCoc = 0;
     double smallestCoc = 0;
     double largestCoc = 0;
-    double projectedEdge = 0;        // px, mean edge length of level 0 at the nearest depth
+    double projectedEdge = 0;        // mean edge length of level 0 at the nearest depth, px
     double lambda = 0;               // fractional level of detail λ (Jeong, Kim and Lee 2011)
     double pixelRate = 1;            // resolution per axis relative to the image; < 1: blurred lens cells
     bool blended = false;            // true if the object has alpha-blended materials
@@ -67,14 +67,14 @@ struct Plan {
     // Lens settings in effect: from the request, else the file, else the defaults. Unset blur limits are infinite.
     LensSettings lens;
     bool hasApertureImage = false;
-    double focusDistance = 0;     // m; +∞ for focus at infinity
+    double focusDistance = 0;     // focus distance in m; +∞ for focus at infinity
     double apertureDiameter = 0;  // m
     bool usesLens = true;         // false: all blurs are smaller than half a pixel
     // Samples.
     std::uint32_t samples = 0;
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;
-    double cocTolerance = 0;          // px; see Request::cocTolerance
+    double cocTolerance = 0;          // tolerance in px; see Request::cocTolerance
     std::uint64_t moments = 0;        // number of instants at which the scene is posed; 0: nothing moves
     std::uint64_t movingObjects = 0;  // objects that move during the exposure
     // Settings for the levels of detail; thresholds that the Request leaves unset have their defaults.
@@ -83,11 +83,11 @@ struct Plan {
     LodCoc lodCoc = LodCoc::smallest;
     LevelVertices levelVertices = LevelVertices::fitted;
     double blurThreshold = 0;   // target edge length relative to the blur diameter
-    double sizeThreshold = 0;   // px, min target edge length
-    double lightThreshold = 0;  // px; see LodMetric::measured
+    double sizeThreshold = 0;   // min target edge length, px
+    double lightThreshold = 0;  // limit in px; see LodMetric::measured
     // Shadows.
-    std::vector<PlannedShadowMap> shadowMaps;  // empty: no shadows
-    int shadowMapSize = 0;                     // px per side
+    std::vector<PlannedShadowMap> shadowMaps;  // shadow maps; empty: no shadows
+    int shadowMapSize = 0;                     // side of each shadow map, px
     std::uint32_t shadowPoints = 0;            // sample points on each light per lens sample
     // Method "multirate": standard deviation of the blur of each sample's image, relative to the diameter of the circle
     // of confusion. 0 if the images cannot be blurred; lensCellReason then says why.

@@ -40,7 +40,7 @@ struct RenderStatistics {
 // Arbitrary output variables: per-pixel data of the nearest surface at the pixel's centre in a pinhole view. Each image
 // has one channel.
 struct Aovs {
-    Image depth;  // m along the view axis; +∞ for pixels without a surface
+    Image depth;  // depth in m along the view axis; +∞ for pixels without a surface
     Image coc;    // signed diameter of the circle of confusion in px, > 0 behind the focus plane
     Image level;  // fractional level of detail of the object; −1 for pixels without a surface
 };

@@ -53,7 +53,7 @@ struct Request {
     double time = 0;                // time of the animation in s
     std::string clip;               // name or index of the animation; empty: the first animation
     bool loop = false;              // true: the animation repeats; false: its first and last pose are held
-    // s, duration of the exposure; > 0 gives motion blur. Default: the shutter of `cameraFrom`, else 0.
+    // Duration of the exposure in s; > 0 gives motion blur. Default: the shutter of `cameraFrom`, else 0.
     std::optional<double> shutter;
     ShutterPosition shutterPosition = ShutterPosition::centre;
     MotionSegments motionSegments = 1u;
@@ -98,8 +98,8 @@ struct Request {
     LodMode lod = LodMode::fractional;
     // Target length of triangle edges relative to the blur diameter. Default: depends on the number of samples.
     std::optional<double> blurThreshold;
-    std::optional<double> sizeThreshold;   // px, min target edge length. Default: depends on the number of samples
-    std::optional<double> lightThreshold;  // px; see LodMetric::measured. Default: depends on the number of samples
+    std::optional<double> sizeThreshold;   // min target edge length in px. Default: depends on the number of samples
+    std::optional<double> lightThreshold;  // in px; see LodMetric::measured. Default: depends on the number of samples
     std::filesystem::path cacheFolder;     // pyramid cache; empty: $XDG_CACHE_HOME/defocus or ~/.cache/defocus
     bool noCache = false;                  // true: pyramids are built without reading or writing the cache
 

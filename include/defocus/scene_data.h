@@ -88,7 +88,7 @@ struct MaterialData {
     int metallicRoughnessTexture = -1;              // data texture: roughness in G, metalness in B
     int normalTexture = -1;                         // data texture: (n + 1)/2 of a normal n in tangent space, +y up
     float normalScale = 1;                          // factor on the x and y of normalTexture
-    int occlusionTexture = -1;                      // data texture: occlusion in R
+    int occlusionTexture = -1;                      // data texture with occlusion in channel R
     float occlusionStrength = 1;                    // [0, 1]
     std::array<float, 3> emission = {0, 0, 0};      // emitted radiance, ≥ 0
     int emissionTexture = -1;                       // colour texture
@@ -98,11 +98,11 @@ struct MaterialData {
     bool unlit = false;  // true: the base colour is shown without lighting
 
     float ior = 1.5f;              // index of refraction, ≥ 1; 0: reflects all light
-    float transmission = 0;        // [0, 1]; fraction of light that passes through the surface
-    int transmissionTexture = -1;  // data texture: transmission in R
-    float thickness = 0;           // ≥ 0, in mesh units; 0: thin wall without refraction
+    float transmission = 0;        // fraction of light that passes through the surface, [0, 1]
+    int transmissionTexture = -1;  // data texture with transmission in channel R
+    float thickness = 0;           // thickness in mesh units, ≥ 0; 0: thin wall without refraction
     // Absorption: after attenuationDistance, white light has the colour attenuationColor.
-    float attenuationDistance = std::numeric_limits<float>::infinity();  // > 0; +∞: no absorption
+    float attenuationDistance = std::numeric_limits<float>::infinity();  // distance > 0; +∞: no absorption
     std::array<float, 3> attenuationColor = {1, 1, 1};                   // [0, 1]
 };
 
@@ -117,7 +117,7 @@ struct CameraData {
     std::string name = {};
     Matrix4 transform = identityMatrix;
     double yfov = 0.6911112;                   // full vertical angle, in (0, π); unused with lens.focalLength
-    double znear = 0.01;                       // > 0; surfaces that are nearer are invisible
+    double znear = 0.01;                       // near plane, > 0; surfaces that are nearer are invisible
     std::optional<double> focusDistance = {};  // along the view axis, > 0. Default: FocusAuto
     LensSettings lens = {};                    // units and defaults of LensSettings; apertureImage must be empty
 };
@@ -130,11 +130,11 @@ struct LightData {
     LightType type = LightType::directional;
     Matrix4 transform = identityMatrix;      // placement of the light; its scale has no effect
     std::array<float, 3> color = {1, 1, 1};  // ≥ 0
-    float intensity = 1;                     // lux (directional) or candela (point, spot), ≥ 0
+    float intensity = 1;                     // illuminance in lux (directional) or candela (point, spot), ≥ 0
     float range = 0;                         // maximum distance of lit surfaces (point, spot); 0: unlimited
     float innerConeAngle = 0;                // spot light: angles from the axis, 0 ≤ inner < outer ≤ π/2
     float outerConeAngle = 0.785398163f;
-    float angularDiameter = 0.00925f;  // directional light: [0, π]; softens shadows
+    float angularDiameter = 0.00925f;  // angle of a directional light, [0, π]; softens shadows
     float radius = 0.03f;              // point or spot light: m, ≥ 0; softens shadows
 };
 
@@ -143,10 +143,10 @@ struct SceneData {
     std::span<const MeshData> meshes = {};
     std::span<const MaterialData> materials = {};
     std::span<const TextureData> textures = {};
-    std::span<const InstanceData> instances = {};  // at least one
-    std::span<const CameraData> cameras = {};      // empty: a camera that frames the scene
-    std::span<const LightData> lights = {};        // empty: studio lights
-    double metresPerUnit = 1;                      // 1e-9 … 1e9
+    std::span<const InstanceData> instances = {};  // objects, at least one
+    std::span<const CameraData> cameras = {};      // cameras; empty: a camera that frames the scene
+    std::span<const LightData> lights = {};        // lights; empty: studio lights
+    double metresPerUnit = 1;                      // metres per scene unit, 1e-9 … 1e9
 };
 
 }  // namespace defocus

@@ -8,7 +8,7 @@
 namespace defocus {
 
 inline constexpr std::uint32_t maxSamples = 65'536;  // max lens samples per frame
-inline constexpr int maxImageSide = 16'384;          // px, max width and height of an image
+inline constexpr int maxImageSide = 16'384;          // max width and height of an image, px
 
 // Target error of a frame with an automatic number of samples: a FLIP of about 0.03 (draft), 0.01 (good) or 0.005
 // (fine) against the converged image.

@@ -77,7 +77,7 @@ class Difference(NamedTuple):
 
     mae: float  # mean absolute error
     rmse: float  # root mean squared error
-    psnr: float  # dB; infinity for equal images
+    psnr: float  # PSNR in dB; infinity for equal images
     ssim: float  # mean structural similarity (Wang et al. 2004), on luma
     flip: float  # mean FLIP (Andersson et al. 2020) at 67 pixels per degree
     max_error: float  # max absolute difference of a colour channel
@@ -89,7 +89,7 @@ class Difference(NamedTuple):
 class Aovs(NamedTuple):
     """Per-pixel data of the nearest surface at the pixel's centre in a pinhole view: H×W each."""
 
-    depth: numpy.ndarray  # m along the view axis; infinity for pixels without a surface
+    depth: numpy.ndarray  # depth in m along the view axis; infinity for pixels without a surface
     coc: numpy.ndarray  # diameter of the circle of confusion in px; > 0 behind the focus plane, < 0 in front of it
     level: numpy.ndarray  # fractional level of detail of the object; −1 for pixels without a surface
 
@@ -115,11 +115,11 @@ class LightFieldInfo(NamedTuple):
 
     width: int  # px
     height: int  # px
-    focus_distance: float  # m, focus of the rendered images
+    focus_distance: float  # focus distance of the rendered images, m
     f_stop: float  # f-number of the rendered aperture; the widest one that can be chosen
     focal_length: float  # mm
-    horizontal_aperture: float  # mm, sensor width
-    focus_range: Tuple[float, float]  # m; focus distances that can be chosen
+    horizontal_aperture: float  # sensor width, mm
+    focus_range: Tuple[float, float]  # focus distances in m that can be chosen
     full_disk: bool  # whether f-number and aperture shape can be chosen
     # For a focus at s, the image of lens point (u, v) moves by pixels_per_dioptre · (1/s − 1/focus_distance) · (u, v) px.
     pixels_per_dioptre: float

@@ -45,7 +45,7 @@ class Material:
     metallic_roughness_texture: Optional[Texture] = None  # roughness in G, metalness in B
     normal_texture: Optional[Texture] = None  # (n + 1)/2 of a normal n in tangent space, +y up
     normal_scale: float = 1
-    occlusion_texture: Optional[Texture] = None  # occlusion in R
+    occlusion_texture: Optional[Texture] = None  # texture with occlusion in R
     occlusion_strength: float = 1
     emission: Color = (0, 0, 0)  # emitted radiance, ≥ 0
     emission_texture: Optional[Texture] = None
@@ -55,7 +55,7 @@ class Material:
     unlit: bool = False  # True: the base colour is shown without lighting
     ior: float = 1.5
     transmission: float = 0
-    transmission_texture: Optional[Texture] = None  # transmission in R
+    transmission_texture: Optional[Texture] = None  # texture with transmission in R
     thickness: float = 0  # in mesh units; 0: thin wall without refraction
     attenuation_distance: float = math.inf
     attenuation_color: Color = (1, 1, 1)
@@ -71,7 +71,7 @@ class Mesh:
     normals: Any = None  # N×3, any length > 0. Default: flat shading
     uvs: Any = None  # N×2; (0, 0) is the texture's top left corner, (1, 1) its bottom right
     colors: Any = None  # N×3 or N×4 floats in [0, 1], linear, straight alpha
-    material: Optional[Material] = None  # None: glTF's default material
+    material: Optional[Material] = None  # material; None: glTF's default material
     name: str = ""
 
 
@@ -89,7 +89,7 @@ class Camera:
     """A camera that looks along the −z axis of its transform; see look_at."""
 
     transform: Any = None  # 4×4. Default: the identity
-    yfov: float = 0.6911112  # radians, full vertical angle; unused if lens has a focal length
+    yfov: float = 0.6911112  # full vertical angle in radians; unused if lens has a focal length
     znear: float = 0.01  # scene units; nearer surfaces are invisible
     focus_distance: Optional[float] = None  # scene units along the view axis. Default: automatic, like focus_auto
     lens: Mapping[str, Any] = dataclasses.field(default_factory=dict)  # settings of the lens, such as {"f_stop": 1.4}
@@ -103,11 +103,11 @@ class Light:
     type: str = "directional"  # or "point", "spot"
     transform: Any = None  # 4×4. Default: the identity
     color: Color = (1, 1, 1)
-    intensity: float = 1  # lux (directional) or candela (point, spot)
-    range: float = 0  # scene units; 0: unlimited
-    inner_cone_angle: float = 0  # spot light: radians from the axis
+    intensity: float = 1  # illuminance in lux (directional) or intensity in candela (point, spot)
+    range: float = 0  # range in scene units; 0: unlimited
+    inner_cone_angle: float = 0  # angle of a spot light from the axis, radians
     outer_cone_angle: float = math.pi / 4
-    angular_diameter: float = 0.00925  # directional light: radians; softens shadows
+    angular_diameter: float = 0.00925  # angular diameter of a directional light in radians; softens shadows
     radius: float = 0.03  # point or spot light: m; softens shadows
     name: str = ""
 

@@ -24,7 +24,7 @@ vec4 openTo(vec2 place) {
     if (nearestClass) return textureLod(blockSum, place, 0.0);
     return textureLod(cellSums, vec3(place, float(classIndex < cellsInFront ? classIndex + 1 : classIndex)), 0.0);
 }
-// Returns the part of openTo() that doesn't belong to the blur class.
+// Returns the sum of the samples at `place` that belong neither to this blur class nor to nearer classes.
 vec4 beyond(vec2 place) {
     if (nearestClass) return textureLod(cellSums, vec3(place, float(classIndex)), 0.0);
     int layer = classIndex < cellsInFront ? classIndex : classIndex + 1;

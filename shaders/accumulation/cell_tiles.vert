@@ -4,7 +4,7 @@
 
 layout(binding = 2) uniform usampler2D spreadClasses;
 layout(location = 0) uniform int classIndex;
-// Side in px of the blur class's squares, each of which has one mean.
+// Side in px of the squares of the blur class; each square has one mean.
 layout(location = 1) uniform int side;
 // Number of tiles along the side of a point sprite; > 1 for classes with large squares.
 layout(location = 2) uniform int pointTiles;

@@ -11,7 +11,7 @@ layout(location = 0) out vec4 layerOut;
 layout(location = DEPTH_SLOT) out vec4 depthOut;         // depth (m), alpha, CoC (px); see drawnDepth()
 #endif
 #ifdef POSITION_SLOT
-layout(location = POSITION_SLOT) out vec4 positionOut;   // relative to the camera (m)
+layout(location = POSITION_SLOT) out vec4 positionOut;   // position relative to the camera (m)
 #endif
 #ifdef NORMAL_SLOT
 layout(location = NORMAL_SLOT) out vec4 normalOut;

@@ -5,7 +5,7 @@
 #include "include/surface_light.glsl"
 
 layout(location = 0) out vec4 layerOut;
-layout(location = 1) out vec4 ownBlurOut;   // only with passesOwnBlur
+layout(location = 1) out vec4 ownBlurOut;   // blur modifiers; only with passesOwnBlur
 
 void main() {
     readSurface();

@@ -5,7 +5,7 @@
 #include "include/pinhole.glsl"
 #include "circular/clear_image.glsl"
 
-layout(binding = 2) uniform sampler2D farBlurred;    // with combinedFields, both fields in one image
+layout(binding = 2) uniform sampler2D farBlurred;    // blurred far field; with combinedFields, both fields in one image
 layout(binding = 3) uniform sampler2D nearBlurred;
 layout(binding = 4) uniform sampler2D nearRadii;     // radii at which the near field was gathered, in field px
 layout(location = 2) uniform float perNearDiameter;  // 1 / max diameter in front of the focus plane (px)

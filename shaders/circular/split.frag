@@ -13,7 +13,7 @@ layout(location = 2) uniform float perNearDiameter; // 1 / max diameter in front
 layout(location = 0) out vec4 farField;             // with combinedFields, both fields in one image
 layout(location = 1) out float farRadius;
 layout(location = 2) out float nearRadius;
-layout(location = 3) out vec4 nearField;            // absent with combinedFields
+layout(location = 3) out vec4 nearField;            // near field; absent with combinedFields
 
 void main() {
     ivec2 first = reduction * ivec2(gl_FragCoord.xy);

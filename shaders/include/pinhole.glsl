@@ -7,7 +7,7 @@
 #endif
 
 layout(binding = 1) uniform PinholeTexture pinholeDepth;
-layout(binding = 6) uniform PinholeTexture pinholeOwnBlur;   // only with usesOwnBlur
+layout(binding = 6) uniform PinholeTexture pinholeOwnBlur;   // blur modifiers; only with usesOwnBlur
 
 // Returns the size of the pinhole image in px.
 ivec2 pinholeSize() {

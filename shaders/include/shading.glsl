@@ -32,7 +32,7 @@ struct SurfacePoint {
     float roughness;      // perceptual
     vec3 normal;          // unit vector in world axes, like all directions in this struct
     vec3 toEye;           // unit vector
-    vec3 emission;        // only if emissive
+    vec3 emission;        // emitted radiance; only if emissive
     vec3 normalRight;     // change of the interpolated normal over one pixel to the right
     vec3 normalUp;        // change of the interpolated normal over one pixel up
     // The next three members are set only if coarseLevel.

@@ -28,7 +28,7 @@ vec3 acesEncoded(vec3 linear) {
 }
 
 vec3 agxEncoded(vec3 linear) {
-    const float darkest = -12.47393;   // EV: log2 of the linear value
+    const float darkest = -12.47393;   // log2 of the darkest linear value (EV)
     const float lightest = 4.026069;
     const mat3 inset = mat3(0.842479062253094, 0.0423282422610123, 0.0423756549057051, 0.0784335999999992,
                             0.878468636469772, 0.0784336, 0.0792237451477643, 0.0791661274605434, 0.879142973793104);

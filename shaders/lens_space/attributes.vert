@@ -7,11 +7,11 @@
 
 layout(location = 0) uniform vec3 moment;   // index of a shutter time, fraction of the way to the next, time in [0, 1]
 
-layout(xfb_buffer = 0, xfb_offset = 0) out vec4 positionOut;   // m from the camera along the world's axes
+layout(xfb_buffer = 0, xfb_offset = 0) out vec4 positionOut;   // position in m from the camera along the world's axes
 // xyz: normal in world axes; w: length of the mesh's normal
 layout(xfb_buffer = 0, xfb_offset = 16) out vec4 normalOut;
 layout(xfb_buffer = 0, xfb_offset = 32) out vec4 colorOut;
-layout(xfb_buffer = 0, xfb_offset = 48) out vec4 uvOut;        // both UV sets
+layout(xfb_buffer = 0, xfb_offset = 48) out vec4 uvOut;        // texture coordinates of both UV sets
 layout(xfb_buffer = 0, xfb_offset = 64) out vec4 tangentOut;
 
 void main() {

@@ -2,7 +2,7 @@
 
 #include "lens_space/divide.glsl"
 
-struct Attributes {   // same layout as in surface.glsl
+struct Attributes {   // attributes of a vertex, in the same layout as in surface.glsl
     vec4 position;
     vec4 normal;
     vec4 color;

@@ -40,8 +40,8 @@ uint variantOf(uvec2 pixel) {
 // Sampling). Points of a net in base 2 remain a net.
 float shifted(float x, uint flips) { return float(min(uint(x * 16777216.0), 16777215u) ^ (flips >> 8)) / 16777216.0; }
 
-// Returns ray `ray` of the wave for a pixel. A point sample passes through one of the lens points that the sets have
-// for this ray, chosen at random. These points lie in the same small part of the lens.
+// Returns ray `ray` of the wave for a pixel. In all ray sets, this ray passes through the same small part of the lens.
+// A point sample takes its lens point from a randomly chosen set.
 Ray rayOf(uint ray, uvec2 pixel) {
     uint first = (firstRay + ray) * rayVariants;
     Ray own = rays[first + variantOf(pixel)];

@@ -65,8 +65,8 @@ const uint hasSegments = 1u;    // a thread has visible segments that are not ye
 const uint hasNoRounds = 2u;    // a thread has reached its max loop iterations
 
 const uint jobIsNew = 0u;
-const uint jobGoesOn = 1u;      // job continues with the triangles from its next entry on
-const uint jobHasSeen = 2u;     // like jobGoesOn, but the visible triangles are known and their segments are added
+const uint jobGoesOn = 1u;      // the job continues with the triangles from its next entry on
+const uint jobHasSeen = 2u;     // the job first adds the remaining segments of triangles that it knows to be visible
 const uint jobIsDone = 3u;
 
 // Max number of threads per SIMD vector. All threads of a vector run a loop as often as the slowest thread.

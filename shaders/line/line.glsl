@@ -18,7 +18,7 @@ struct OnLine {
 
 struct Interval {
     float first;
-    float last;        // empty if last ≤ first
+    float last;        // end of the interval; empty if last ≤ first
 };
 
 float crossed(vec2 a, vec2 b) {

@@ -3,12 +3,12 @@
 // around the pixel. A nearer opaque surface overrides both. Blur is linear in reversed depth, so the mean depth has the
 // mean blur.
 
-layout(binding = 0) uniform sampler2D known;         // from bucket_surfaces.frag, with mip levels
+layout(binding = 0) uniform sampler2D known;         // output of bucket_surfaces.frag, with mip levels
 layout(binding = 1) uniform sampler2D opaqueDepth;
-layout(binding = 2) uniform sampler2D opaqueOwnBlur;   // only with usesOwnBlur
+layout(binding = 2) uniform sampler2D opaqueOwnBlur;   // blur modifiers of opaque surfaces; only with usesOwnBlur
 
 layout(location = 0) out float depth;
-layout(location = 1) out vec2 ownBlur;                 // only with usesOwnBlur
+layout(location = 1) out vec2 ownBlur;                 // blur modifiers; only with usesOwnBlur
 
 vec3 nearestKnown(ivec2 pixel) {
     vec4 sum = texelFetch(known, pixel, 0);

@@ -2,7 +2,7 @@
 // without a surface, so that it is the weight of the averages in mip levels.
 
 layout(binding = 0) uniform sampler2D surfaceDepth;
-layout(binding = 1) uniform sampler2D surfaceOwnBlur;   // only with usesOwnBlur
+layout(binding = 1) uniform sampler2D surfaceOwnBlur;   // blur modifiers of surfaces; only with usesOwnBlur
 
 layout(location = 0) out vec4 known;   // reversed depth, blur factor, added blur, 1; all 0 without a surface
 
