@@ -1,5 +1,5 @@
-# Runs before cpack makes the Debian package: compresses the man page and adds Debian's changelog, whose date is that of
-# the metainfo's release.
+# Runs before cpack makes the Debian package: compresses the man page and adds Debian's changelog with the date of the
+# metainfo's release.
 
 file(GLOB_RECURSE MANUAL "${CPACK_TEMPORARY_DIRECTORY}/defocus.1")
 file(GLOB_RECURSE COPYRIGHT "${CPACK_TEMPORARY_DIRECTORY}/copyright")

@@ -23,7 +23,7 @@ class Document:
         values = [value for row in rows for value in row]
         data = struct.pack(f"<{len(values)}{code}", *values)
         view = {"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data)}
-        if target:  # set for vertices and indices
+        if target:  # views of vertices and indices have a target
             view["target"] = target
         self.json["bufferViews"].append(view)
         self.binary += data + b"\0" * (-len(data) % 4)

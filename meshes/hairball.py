@@ -13,7 +13,7 @@ import sys
 sys.dont_write_bytecode = True
 from gltf_document import Document, Surface, linear, quaternion
 
-STRANDS_A_MESH = 9000  # 7 vertices each, so that indices have 16 bits
+STRANDS_A_MESH = 9000  # a strand has 7 vertices, so that indices fit into 16 bits
 PARTS = 3
 
 

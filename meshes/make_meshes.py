@@ -31,7 +31,7 @@ def bokeh():
     dark = document.material("Room", extensions={"KHR_materials_unlit": {}},
                              pbrMetallicRoughness={"baseColorFactor": [0.004, 0.005, 0.008, 1]})
     room = Surface()
-    w, h, near, far = 9.0, 6.0, 2.0, -18.0  # seen from the inside
+    w, h, near, far = 9.0, 6.0, 2.0, -18.0  # bounds of the room, which is seen from the inside
     room.quad([(-w, -h, far), (w, -h, far), (w, h, far), (-w, h, far)])
     room.quad([(w, -h, near), (-w, -h, near), (-w, h, near), (w, h, near)])
     room.quad([(-w, -h, near), (-w, -h, far), (-w, h, far), (-w, h, near)])
@@ -358,7 +358,7 @@ def fish():
 
 # ---- chess.glb ------------------------------------------------------------------------------------------------------
 
-# Radius and height (cm) of turned pieces, from the foot to the tip; a piece is closed at both ends.
+# Profiles of turned pieces: (radius, height) in cm, from the foot to the tip. A piece is closed at both ends.
 FOOT = [(0, 0), (2.0, 0), (2.1, 0.15), (2.1, 0.5), (1.95, 0.7), (1.6, 0.85), (1.55, 1.1), (1.65, 1.25), (1.6, 1.4),
         (1.2, 1.7), (0.98, 2.2)]
 PAWN = FOOT + [(0.8, 3.0), (0.74, 3.6), (0.9, 3.75), (1.2, 3.85), (1.22, 4.0), (1.0, 4.12), (0.78, 4.2), (1.05, 4.5),

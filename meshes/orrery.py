@@ -6,10 +6,11 @@ import math
 from gltf_document import FLOAT, Document, Surface, as_float32, png, quaternion
 
 SECONDS = 5.0
-KEYS = 8  # per second
+KEYS = 8  # key frames per second
 TURN = 2 * math.pi
 
-# name, radius, distance from the sun and height (m); angle at the start, angle of the clip and turns of the planet itself
+# Each planet: name; radius, distance from the sun and height in m; start angle and angle of the clip in degrees; turns
+# about its own axis.
 PLANETS = [
     ("Mercury", 0.006, 0.042, 0.100, 200, 330, 2),
     ("Venus", 0.010, 0.067, 0.094, 330, 190, 1),
@@ -256,7 +257,7 @@ class Orrery:
     def __init__(self):
         self.document = Document()
         self.samplers, self.channels = [], []
-        self.times = None  # accessor of the moments of the keys
+        self.times = None  # accessor of the key times
         self.shared = None  # vertices and indices of a sphere
         self.brass = self.plain("Brass", (0.88, 0.62, 0.28), 0.24, 1)
         self.steel = self.plain("Steel", (0.72, 0.72, 0.74), 0.3, 1)

@@ -60,7 +60,7 @@ def painted_blur():
         angle = 2 * math.pi * (k + 0.5) / count
         lamp = Surface()
         lamp.quad([(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, 0.5, 0)], normal=(0, 0, 1))
-        share = 0.5 - 0.5 * math.cos(angle)   # 0 at the top, 1 at the bottom
+        share = 0.5 - 0.5 * math.cos(angle)   # position of the lamp: 0 at the top, 1 at the bottom
         size = 0.15 + 1.65 * share
         left = math.sin(angle) < 0
         blurs = ({"_COC": lambda _, size=size: size} if left else

@@ -13,7 +13,7 @@ import sys
 from gltf_document import Document, Surface
 from painted_blur import painted
 
-DISTANCE = 2.0  # from the camera to the lamps, m
+DISTANCE = 2.0  # distance in m from the camera to the lamps
 TANGENT = (0.36, 0.27)  # tangents of half the field of view, horizontally and vertically
 
 

@@ -196,7 +196,7 @@ class Clip:
         rows = []
         for time in times:
             value = [rounded(function(time))]
-            if cubic:  # in-tangent, value, out-tangent
+            if cubic:  # a key: in-tangent, value, out-tangent
                 tangent = rounded(derivative(function, time))
                 value = [tangent] + value + [tangent]
             rows += value
@@ -244,7 +244,7 @@ def add_school(document, clip):
     unbind = document.accessor([(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, round(JOINT_LENGTH * i - FIRST_JOINT, 6), 0, 0, 1)
                                 for i in range(JOINTS)], FLOAT, "MAT4")
 
-    # kind, size, beats per second, phase, start (m), velocity (m/s), sway (m)
+    # Each fish: kind, size, beats per second, phase, start (m), velocity (m/s), sway (m).
     school = [(0, 1.0, 1.5, 0.1, (-0.31, -0.03, -0.95), (0.115, 0.008, -0.02), 0.02),
               (1, 1.15, 1.3, 0.45, (0.62, 0.13, -1.75), (-0.16, 0.004, 0.05), 0.03),
               (0, 0.85, 1.9, 0.7, (-0.95, 0.24, -2.4), (0.2, -0.012, 0.02), 0.03),

@@ -103,7 +103,7 @@ def leaves(surface):
             add_leaf(surface, root, direction, source.uniform(0.05, 0.11), linear(int(90 * tone), int(150 * tone), int(55 * tone)))
 
 
-LETTERS = {  # rows of five pixels, from the top
+LETTERS = {  # rows of five pixels for each letter, from the top
     "B": "1111010001111101000111110", "O": "0111010001100011000101110", "K": "1000110010111001001010001",
     "E": "1111110000111101000011111", "H": "1000110001111111000110001", "F": "1111110000111101000010000",
     "C": "0111110000100001000001111", "U": "1000110001100011000101110", "S": "0111110000011100000111110",

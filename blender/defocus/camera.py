@@ -20,7 +20,7 @@ class View:
     y: int
     picture_width: int
     picture_height: int
-    sensor_width: float  # mm; width of the canvas on the sensor
+    sensor_width: float  # width of the canvas on the sensor, mm
 
 
 def frame_size(render):
@@ -97,7 +97,8 @@ def camera_words(camera_object, view):
     words += ["--fstop", f"{dof.aperture_fstop:.7g}", "--focus-distance", f"{max(focus_distance(camera_object), 1e-5):.7g}m",
               "--anamorphic-ratio", f"{dof.aperture_ratio:.7g}"]
     if dof.aperture_blades >= 3:
-        # At rotation 0, Blender's aperture has the middle of an edge at its right, the program's aperture has a corner.
+        # At rotation 0, Blender's aperture has the middle of an edge at its right, the program's aperture has a corner
+        # there.
         rotation = math.degrees(dof.aperture_rotation) + 180 / dof.aperture_blades
         words += ["--blades", str(dof.aperture_blades), "--blade-rotation", f"{rotation:.7g}"]
     return words

@@ -16,8 +16,8 @@ from .motion import exposure_of, poses_during
 from .passes import passes_of, read_passes, words_for
 from .preferences import find_program
 
-pictures = {}  # scene and view layer → (pixels of each pass, texts, width, height) of the last picture
-reports = {}  # scene name → lines on what the last export left out
+pictures = {}  # last picture of a (scene, view layer): (pixels of each pass, texts, width, height)
+reports = {}  # scene name → lines about everything that the last export left out
 
 
 class DefocusEngine(bpy.types.RenderEngine):
@@ -78,7 +78,7 @@ class DefocusEngine(bpy.types.RenderEngine):
             return
         result = self.begin_result(0, 0, *size, layer=depsgraph.view_layer_eval.name)
         passes = result.layers[0].passes
-        # Only the collection's foreach_set takes arrays of vectors: one array with the pixels of all passes in turn.
+        # Only foreach_set of the collection accepts arrays of vectors. Its array has the pixels of all passes in order.
         passes.foreach_set("rect", numpy.concatenate([
             pixels.get(one.name, numpy.zeros(size[0] * size[1] * one.channels, numpy.float32)) for one in passes]))
         self.end_result(result)

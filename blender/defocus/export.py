@@ -22,9 +22,9 @@ EXPORTER = "io_scene_gltf2"
 
 @dataclasses.dataclass
 class Export:
-    words: list  # scene and options of the program
+    words: list  # scene and options for the program
     view: object  # camera.View
-    notes: list  # one line for each thing that is not exported
+    notes: list  # one line for each item that is not exported
 
 
 @contextlib.contextmanager
@@ -65,7 +65,7 @@ def export_gltf(scene, file):
     said = io.StringIO()
     try:
         with shown_scene(scene), contextlib.redirect_stdout(said):
-            # COMPAT keeps Blender's watts, so that radiances in the picture are those of Cycles.
+            # COMPAT keeps Blender's watts, so that the picture has the same radiances as in Cycles.
             bpy.ops.export_scene.gltf(filepath=file, check_existing=False, export_format="GLTF_SEPARATE", use_active_scene=True,
                                       export_cameras=True, export_lights=True, export_extras=True, export_apply=False,
                                       export_animations=False, export_skins=False, export_morph=False, export_current_frame=True,

@@ -12,7 +12,7 @@ import numpy
 from .failure import Failure
 
 TYPES = {0: numpy.dtype("<u4"), 1: numpy.dtype("<f2"), 2: numpy.dtype("<f4")}
-LINES = {0: 1, 2: 1, 3: 16}  # compression → lines of a block: stored, ZIPS, ZIP
+LINES = {0: 1, 2: 1, 3: 16}  # compression → number of lines in a block, for uncompressed, ZIPS and ZIP files
 
 
 def text_at(data, place):

@@ -18,7 +18,7 @@ from .scene_copy import LIGHT_VALUES, is_sheared
 
 _film = {"folder": None, "signature": None, "file": None}
 
-# (collection of a mesh, property, type, values of an element) that decide the exported mesh.
+# Properties that determine the exported mesh: (collection of the mesh, property, type, values per element).
 MESH_ARRAYS = (("vertices", "co", numpy.float32, 3), ("vertices", "normal", numpy.float32, 3),
                ("loops", "vertex_index", numpy.int32, 1), ("polygons", "loop_total", numpy.int32, 1),
                ("polygons", "material_index", numpy.int32, 1), ("polygons", "use_smooth", bool, 1))
@@ -50,7 +50,7 @@ def signature_of(depsgraph):
     for instance in depsgraph.object_instances:
         thing = instance.object
         if not instance.show_self or thing.type not in {"MESH", "LIGHT"}:
-            continue  # the mesh of a curve or text is an instance, too
+            continue  # Blender also lists the mesh of a curve or text as an instance
         digest.update(repr((instance_key(instance), thing.type)).encode())
         if thing.type == "LIGHT":
             digest.update(repr([tuple(value) if name == "color" else value for name in (*LIGHT_VALUES, "angle", "shadow_soft_size")

@@ -13,11 +13,11 @@ LIGHTS = "KHR_lights_punctual"
 
 @dataclasses.dataclass
 class GltfFile:
-    folder: str  # of the file, its buffers and its images
+    folder: str  # folder of the file, its buffers and its images
     content: dict
-    nodes: list  # (index of a node, key of its instance, does the exporter turn it)
+    nodes: list  # (index of a node, key of its instance, whether the exporter turns it)
     words: list  # options of the program that hold for all frames
-    notes: list  # one line for each thing that is not exported
+    notes: list  # one line for each item that is not exported
 
     @property
     def path(self):

@@ -28,7 +28,7 @@ def on_main_thread(function, is_cancelled):
             outcome["begun"] = True
         try:
             outcome["value"] = function()
-        except BaseException as error:  # passed on to the waiting thread
+        except BaseException as error:  # the waiting thread raises the error again
             outcome["error"] = error
         done.set()
 

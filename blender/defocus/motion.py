@@ -6,10 +6,10 @@ import struct
 
 from mathutils import Quaternion
 
-SEGMENTS = 4  # straight parts of a path
-# The exporter turns cameras and lights, which look along other axes in glTF.
+SEGMENTS = 4  # number of straight segments of a path
+# The exporter turns cameras and lights, because they look along other axes in glTF.
 TURNED = Quaternion((math.sqrt(0.5), -math.sqrt(0.5), 0, 0))
-FLOAT = 5126  # glTF's component type
+FLOAT = 5126  # glTF's component type for floats
 
 
 def exposure_of(scene):

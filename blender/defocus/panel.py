@@ -7,12 +7,12 @@ import bpy
 from .engine import DefocusEngine, reports
 from .passes import PROPERTIES
 
-LETTER_WIDTH = 6.5  # px; mean of Blender's font
+LETTER_WIDTH = 6.5  # mean width of a letter in Blender's font, px
 
-# Panels of Eevee for data that the engine exports.
+# Eevee's panels for data that the engine exports.
 EEVEE_PANELS = {"EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "EEVEE_MATERIAL_PT_settings", "EEVEE_WORLD_PT_surface",
                 "DATA_PT_EEVEE_light"}
-# Panels of the internal engine for features that the engine does not have.
+# Panels of Blender's internal engine for features that this engine does not have.
 NOT_FOR_US = {"VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "RENDER_PT_gpencil", "RENDER_PT_freestyle", "RENDER_PT_stereoscopy",
               "DATA_PT_light", "DATA_PT_area", "DATA_PT_spot", "DATA_PT_falloff_curve"}
 

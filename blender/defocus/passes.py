@@ -6,17 +6,17 @@ import numpy
 
 from . import exr
 
-FAR = 1e10  # m; Blender's depth of the background
-CRYPTOMATTE_PASSES = 3  # of two ranks each; the program's files have six ranks
+FAR = 1e10  # Blender's depth of the background, m
+CRYPTOMATTE_PASSES = 3  # passes of two ranks each; the program's files have six ranks
 
 
 @dataclasses.dataclass
 class Pass:
-    name: str  # Blender's, as in the program's files with --exr-names blender
+    name: str  # name in Blender and in the program's files with --exr-names blender
     channels: str
-    kind: str  # Blender's type of its values
+    kind: str  # Blender's type of the pass's values
     wanted: str = ""  # property of the view layer; empty: always
-    layer: str = ""  # of --exr-layers; empty: none
+    layer: str = ""  # layer name in --exr-layers; empty: none
 
 
 def cryptomatte(name, wanted, layer):
@@ -45,7 +45,7 @@ def words_for(passes):
     """Returns the options of the program for the passes."""
     layers = list(dict.fromkeys(one.layer for one in passes if one.layer))
     words = ["--exr-layers", ",".join(layers), "--exr-names", "blender"] if layers else []
-    # Blender's depth is that of a pinhole, so that its nodes can blur by it.
+    # Blender's depth pass has the depths of a pinhole image, so that Blender's nodes can blur by it.
     return words + (["--aov", "depth"] if any(one.name == "Depth" for one in passes) else [])
 
 

@@ -25,10 +25,10 @@ class SceneCopy:
         self.scene = bpy.data.scenes.new("defocus export")
         self.material_names = {}  # name of a copied material → the user's name
         self.names = {}  # name of an object of the copy → the user's name
-        self.moving = {}  # name of an object of the copy → (key of its instance, does the exporter turn it)
+        self.moving = {}  # name of an object of the copy → (key of its instance, whether the exporter turns it)
         self.notes = []
-        self.light_angles = set()  # rad; of the sun lights
-        self.light_radii = set()  # m; of the point and spot lights
+        self.light_angles = set()  # angles of the sun lights, rad
+        self.light_radii = set()  # radii of the point and spot lights, m
         self.made = []  # data-blocks to remove
         self.materials = {}  # material that changes with time → its copy
         self.meshes = {}  # key of the evaluated data → mesh
@@ -67,7 +67,7 @@ def new_mesh(thing, depsgraph):
     if thing.type != "MESH" or source.data.as_pointer() == thing.data.as_pointer():
         # With preserve_all_data_layers, Blender would evaluate the modifiers again, without the changes of edit mode.
         return bpy.data.meshes.new_from_object(source, preserve_all_data_layers=False, depsgraph=depsgraph)
-    mesh = thing.data.copy()  # geometry that a node tree made and instances
+    mesh = thing.data.copy()  # mesh that a node tree creates and instances
     for index, material in enumerate(mesh.materials):
         mesh.materials[index] = material.original if material else None
     return mesh
@@ -161,7 +161,7 @@ def add_camera(copy, camera, view):
     for name, value in camera.data.items():
         data[name] = value
     data.shift_x = data.shift_y = 0
-    # The canvas decides the field of view, whose width is known.
+    # The canvas determines the field of view; its width on the sensor is known.
     data.sensor_fit, data.sensor_width = "HORIZONTAL", view.sensor_width
     copy.scene.camera = copy.add(camera.name, data, camera.matrix_world.copy(), turned=True)
     render = copy.scene.render

@@ -12,7 +12,7 @@ from .failure import Failure
 from .preferences import find_program
 
 SECONDS_BETWEEN_CHECKS = 1.0
-views = []  # (process, its folder)
+views = []  # open views: (process, its folder)
 
 
 class DefocusView(bpy.types.Operator):

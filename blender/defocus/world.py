@@ -6,7 +6,7 @@ import os
 import bpy
 import numpy
 
-PLAIN_SIZE = (16, 8)  # px; map of a world with one colour
+PLAIN_SIZE = (16, 8)  # size in px of the map for a world of one colour
 
 
 def linked_node(socket):
@@ -56,7 +56,7 @@ def linear_pixels(image):
 def write_exr(pixels, file):
     image = bpy.data.images.new("defocus world", pixels.shape[1], pixels.shape[0], float_buffer=True)
     try:
-        image.colorspace_settings.name = "Non-Color"  # no conversion when the file is written
+        image.colorspace_settings.name = "Non-Color"  # writes the values without conversion
         image.pixels.foreach_set(pixels.ravel())
         image.filepath_raw, image.file_format = file, "OPEN_EXR"
         image.save()
