@@ -30,7 +30,7 @@ layout(std140, binding = 2) uniform MaterialBlock {
     vec4 baseColor;
     vec4 emissiveCutoff;  // rgb: emissive radiance; w: cutoff of alpha
     vec4 surface;         // metallic, roughness, normal scale, occlusion strength
-    vec4 reflectance;     // rgb: dielectric reflectance at normal incidence, without the factor w: specularFactor
+    vec4 reflectance;     // rgb: dielectric reflectance at normal incidence, before the factor in w (specularFactor)
     vec4 transmission;    // fraction, thickness (object units), 1/ior, blur of the background per roughness
     vec4 absorption;      // rgb: absorption coefficient (1/m); w: dispersion, 20 / Abbe number
     vec4 coat;            // coated fraction, roughness, normal scale

@@ -22,8 +22,9 @@ layout(std430, binding = 1) buffer OutputBlock {
     uint mergedSegments;
     uint laterJobs;         // jobs deferred to later dispatches
     uint unfinishedJobs;    // jobs of this dispatch that are not finished
-    // First, (first record, number of records) of each line of the wave. Then two elements for each deferred job:
-    // (tile, line) and (next entry, status). Then the saved states of the lines of unfinished jobs.
+    // Three consecutive parts. The first has (first record, number of records) for each line of the wave. The second
+    // has two elements for each deferred job: (tile, line) and (next entry, status). The third has the saved states of
+    // the lines of unfinished jobs.
     uvec2 ranges[];
 };
 struct Bounds {

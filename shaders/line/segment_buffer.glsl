@@ -30,7 +30,7 @@ struct Segment {
 const float minLength = 1.0 / 512.0;         // fraction of the line's length
 const float sameColor = 1.0 / 16.0;          // max difference of a colour channel
 const float sameDepth = 0.02;                // max relative difference of 1/w where two segments join
-const float sameSlope = 0.02;                // max relative difference of 1/w by the slopes, over the joined segment
+const float sameSlope = 0.02;                // max relative difference of 1/w due to slopes, over the joined segment
 // Max gap, in position p along the line, between a segment and its continuation.
 const float continuation = shortIntervals ? 1.0 / 127.0 : 1e-3;
 
@@ -38,7 +38,7 @@ const uint slots = threads * uint(segmentCapacity);
 shared vec2 longEnds[shortIntervals ? 1u : slots];
 shared uint endsAndColors[slots];            // lower half: both ends, if short; upper half: colour
 shared vec2 segmentDepths[slots];
-shared uint segmentTriangles[slots];         // bit 31: shows the triangle's back
+shared uint segmentTriangles[slots];         // triangle; bit 31 is set if the line sees its back
 const uint backBit = 0x80000000u;
 uint segmentCount = 0u;
 vec2 lineSides;

@@ -192,7 +192,7 @@ FrameMoment frameAt(const Shot& shot, const SequenceBase& base, int frame) try {
     result.settings = base.settings;
     if (shot.animateSeed) result.settings.seed = frameSeed(base.settings.seed, frame);
 
-    // Motion blur: the pose and camera at times while the shutter is open.
+    // Motion blur needs the poses and cameras at several times while the shutter is open.
     const auto momentAt = [&](double offset) {
         ShutterMoment moment;
         const double seconds = frame / shot.frameRate + offset;

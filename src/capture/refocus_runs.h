@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 struct RefocusRun {
     FrameRange frames;
-    Lens lens;                  // the run's widest aperture, focused at the middle of `range` in 1/distance
+    Lens lens;                  // lens with the run's widest aperture, focused at the middle of `range` in 1/distance
     FocusRange range;           // focus distances of the frames, m
     std::uint32_t samples = 0;  // number of lens images; each frame uses at least the samples of a rendered frame
 

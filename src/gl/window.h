@@ -46,7 +46,7 @@ struct WindowEvent {
     bool pressed = false;    // true: pressed, false: released; for button and key events
     bool repeated = false;   // for key events: the key is held down
     glm::dvec2 scroll{0.0};  // wheel steps; x > 0: left, y > 0: away from the user
-    int key = 0;             // key code, for key events
+    int key = 0;             // code of the key, for key events
     char32_t letter = 0;     // Unicode character, for text events
     bool shift = false, control = false, alt = false;
     std::vector<std::filesystem::path> paths;  // dropped files and folders, for drop events

@@ -45,7 +45,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 struct PyramidArguments {
-    Request request;        // only the scene and levelVertices are used
+    Request request;        // only the request's scene and levelVertices are used
     std::string mesh;       // name of the mesh; empty: all meshes
     fs::path exportFolder;  // folder for exported levels; empty: no export
     fs::path turntable;     // file of the turntable; empty: no turntable

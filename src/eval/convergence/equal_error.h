@@ -23,7 +23,7 @@ struct Competitor {
         std::optional<double> milliseconds;  // time of a frame; nullopt if no row reaches the error
         bool atMost = false;                 // true: upper bound, because the fastest row already has a smaller error
     };
-    std::vector<Time> times;  // in the order of the requested errors
+    std::vector<Time> times;  // times in the order of the requested errors
 };
 
 // Returns each competitor's times to reach `errors`, which must be > 0. Times are interpolated on the competitor's

@@ -88,7 +88,7 @@ struct SpeedupSubject {
     MethodUse use;
     LodMode mode = LodMode::off;
     LodCause cause = LodCause::blurAndSize;
-    const SpeedupSubject* fullDetail = nullptr;  // variant of the same form at full detail
+    const SpeedupSubject* fullDetail = nullptr;  // variant with the same settings at full detail
     std::unique_ptr<Renderer> renderer;
     std::vector<FramePlan> plans;  // plans of the frame, one per seed
     std::vector<double> milliseconds;

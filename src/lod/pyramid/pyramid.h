@@ -93,7 +93,7 @@ struct PyramidLevel {
     // bounding box.
     double error = 0;
 
-    BlurTables blurredError{};  // tables of blurred_error.h; 0 for level 0
+    BlurTables blurredError{};  // errors after blurring (blurred_error.h); 0 for level 0
 };
 
 struct Pyramid {

@@ -78,7 +78,7 @@ double forEachLitPoint(const LitSurface& surface, std::size_t minPoints, const V
     return areas;
 }
 
-constexpr std::size_t pairCount = lightCount / 2;  // pairs of opposite lights
+constexpr std::size_t pairCount = lightCount / 2;  // number of pairs of opposite lights
 using PairRow = std::array<float, pairCount>;
 
 // Derivatives of the mean radiance under each light with respect to x, y and z of a normal.

@@ -45,7 +45,7 @@ struct Component {
 
 struct Simplifier {
     std::shared_ptr<const Origin> origin;
-    std::unique_ptr<SurfaceMesh> mesh;       // after compact(), it has no deleted elements
+    std::unique_ptr<SurfaceMesh> mesh;       // surface; compact() removes its deleted elements
     std::optional<CollapseModules> modules;  // collapse modules that operate on `mesh`
     // For each vertex, the vertex that it collapsed onto, or itself if it is not deleted. Invalid if its component was
     // removed.

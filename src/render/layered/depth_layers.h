@@ -23,7 +23,7 @@ struct DepthLayersInfo {
     int width = 1;  // size of the layers in px, including the border
     int height = 1;
     std::uint32_t layers = 1;                   // max number of layers
-    LayerFormat format = LayerFormat::rgba16f;  // must have alpha
+    LayerFormat format = LayerFormat::rgba16f;  // format with alpha
     // True if surfaces are blended, so that surfaces behind them are visible and must not be omitted.
     bool blended = false;
     std::filesystem::path shaderFolder;

@@ -39,7 +39,7 @@ private:
     ShaderDefines listDefines_;
     Program countProgram_, listProgram_, placesProgram_;
     std::vector<const Program*> groupPrograms_;   // program 0 is for the sky
-    std::vector<const Program*> vertexPrograms_;  // one per group; empty without per-vertex lighting
+    std::vector<const Program*> vertexPrograms_;  // one program per group; empty without per-vertex lighting
     MaterialBlocks materials_;
     Buffer groups_, dispatches_, list_;
 };

@@ -17,7 +17,7 @@ class InputLatency {
 public:
     using Time = std::chrono::steady_clock::time_point;
 
-    // Records that events were fetched which arrived after `since`. The effect of these events may appear some frames
+    // Records that events that arrived after `since` were fetched. The effect of these events may appear some frames
     // later; the earliest event without a visible effect is timed.
     void arrived(Time since) {
         if (!waiting_) waiting_ = since;

@@ -151,7 +151,7 @@ struct ViewActions {
     bool undo = false;
     bool redo = false;
     bool resetAll = false;
-    std::optional<std::string> saveView;  // name for the view
+    std::optional<std::string> saveView;  // name of the view to save
     std::optional<std::size_t> goToView;  // index into ViewState::savedViews
     std::optional<std::size_t> deleteView;
     bool copyCommand = false;

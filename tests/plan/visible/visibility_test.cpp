@@ -346,7 +346,8 @@ TEST(Visibility, farSideOfASphereIsLeftOut) {
     }
 }
 
-// Skinned clusters are culled by their corners. A skin of one static joint culls about as much as the rigid mesh.
+// Skinned clusters are culled by their corners. With a skin of one static joint, about as many clusters are culled as
+// for the rigid mesh.
 TEST(Visibility, aSkinnedSpheresFarSideIsLeftOut) {
     const auto rigid = oneSphere(at(0, -4));
     const auto skinned = oneSphere(at(0, -4));

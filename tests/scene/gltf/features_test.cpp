@@ -149,7 +149,7 @@ TEST(GltfMesh, trianglesWithoutAPlaceAreLeftOutAndCounted) {
 }
 
 TEST(GltfAccessor, normalisedIntegersOfEveryType) {
-    // Texture coordinates may have each of these component types.
+    // Texture coordinates may be bytes or shorts, signed or unsigned, normalised or not.
     const auto load = [](int type, const auto& values, bool normalized) {
         GltfBuilder builder;
         const int positions = builder.positions(unitTriangle);
