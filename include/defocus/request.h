@@ -95,7 +95,9 @@ struct Request {
     std::optional<double> timeLimit;
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;  // each seed gives a different set of sample points
-    LodMode lod = LodMode::fractional;
+    // Default: fractional. With an automatic number of samples and no other value for levels, a still image is drawn at
+    // full detail if building the levels would take longer than they save.
+    std::optional<LodMode> lod;
     // Target length of triangle edges relative to the blur diameter. Default: depends on the number of samples.
     std::optional<double> blurThreshold;
     std::optional<double> sizeThreshold;   // min target edge length in px. Default: depends on the number of samples

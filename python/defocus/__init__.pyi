@@ -53,7 +53,7 @@ class Keywords(TypedDict, total=False):
     time_limit: Optional[Union[float, str]]  # s
     sequence: Optional[Literal["sobol", "halton", "scrambled-halton", "r2"]]
     seed: Optional[int]
-    lod: Optional[Literal["fractional", "continuous", "nearest", "off"]]
+    lod: Optional[Literal["auto", "fractional", "continuous", "nearest", "off"]]
     blur_threshold: Optional[float]
     size_threshold: Optional[float]  # px
     light_threshold: Optional[float]  # px

@@ -27,7 +27,7 @@ RenderSettings renderSettings(const Request& request) {
     settings.sampleCount = request.samples.value_or(settings.sampleCount);
     settings.sequence = request.sequence;
     settings.seed = request.seed;
-    settings.lod = request.lod;
+    settings.lod = request.lod.value_or(settings.lod);
     settings.metric = request.lodMetric;
     settings.lodCoc = request.lodCoc;
     settings.levelVertices = request.levelVertices;

@@ -316,6 +316,8 @@ void noteUnusedPaths(FramePlan& plan, const World& world) {
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(plan.objects[run.object].mesh)];
         plan.sortsBlending |= !run.stochastic && !materialOf(scene, mesh.primitives[run.primitive]).transmits();
     }
+    if (plan.settings.lod == LodMode::off)
+        plan.leftOut.push_back({"levels of detail", "the image is drawn at full detail (--lod)"});
     if (!plan.usesTextures) plan.leftOut.push_back({"texture path", "no drawn material has a texture"});
     if (!plan.usesBlending) plan.leftOut.push_back({"blend path", "no drawn material is alpha-blended"});
     if (!plan.usesTransmission) plan.leftOut.push_back({"transmission path", "no drawn material transmits light"});

@@ -8,6 +8,7 @@
 #include "frame/report/picture_warnings.h"
 #include "frame/report/plan_warnings.h"
 #include "frame/setup/exposure.h"
+#include "frame/setup/levels.h"
 #include "frame/setup/scene_scale.h"
 #include "frame/setup/settings_hash.h"
 #include "plan/lens_cells/swept_work.h"
@@ -39,9 +40,9 @@ bool sameDriver(const Request& a, const Request& b) {
            a.threads == b.threads && a.memory == b.memory && sameSurroundings(a, b);
 }
 
-std::size_t pyramidKind(const Request& request) {
-    if (request.lod == LodMode::off) return 0;
-    return 1 + static_cast<std::size_t>(request.levelVertices);
+std::size_t pyramidKind(const RenderSettings& settings) {
+    if (settings.lod == LodMode::off) return 0;
+    return 1 + static_cast<std::size_t>(settings.levelVertices);
 }
 
 // Returns a note if a frame in tiles may use more samples than an untiled frame; otherwise empty.
@@ -71,6 +72,7 @@ SceneDriver::SceneDriver(std::shared_ptr<const Scene> scene, const Request& requ
         setStrokes(request, *scene_);
     }
     frame_ = placeFrame(scaledScene(request), request);
+    chooseLevels(frame_, request);
     loadMilliseconds_ = millisecondsSince(begin);
     {
         const CurrentContextKeeper callers;
@@ -113,7 +115,7 @@ std::shared_ptr<Scene> SceneDriver::scaledScene(const Request& request) const {
 // Moves the pyramids of the previous frame to `next`, or stores them for later frames if `next` needs pyramids of
 // another kind. Doesn't throw.
 void SceneDriver::handOnPyramids(PreparedFrame& next, std::size_t kind) {
-    if (kind == pyramidKind(request_)) {
+    if (kind == pyramidKind(frame_.settings)) {
         next.world.pyramids = std::move(frame_.world.pyramids);
         next.pyramidsLoaded = frame_.pyramidsLoaded;
         next.cacheFailure = std::move(frame_.cacheFailure);
@@ -121,7 +123,7 @@ void SceneDriver::handOnPyramids(PreparedFrame& next, std::size_t kind) {
     }
     if (next.world.pyramids.empty()) next.world.pyramids = std::move(otherPyramids_[kind]);
     otherPyramids_[kind].clear();
-    otherPyramids_[pyramidKind(request_)] = std::move(frame_.world.pyramids);
+    otherPyramids_[pyramidKind(frame_.settings)] = std::move(frame_.world.pyramids);
 }
 
 void SceneDriver::start(const Request& request, const FrameParts& parts, const Progress& progress) {
@@ -131,9 +133,10 @@ void SceneDriver::start(const Request& request, const FrameParts& parts, const P
         throw UsageError("the request names another scene; create a SceneRenderer for it");
     const Environment* known = sameSurroundings(request, request_) ? &frame_.world.environment : nullptr;
     PreparedFrame next = placeFrame(scaledScene(request), request, known);
-    const std::size_t kind = pyramidKind(request);
+    chooseLevels(next, request);
+    const std::size_t kind = pyramidKind(next.settings);
     const bool sameGround = hasGround(*next.scene) == hasGround(*frame_.scene);
-    const bool samePyramids = kind == pyramidKind(request_) && sameGround;
+    const bool samePyramids = kind == pyramidKind(frame_.settings) && sameGround;
     const bool same = samePyramids && sameDriver(request, request_);
     if (!samePyramids && (!sameGround || otherPyramids_[kind].empty())) {
         addPyramids(next, progress);

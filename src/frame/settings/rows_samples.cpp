@@ -69,7 +69,7 @@ Row samplesRow() {
 Rows sampleRows() {
     std::vector<std::pair<std::string, Sequence>> sequences;
     for (const Sequence sequence : allSequences) sequences.emplace_back(sequenceName(sequence), sequence);
-    std::vector<std::pair<std::string, LodMode>> modes;
+    std::vector<std::pair<std::string, std::optional<LodMode>>> modes = {{"auto", std::nullopt}};
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous, LodMode::nearest, LodMode::off})
         modes.emplace_back(lodModeName(mode), mode);
     return {
@@ -106,10 +106,13 @@ Rows sampleRows() {
                       "Seed of the sample points")
             .inShot("/seed")
             .unused(methodWithoutSamples),
-        rows::choice<LodMode>("lod", "--lod", modes, MEMBER(lod),
-                              "Levels of detail of blurred objects. nearest: one level per object. fractional: the "
-                              "lens samples are divided between two levels. continuous (default of capture): also "
-                              "divides the pixels of one sample, for smoother transitions. off: full detail")
+        rows::choice<std::optional<LodMode>>(
+            "lod", "--lod", modes, MEMBER(lod),
+            "Levels of detail of blurred objects. nearest: one level per object. fractional: the "
+            "lens samples are divided between two levels. continuous (default of capture): also "
+            "divides the pixels of one sample, for smoother transitions. off: full detail. auto: "
+            "fractional, or off for a still image with --samples auto whose levels would take longer "
+            "to build than they save")
             .inShot("/lod"),
         rows::number("blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(blurThreshold),
                      "For --lod-metric size, error and score: edge length of the triangles, in px, for each px of "
@@ -118,17 +121,19 @@ Rows sampleRows() {
             .example("0.2")
             .inShot("/blurThreshold")
             .unused(withoutLevels),
-        rows::number("sizeThreshold", "--size-threshold", "K", 0, 1e6, MEMBER(sizeThreshold),
-                     "For --lod-metric size and error: edge length, in px, that triangles may have even where nothing is "
-                     "blurred. Default: depends on the number of samples")
+        rows::number(
+            "sizeThreshold", "--size-threshold", "K", 0, 1e6, MEMBER(sizeThreshold),
+            "For --lod-metric size and error: edge length, in px, that triangles may have even where nothing is "
+            "blurred. Default: depends on the number of samples")
             .unit("px")
             .example("1")
             .inShot("/sizeThreshold")
             .unused(withoutLevels),
-        rows::number("lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(lightThreshold),
-                     "For --lod-metric measured: max product, in px, of a level's projected edge length and the relative "
-                     "error of its blurred shading (docs/reference.md); a larger value is coarser and faster. "
-                     "Default: depends on the number of samples")
+        rows::number(
+            "lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(lightThreshold),
+            "For --lod-metric measured: max product, in px, of a level's projected edge length and the relative "
+            "error of its blurred shading (docs/reference.md); a larger value is coarser and faster. "
+            "Default: depends on the number of samples")
             .unit("px")
             .example("0.1")
             .inShot("/lightThreshold")

@@ -20,6 +20,7 @@
 #include "core/stopwatch.h"
 #include "core/suggestion.h"
 #include "frame/setup/focus.h"
+#include "frame/setup/levels.h"
 #include "frame/setup/moment.h"
 #include "frame/setup/scene_scale.h"
 #include "image/image_io.h"
@@ -322,6 +323,7 @@ void addPyramids(PreparedFrame& frame, const Progress& progress) {
 
 PreparedFrame prepareFrame(const Request& request, const Progress& progress) {
     PreparedFrame frame = placeFrame(request, progress);
+    chooseLevels(frame, request);
     addPyramids(frame, progress);
     return frame;
 }

@@ -86,7 +86,7 @@ std::filesystem::path pyramidFolder(const Request& request);
 // full detail only. Throws Error if a pyramid doesn't fit into the request's memory limit.
 void addPyramids(PreparedFrame& frame, const Progress& progress = {});
 
-// Calls placeFrame, then addPyramids.
+// Prepares a still image: calls placeFrame, chooseLevels (levels.h) and addPyramids.
 PreparedFrame prepareFrame(const Request& request, const Progress& progress = {});
 
 // Returns a line for each missing or damaged part of the scene's file, up to 20 lines, and a line with the number of

@@ -31,14 +31,18 @@ QualityLimits limitsOf(Quality quality) {
     return {};
 }
 
-std::uint32_t samplesForGap(const FramePlan& plan, const QualityLimits& limits, double gap) {
-    const double blur = plan.view.lens.dofEnabled ? largestBoundedBlur(plan) : 0;
+// Returns the samples for a blur of `blur` px whose neighbouring images are at most `gap` px apart, but at least `min`.
+std::uint32_t samplesForGap(double blur, double gap, std::uint32_t min) {
     const double filling = std::numbers::pi / 4 * blur * blur / (gap * gap);
-    const bool spreads = !plan.shadows.maps.empty() || !plan.moments.empty();
-    const std::uint32_t min = spreads ? std::max(limits.min, minSpread) : limits.min;
     if (!(filling > min)) return min;
     const double blocks = std::ceil(std::min(filling, double{maxAutomaticSamples}) / blockSamples);
     return static_cast<std::uint32_t>(blocks) * blockSamples;
+}
+
+std::uint32_t samplesForGap(const FramePlan& plan, const QualityLimits& limits, double gap) {
+    const double blur = plan.view.lens.dofEnabled ? largestBoundedBlur(plan) : 0;
+    const bool spreads = !plan.shadows.maps.empty() || !plan.moments.empty();
+    return samplesForGap(blur, gap, spreads ? std::max(limits.min, minSpread) : limits.min);
 }
 
 }  // namespace
@@ -71,6 +75,11 @@ double largestBoundedBlur(const FramePlan& plan) {
 std::uint32_t firstSamples(const FramePlan& plan, Quality quality) {
     const QualityLimits limits = limitsOf(quality);
     return samplesForGap(plan, limits, limits.firstGap);
+}
+
+std::uint32_t firstSamples(double blur, Quality quality) {
+    const QualityLimits limits = limitsOf(quality);
+    return samplesForGap(blur, limits.firstGap, limits.min);
 }
 
 std::uint32_t samplesForBlur(const FramePlan& plan, Quality quality) {

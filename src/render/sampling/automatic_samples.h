@@ -19,6 +19,8 @@ double flipOf(Quality quality);
 // this distance is at most 8 (draft), 4.5 (good) or 3 px (fine). With shadow maps or motion, N is at least 64. Objects
 // that extend to the near plane have unbounded blur and are ignored, as is blur above largestSampledBlur().
 std::uint32_t firstSamples(const FramePlan& plan, Quality quality);
+// Returns the same for a largest blur diameter of `blur` px, without shadow maps or motion.
+std::uint32_t firstSamples(double blur, Quality quality);
 
 // Returns the number of samples of a frame whose error cannot be estimated before it is complete, such as a frame in
 // tiles. The number is computed as in firstSamples(), but for points at most 3.5 (draft), 2 (good) or 1.4 px (fine)

@@ -60,9 +60,10 @@ void SceneLoader::run(Job& job) {
             job.ready = LoadedScene{job.options, std::move(draft), {}, true};
         }
         // Build all levels, because the window may switch between all level modes.
-        frame->settings.lod = job.options.lod == LodMode::off ? LodMode::fractional : job.options.lod;
+        const LodMode asked = frame->settings.lod;
+        if (asked == LodMode::off) frame->settings.lod = LodMode::fractional;
         addPyramids(*frame, progress);
-        frame->settings.lod = job.options.lod;
+        frame->settings.lod = asked;
         result.frame = std::move(frame);
     } catch (const std::bad_alloc&) {
         result.fault = "out of memory";

@@ -77,7 +77,7 @@ PictureRequest pictureRequest(const Document& document, const ViewState& state, 
         result.fixedQuality = FrameQuality{software ? 0.5 : 1.0, 16, 1};
         return result;
     }
-    const PictureSide first{chosenMethod(state.options).text(), state.options.lod, 0};
+    const PictureSide first{chosenMethod(state.options).text(), renderSettings(state.options).lod, 0};
     result.sides = {first};
     if (const std::optional<PictureSide> second = comparedSide(state, first)) result.sides.push_back(*second);
     return result;

@@ -1,0 +1,70 @@
+#include "frame/setup/levels.h"
+
+#include <algorithm>
+#include <glm/glm.hpp>
+#include <limits>
+#include <optional>
+
+#include "lens/circle_of_confusion.h"
+#include "render/sampling/automatic_samples.h"
+
+namespace defocus::engine {
+
+namespace {
+
+// Number of times that an average triangle must be drawn for levels of detail to pay. With llvmpipe, building the levels
+// takes 17 to 30 µs of CPU time per triangle, and drawing the triangle once takes 0.1 to 0.4 µs. The number is low for a
+// single image, because later images read the levels from the cache. Images of fewer draws have little blur, so that
+// even then levels save little.
+constexpr double payingDraws = 64;
+
+// Returns whether the request sets the mode, the rule or the vertices of levels of detail.
+bool asksForLevels(const Request& request) {
+    const Request defaults;
+    return request.lod || request.blurThreshold || request.sizeThreshold || request.lightThreshold ||
+           request.lodMetric != defaults.lodMetric || request.lodCoc != defaults.lodCoc ||
+           request.levelVertices != defaults.levelVertices;
+}
+
+// Returns an upper bound of the CoC diameter in px over the scene's bounding box, without the ground. Infinity if the
+// box reaches the near plane.
+double largestBlur(const PreparedFrame& frame) {
+    const View& view = frame.view;
+    const Bounds& box = frame.world.pose.bounds;
+    if (!view.lens.dofEnabled || box.empty()) return 0;
+    const glm::dmat4 viewFromWorld = glm::inverse(view.worldFromCamera);
+    double nearest = std::numeric_limits<double>::infinity();
+    double farthest = 0;
+    for (const glm::dvec3& corner : box.corners()) {
+        const double depth = -(viewFromWorld * glm::dvec4(corner, 1)).z;
+        nearest = std::min(nearest, depth);
+        farthest = std::max(farthest, depth);
+    }
+    if (!(nearest > view.nearPlane)) return std::numeric_limits<double>::infinity();
+    const CocBox all{.zNear = nearest, .zFar = farthest, .ndcMin = glm::dvec2(-1), .ndcMax = glm::dvec2(1)};
+    const ClipCircleOfConfusion coc = clipCircleOfConfusion(view.lens, view.width, view.height);
+    return circleOfConfusionRange(coc, all, view.width).largest;
+}
+
+// Returns how often one lens sample draws an average triangle of the meshes: the mean number of objects per mesh,
+// weighted by triangles.
+double drawsPerSample(const PreparedFrame& frame) {
+    double built = 0;
+    for (const Mesh& mesh : frame.scene->meshes) built += static_cast<double>(mesh.triangleCount());
+    double drawn = 0;
+    for (const Object& object : frame.world.pose.objects)
+        drawn += static_cast<double>(frame.scene->meshes[static_cast<std::size_t>(object.mesh)].triangleCount());
+    return built > 0 ? drawn / built : 0;
+}
+
+}  // namespace
+
+void chooseLevels(PreparedFrame& frame, const Request& request) {
+    const std::optional<Quality> quality = stopSettings(request).automatic;
+    if (!quality || asksForLevels(request)) return;
+    if (drawsPerSample(frame) * firstSamples(largestBlur(frame), *quality) >= payingDraws) return;
+    frame.settings.lod = LodMode::off;
+    frame.cacheFolder.clear();
+}
+
+}  // namespace defocus::engine
