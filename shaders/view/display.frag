@@ -11,7 +11,7 @@ layout(binding = 5) uniform sampler2D workImage;     // triangle count, summed o
 layout(binding = 6) uniform sampler2D mapColours;    // linear colour map of the overlay
 
 layout(location = 0) uniform vec4 size;        // xy: output size in px; z: exposure gain; w: gain of the difference image
-layout(location = 1) uniform ivec4 choices;    // tone curve; overlay; flags; unused
+layout(location = 1) uniform ivec4 choices;    // x: tone curve; y: overlay; z: flags; w: unused
 layout(location = 2) uniform float divider;    // fraction of the width in which the first image is drawn
 layout(location = 3) uniform float cocScale;   // output px per px of cocImage
 // x: 1 / number of lens samples in workImage; y: 1 / log2(1 + triangles per sample) at the end of the colour map.

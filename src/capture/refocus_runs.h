@@ -20,7 +20,7 @@ struct RefocusRun {
     FocusRange range;           // focus distances of the frames, m
     std::uint32_t samples = 0;  // number of lens images; each frame uses at least the samples of a rendered frame
 
-    // Returns a text that differs between runs with different lens images.
+    // Returns a string that differs between runs with different lens images.
     [[nodiscard]] std::string text() const;
 };
 

@@ -40,7 +40,7 @@ void checkThinLens(const Lens& lens) {
     for (const char* name : unsuited) {
         const LensField& field = *lensFieldNamed(name);
         if (lensFieldValue(lens, field) != lensFieldValue(Lens(), field))
-            fail("lens images cannot be combined with {}: a change of focus would not move each image as a whole",
+            fail("lens images cannot be combined with {}: a change of focus would do more than move each image",
                  field.option);
     }
 }

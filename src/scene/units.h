@@ -6,7 +6,7 @@
 
 namespace defocus::engine {
 
-// Returns the metres per unit from a text: "m", "cm", "mm", or a number of metres from 1e-9 to 1e9. Throws Error
+// Returns the metres per unit from a string: "m", "cm", "mm", or a number of metres from 1e-9 to 1e9. Throws Error
 // otherwise.
 double metresOfUnit(const std::string& text);
 

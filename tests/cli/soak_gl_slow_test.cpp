@@ -32,9 +32,9 @@ protected:
     }
 };
 
-// A long video does not increase memory or open file descriptors from frames 90 … 109 to the last 20 frames. The test
-// compares the median memory and the min number of descriptors at each write. Other files may be open during a write,
-// so four more descriptors are allowed; a leak in every twentieth frame would add ten.
+// Memory and open file descriptors do not grow during a long video. The test measures both at each write and compares
+// frames 90 … 109 with the last 20 frames: the median memory, and the min number of descriptors. It allows four more
+// descriptors, because other files may be open during a write; a leak in every twentieth frame would add ten.
 TEST_F(Soak, aLongFilmTakesNoMoreMemoryAndLeavesNoHandleOpen) {
     const int frames = roundsOr("DEFOCUS_SOAK_FRAMES", 300);
     nlohmann::json document = shot();

@@ -58,7 +58,7 @@ Numbered<SurfaceFaceNumber, TriangleNumber> properFaces(const TriangleSet<Positi
 
     // Equal faces have the same smallest position number, so only faces that share this number are compared.
     struct Key {
-        PositionNumber next, previous;  // the other two corners in winding order
+        PositionNumber next, previous;  // the two corners after the one with the smallest number, in winding order
         PrimitiveNumber primitive;
         TriangleNumber triangle;
 

@@ -22,8 +22,8 @@ constexpr int maxResolution = 512;
 constexpr double cellsPerEdge = 16;  // approximate grid cells per triangle edge, for evenly sized triangles
 
 constexpr double maxUnseen = 5e-3;   // relative area difference up to which no vertex is moved
-constexpr int localRounds = 2;       // rounds in which each outline edge follows level 0's outline
-constexpr int maxGlobalRounds = 12;  // rounds that match the covered area in each direction
+constexpr int localRounds = 2;       // number of rounds that move each outline edge towards level 0's outline
+constexpr int maxGlobalRounds = 12;  // max number of rounds that match the covered area in each direction
 // Accepted relative area differences. Levels with many triangles are slow to fit and mostly cover enough area, so that
 // the looser value applies to them.
 constexpr double goodEnough = 1.5e-3;

@@ -211,7 +211,7 @@ FaceRings faceRings(const Snapshot& level, const Frame& frame) {
 struct Closest {
     double squaredDistance = 0;
     TriangleCorner corner;  // corner of the closest face; invalid: the vertex itself is the closest point
-    glm::dvec2 along{0};    // closestCoordinates() along the edges to the next and to the previous corner
+    glm::dvec2 along{0};    // the closest point's coordinates along the edges to the next and the previous corner
 };
 
 // Returns the corner of `face` nearest to `p` that is not in `seen` and has at most maxFacesAround faces; else invalid.

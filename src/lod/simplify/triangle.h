@@ -36,7 +36,7 @@ inline glm::dvec2 closestCoordinates(const glm::dvec3& p, const glm::dvec3& a, c
     const double alongAcFromC = glm::dot(ac, p - c);
     if (alongAcFromC >= 0 && alongAbFromC <= alongAcFromC) return {0, 1};
 
-    // Products of the triangle's doubled area and the doubled signed area of p with each edge; ≤ 0: p is beyond the
+    // Twice the triangle's area, times twice the signed area of the triangle of p and an edge; ≤ 0: p is beyond the
     // edge.
     const double overAb = alongAbFromA * alongAcFromB - alongAbFromB * alongAcFromA;
     if (overAb <= 0 && alongAbFromA >= 0 && alongAbFromB <= 0) return {alongAbFromA / (alongAbFromA - alongAbFromB), 0};

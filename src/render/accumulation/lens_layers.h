@@ -59,7 +59,7 @@ public:
     // Returns the means of all samples so far, at least one. `camera`: position of the camera in m.
     [[nodiscard]] LayerImages images(const glm::dvec3& camera) const;
     [[nodiscard]] const std::vector<Layer>& layers() const { return layers_; }
-    // Returns the GPU times of the sums.
+    // Returns the GPU times of the passes that add the layers.
     [[nodiscard]] std::vector<PassTime> times();
     [[nodiscard]] std::size_t bytes() const;
 

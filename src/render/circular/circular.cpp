@@ -291,7 +291,7 @@ std::vector<MethodSetting> circularSettings() {
         {.name = "storage",
          .defaultValue = "half",
          .description = "Pixel format of the sums between the horizontal and the vertical pass. With r10g10b10a2, as "
-                        "in the slides, the sharp and the blurred images have ten bits per channel, too, and radiance "
+                        "in the slides, the sharp and the blurred images also have ten bits per channel, and radiance "
                         "above 1 is clipped",
          .choices = {"float", "half", "r10g10b10a2"}},
         {.name = "fields",
@@ -301,7 +301,7 @@ std::vector<MethodSetting> circularSettings() {
          .choices = {"separate", "combined"}},
         {.name = "near-field",
          .defaultValue = "premultiplied",
-         .description = "Weight of a pixel of the foreground: its coverage times its blur (premultiplied, as in the "
+         .description = "Weight of a pixel in the near field: its coverage times its blur (premultiplied, as in the "
                         "slides), or its coverage",
          .choices = {"premultiplied", "coverage"}},
         {.name = "blend-bias",

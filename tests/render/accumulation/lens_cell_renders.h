@@ -24,7 +24,7 @@ inline RenderSettings ratedSettings(std::uint32_t samples, LodMode lod = LodMode
     return settings;
 }
 
-// Returns a renderer of the method that a text names as on the command line, such as "line:segments=4".
+// Returns a renderer for `method`, given in the command line's syntax, such as "line:segments=4".
 inline std::unique_ptr<Renderer> rendererOf(const char* method, const World& world, RendererOptions options = {}) {
     const MethodUse use = parseMethodUse(method);
     options.settings = use.settings;
