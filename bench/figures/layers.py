@@ -4,8 +4,8 @@
 
 SCENE is a .gltf or .glb file, or school, the built-in scene (default: school and the chess set). Each scene is rendered without layers,
 with each layer and with depth, normal and albedo together, by `--method accumulation`. The processor time is that of the
-whole program on all cores. Runs alternate between the layers, after a first run of each that fills the driver's and the
-program's caches. Each time is divided by that of the picture alone in the same round; the table has the medians of these ratios.
+whole program on all cores. Runs alternate between the layers, after a first run of each that fills caches of their own,
+the driver's and the program's. Each time is divided by that of the picture alone in the same round; the table has the medians of these ratios.
 """
 
 import os
@@ -27,7 +27,8 @@ WIDTHS = (9, 9, 9, len(TOGETHER) + 3, 11, 10)  # of the columns
 def render(command, folder, layers):
     """Renders with these layers, none if empty. Returns the processor time in seconds."""
     words = [*command, "-o", folder / "image.exr", *(("--exr-layers", layers) if layers else ())]
-    child = subprocess.Popen([str(word) for word in words], cwd=ROOT)
+    environment = {**os.environ, "XDG_CACHE_HOME": str(folder)}  # other programs may empty the usual caches
+    child = subprocess.Popen([str(word) for word in words], cwd=ROOT, env=environment)
     _, status, usage = os.wait4(child.pid, 0)
     child.returncode = os.waitstatus_to_exitcode(status)
     if child.returncode != 0:
