@@ -3,6 +3,7 @@
 import pytest
 
 from figures import layers
+from figures.results import RESULTS
 
 
 def test_ratios_are_medians_of_rounds():
@@ -45,3 +46,9 @@ def test_a_record_needs_a_committed_program(tmp_path):
     layers.main([*words, program(tmp_path, "0123")])
     record = (tmp_path / "layers.txt").read_text()
     assert record.startswith("Commit 0123, a device, a driver, ") and str(tmp_path) not in record
+
+
+def test_the_committed_record_has_three_scenes():
+    record = (RESULTS / "llvmpipe-layers.txt").read_text()
+    assert "-changed" not in record and " /" not in record
+    assert layers.header() in record and len(record.split(layers.header())[1].split("\n")) >= 5
