@@ -21,7 +21,7 @@ void main() {
         vec4 value = imageLoad(drawn, ivec3(pixel, layer));
         if (keepsNearest && value.g > 0.0) nearest = min(nearest, value.r / value.g);
         addCompensated(sum.rgb, compensation.rgb, value.rgb);
-        addCompensated(sum.a, compensation.a, value.a);
+        if (sumsAlpha) addCompensated(sum.a, compensation.a, value.a);
     }
     // In the depth layer, alpha is the second component. The fourth component of the sum is the nearest depth, and the
     // fourth component of the compensation is the number of samples.

@@ -37,6 +37,7 @@ constexpr ShaderConstant constants[] = {
     {"float", "layerLargest", "0.0"},  // colours in a layer are clamped to this value; 0: no clamping
     {"bool", "startsBlock", "false"},
     {"bool", "keepsNearest", "false"},  // depth layer: also keep the nearest depth
+    {"bool", "sumsAlpha", "false"},     // data layer: also add alpha, the coverage
     {"int", "waveSamples", "1"},        // samples that the pass adds; drivers unroll the loop over a constant number
     {"int", "tableEntries", "1"},       // max objects or materials that a pixel counts separately
 

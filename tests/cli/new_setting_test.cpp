@@ -1,4 +1,5 @@
-// Tests that a row added to the table of settings appears in every interface without further edits.
+// Tests that a row added to the table of settings appears on the command line, in shots and in their schema without
+// further edits.
 
 #include <gtest/gtest.h>
 
@@ -12,32 +13,10 @@
 #include "cli/options/request_options.h"
 #include "defocus/setting_info.h"
 #include "frame/settings/settings.h"
+#include "new_setting.h"
 
 namespace defocus::engine {
 namespace {
-
-// Returns a numeric setting that has no member of its own in Request. Its functions store the value in Request::clip.
-Setting newSetting() {
-    Setting setting;
-    setting.name = "newSetting";
-    setting.option = "--new-setting";
-    setting.group = SettingGroup::samples;
-    setting.kind = SettingKind::number;
-    setting.metavar = "R";
-    setting.max = 10;
-    setting.help = "Help of the new setting";
-    setting.example = "3";
-    setting.everyday = true;
-    setting.excludes = {"seed"};
-    setting.shotPlace = "/newSetting";
-    setting.set = [](Request& request, const std::string& text) { request.clip = text; };
-    setting.text = [](const Request& request) {
-        return request.clip.empty() ? std::nullopt : std::optional(request.clip);
-    };
-    setting.clear = [](Request& request) { request.clip.clear(); };
-    setting.unused = [](const SettingContext&) { return std::string("nothing uses it"); };
-    return setting;
-}
 
 // Runs in a child process, because other tests of this process compare the table of settings with its documentation.
 void checkNewSetting() {
@@ -59,9 +38,9 @@ void checkNewSetting() {
     EXPECT_THROW((void)parseShot(R"({"newSetting": 11})", "shot.json"), Error);
     const auto schema = withSettings(nlohmann::ordered_json::object());
     EXPECT_EQ(schema["properties"]["newSetting"]["maximum"], 10);
-    EXPECT_EQ(schema["properties"]["newSetting"]["examples"], nlohmann::ordered_json::array({3}));
+    EXPECT_EQ(schema["properties"]["newSetting"]["examples"], nlohmann::ordered_json::array({2.5}));
 
-    // settingInfos() provides the keyword arguments of Python and the rows of the viewer.
+    // settingInfos() provides the keyword arguments of Python (tests/python/test_settings.py).
     const std::vector<SettingInfo> infos = settingInfos();
     const auto info = std::ranges::find(infos, "newSetting", &SettingInfo::name);
     ASSERT_NE(info, infos.end());
@@ -69,7 +48,7 @@ void checkNewSetting() {
     EXPECT_EQ(info->max, 10);
 }
 
-TEST(NewSetting, appearsEverywhere) {
+TEST(NewSetting, appearsOnTheCommandLineAndInShots) {
     testing::FLAGS_gtest_death_test_style = "threadsafe";
     EXPECT_EXIT(
         {

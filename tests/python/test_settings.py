@@ -5,6 +5,7 @@ import fractions
 import importlib.util
 import inspect
 import operator
+import os
 import pathlib
 import subprocess
 import sys
@@ -132,6 +133,31 @@ def test_help_shows_the_keywords():
 def test_stubs_have_the_keywords_of_the_table():
     script = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "python_stubs.py"
     outcome = subprocess.run([sys.executable, "-B", script, "--check"], capture_output=True, text=True, check=False)
+    assert outcome.returncode == 0, outcome.stderr
+
+
+# Runs with a copy of the package whose table has the row of tests/new_setting.h. The row stores its value in `clip`.
+NEW_SETTING = """
+import inspect, sys
+import defocus, pytest, python_stubs
+row = {setting.keyword: setting for setting in defocus.settings()}["new_setting"]
+assert row.range == (0, 10) and row.option == "--new-setting"
+assert "new_setting" in inspect.signature(defocus.render).parameters
+assert "    new_setting: Optional[float]  # mm\\n" in python_stubs.keywords()
+with pytest.raises(defocus.UsageError, match="new_setting cannot be combined with seed"):
+    defocus.plan(new_setting=4, seed=1)
+with pytest.raises(defocus.UsageError, match="new_setting: "):
+    defocus.plan(new_setting=11)
+with pytest.raises(defocus.Error, match="there is no animation '4'"):
+    defocus.plan(sys.argv[1], new_setting=4)
+"""
+
+
+def test_a_new_row_of_the_table_is_a_keyword(meshes):
+    package = pathlib.Path(os.environ["DEFOCUS_BUILD"]) / "tests" / "python_with_new_setting"
+    scripts = pathlib.Path(__file__).resolve().parents[2] / "scripts"
+    outcome = subprocess.run([sys.executable, "-B", "-c", NEW_SETTING, meshes / "orrery.glb"], capture_output=True, text=True,
+                             env={**os.environ, "PYTHONPATH": f"{package}:{scripts}"}, check=False)
     assert outcome.returncode == 0, outcome.stderr
 
 

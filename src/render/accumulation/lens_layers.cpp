@@ -201,13 +201,18 @@ const Program& LensLayers::program(const char* fragment, ShaderDefines defines) 
     return entry->second;
 }
 
+const std::string& LensLayers::coverageSlot() const {
+    return slots_.contains(depthSlot) ? slots_.find(depthSlot)->first : slots_.begin()->first;
+}
+
 void LensLayers::addSlot(const std::string& slot, const GlTexture& layers, const FrameUniforms& frame,
                          std::uint32_t first, std::uint32_t count) {
     const ImageFormat format = imageFormat(layers.info().format);
     ShaderDefines defines = frame.defines();
     defines.emplace_back("waveSamples", std::to_string(count));
     defines.emplace_back("LAYER_FORMAT", format.qualifier);
-    if (slot == depthSlot) defines.emplace_back("keepsNearest", "true");
+    if (slot == depthSlot || slot == coverageSlot())
+        defines.emplace_back(slot == depthSlot ? "keepsNearest" : "sumsAlpha", "true");
     const Program& sum = program("accumulation/sum_layer.frag", std::move(defines));
     SlotSum& sums = slots_.at(slot);
     sums.timer.begin();
@@ -259,7 +264,6 @@ LayerImages LensLayers::images(const glm::dvec3& camera) const {
     std::ranges::fill(result.samples.pixels, static_cast<float>(samples_));
     for (const auto& [slot, sum] : slots_)
         if (slot != depthSlot) sums[slot] = total(sum.sum, sum.compensation);
-    int coverageChannel = 3;
     if (const auto depth = slots_.find(depthSlot); depth != slots_.end()) {
         const Image sum = readBack(depth->second.sum, 4);
         const Image lost = readBack(depth->second.compensation, 4);
@@ -267,9 +271,11 @@ LayerImages LensLayers::images(const glm::dvec3& camera) const {
         for (std::size_t i = 0; i < whole.pixels.size(); ++i) whole.pixels[i] += lost.pixels[i];
         result.samples = channelOf(lost, 3);
         if (has(layers_, Layer::depth)) result.nearestDepth = channelOf(sum, 3);
-        if (sums.size() == 1) coverageChannel = 1;
     }
-    if (!sums.empty()) result.coverage = mean(sums.begin()->second, result.samples, coverageChannel, 1);
+    if (!sums.empty()) {
+        const std::string& slot = coverageSlot();
+        result.coverage = mean(sums.at(slot), result.samples, slot == depthSlot ? 1 : 3, 1);
+    }
     const auto take = [&](Layer layer, const char* slot, int first, int channels) {
         if (has(layers_, layer)) result.means[layer] = mean(sums.at(slot), result.samples, first, channels);
     };

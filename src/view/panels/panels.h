@@ -2,6 +2,9 @@
 // The panel beside the picture, which is a list of sections, and the dialog for stills. Each section is a function of
 // Ui.
 
+#include <vector>
+
+#include "frame/settings/settings.h"
 #include "view/widgets/ui.h"
 
 namespace defocus::engine {
@@ -31,6 +34,10 @@ DEFOCUS_PANELS(DEFOCUS_DECLARE_PANEL)
 #undef DEFOCUS_DECLARE_PANEL
 
 inline constexpr double panelWidth = 364;  // width in interface units; see interfaceScale
+
+// Returns the settings of the section "Samples and levels" from top to bottom: those of samples, levels and methods
+// that affect the pixels and have a widget.
+std::vector<const Setting*> settingsPanelRows();
 
 // Draws the panel to the right of the picture.
 void drawPanels(const Ui& ui);

@@ -39,8 +39,6 @@ void environmentRows(ViewState& state) {
     if (!environment.empty()) settingRow(state.options, "environmentRotation");
 }
 
-// Returns whether the settings section lists a setting: it is in the group samples, method or developer, affects the
-// pixels and has a widget.
 bool hasPlainRow(const Setting& setting) {
     const bool group = setting.group == SettingGroup::samples || setting.group == SettingGroup::method ||
                        setting.group == SettingGroup::developer;
@@ -97,15 +95,20 @@ void surroundingsPanel(const Ui& ui) {
     ImGui::EndDisabled();
 }
 
-// Draws rows for all settings of samples, levels and methods that have a widget.
+std::vector<const Setting*> settingsPanelRows() {
+    std::vector<const Setting*> rows;
+    for (const Setting& setting : settings())
+        if (hasPlainRow(setting)) rows.push_back(&setting);
+    return rows;
+}
+
 void settingsPanel(const Ui& ui) {
     Request& request = ui.state.options;
-    for (const Setting& setting : settings()) {
-        if (!hasPlainRow(setting)) continue;
+    for (const Setting* setting : settingsPanelRows()) {
         const SettingContext context{request, *chosenMethod(request).method, ui.scene(), ui.state.lens};
-        const std::string reason = setting.unused ? setting.unused(context) : "";
+        const std::string reason = setting->unused ? setting->unused(context) : "";
         ImGui::BeginDisabled(!reason.empty());
-        settingRow(request, setting.name);
+        settingRow(request, setting->name);
         ImGui::EndDisabled();
     }
 }

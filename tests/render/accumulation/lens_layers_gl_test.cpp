@@ -117,9 +117,15 @@ TEST_F(LensLayer, albedoIsFilteredAsThePicture) {
 TEST_F(LensLayer, coverageIsTheAlphaOfATransparentPicture) {
     const auto small = threeSquares();
     small->world.environment.visible = false;
-    const Drawn frame = drawn(*small, 64);
-    for (std::size_t i = 0; i < frame.layers.coverage.pixels.size(); ++i)
-        ASSERT_NEAR(frame.layers.coverage.pixels[i], frame.picture.pixels[4 * i + 3], 1e-5);
+    using enum Layer;
+    const std::vector<std::vector<Layer>> choices = {everyLayer,        {depth},         {depth, normal},
+                                                     {depth, position}, {depth, albedo}, {coc, motion},
+                                                     {albedo, normal},  {normal},        {objects}};
+    for (const std::vector<Layer>& layers : choices) {
+        const Drawn frame = drawn(*small, 64, layers);
+        for (std::size_t i = 0; i < frame.layers.coverage.pixels.size(); ++i)
+            ASSERT_NEAR(frame.layers.coverage.pixels[i], frame.picture.pixels[4 * i + 3], 1e-5) << layers.size();
+    }
 }
 
 TEST_F(LensLayer, ofAWallAreItsPlaceAndBlur) {
