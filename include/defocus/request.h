@@ -129,8 +129,8 @@ struct Request {
     std::optional<std::uint64_t> memory;  // memory limit in bytes. Default: 3/4 of the free memory
     // Number of lens samples drawn at once, 1 … 64; does not change the image. Default: as many as fit into memory.
     std::optional<std::uint32_t> wave;
-    // Number of threads that draw, 1 … 64; does not change the image. Default: all cores with llvmpipe of Mesa 25.0 or
-    // later, else 1.
+    // Number of threads that draw, 1 … 64; does not change the image. Default: half of the cores with llvmpipe of Mesa
+    // 25.0 or later, else 1.
     std::optional<std::uint32_t> threads;
 };
 

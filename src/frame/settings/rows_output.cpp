@@ -130,7 +130,7 @@ Rows developerRows() {
             .effect(SettingEffect::run),
         rows::integer("threads", "--threads", 1, 64, MEMBER(threads),
                       "Number of threads that draw lens samples at the same time, each with an OpenGL context of its "
-                      "own; does not affect the image. Default: all cores with llvmpipe of Mesa 25.0 or later, else 1")
+                      "own; does not affect the image. Default: half of the cores with llvmpipe of Mesa 25.0 or later, else 1")
             .effect(SettingEffect::run)
             .unused(methodWithoutThreads),
     };
