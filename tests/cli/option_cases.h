@@ -34,6 +34,7 @@ struct OptionCase {
     Words with;
     bool still = false;  // whether the scene is a fish of the school instead of the moving ball
     Words against = {};
+    bool needsDriver = false;  // whether some drivers ignore the option; the image must be the same in any case
 };
 
 namespace option_cases {
@@ -234,7 +235,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
         {"keepAll", {{"--keep-all"}, {"--focal-length", "1500", "--lod", "off"}, true}},
         {"wave", {{"--wave", "1"}, {}, true}},
         {"memory", {{"--memory", "3GiB"}, {}, true}},
-        {"threads", {{"--threads", "3"}, {}, true}},
+        {"threads", {{"--threads", "3"}, {}, true, {}, true}},
         {"toneMap", {{"--tonemap", "agx"}, {}}},
         {"exposure", {{"--exposure", "1"}, {}}},
     };

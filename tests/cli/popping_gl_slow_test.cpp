@@ -40,6 +40,7 @@ protected:
         options_.size.width = 160;
         options_.size.height = 120;
         options_.noCache = true;
+        options_.lod = LodMode::fractional;
     }
 
     void expectNone(PoppingOptions popping, std::uint32_t samples) const {

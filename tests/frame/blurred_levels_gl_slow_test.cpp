@@ -36,6 +36,7 @@ protected:
         request.size.height = 288;
         request.noCache = true;
         request.lens.fStop = 0.95;
+        request.lod = LodMode::fractional;
         frame_ = prepareFrame(request);
     }
 

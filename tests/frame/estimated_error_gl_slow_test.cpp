@@ -54,6 +54,7 @@ protected:
         request.trianglesPerFish = 2'000;
         request.noCache = true;
         request.lens.fStop = 0.95;
+        request.lod = LodMode::fractional;
         if (GetParam() != "school") request.scene = modelPath(GetParam());
         if (!request.scene.empty() && !std::filesystem::exists(request.scene))
             GTEST_SKIP() << request.scene << " does not exist";

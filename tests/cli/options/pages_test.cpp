@@ -55,7 +55,7 @@ TEST_F(Pages, bashCompletesCommandsOptionsAndValues) {
     EXPECT_EQ(offered("defocus render --fst"), Words({"--fstop"}));
     EXPECT_EQ(offered("defocus render --qui"), Words({"--quiet"})) << "includes the program's own options";
     EXPECT_EQ(offered("defocus --quiet render --fst"), Words({"--fstop"}));
-    EXPECT_EQ(offered("defocus render --lod ''"), Words({"fractional", "continuous", "nearest", "off"}));
+    EXPECT_EQ(offered("defocus render --lod ''"), Words({"auto", "fractional", "continuous", "nearest", "off"}));
     EXPECT_EQ(offered("defocus render --lod = o"), Words({"off"})) << "bash splits words at =";
     EXPECT_EQ(offered("defocus render --aov depth,c"), Words({"depth,coc"}));
     EXPECT_EQ(offered("defocus render --method circ"), Words({"circular"}));
