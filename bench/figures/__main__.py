@@ -24,6 +24,7 @@ COMMANDS = {  # each name is a module of this package, with "-" for "_"
     "blending": "measure the noise of alpha-blended surfaces",
     "endurance": "measure long films, kills, fuzzing and files of many parts",
     "latency": "measure how fast the window answers the mouse",
+    "cold": "measure the time to the first picture of a scene, with empty caches",
     "layers": "measure the processor time that data layers add to a picture",
 }
 

@@ -2,21 +2,20 @@
 
     scripts/figures layers [SCENE …] [--runs 5] [--program build/release/defocus] [--output bench/results/llvmpipe-layers.txt]
 
-SCENE is a .gltf or .glb file, or school, the built-in scene (default: school and the chess set). Each scene is rendered without layers,
-with each layer and with depth, normal and albedo together, by `--method accumulation`. The processor time is that of the
-whole program on all cores. Runs alternate between the layers, after a first run of each that fills caches of their own,
-the driver's and the program's. Each time is divided by that of the picture alone in the same round; the table has the medians of these ratios.
+SCENE is a .gltf or .glb file, or school, the built-in scene (default: school and the chess set). Each scene is rendered
+by `--method accumulation`: without layers, with each layer, and with depth, normal and albedo together. The processor
+time is the time of the whole program on all cores. Runs alternate between the layers, after a first run of each that
+fills caches of their own. Each time is divided by the time of the picture alone in the same round; the table has the
+medians of these ratios.
 """
 
-import os
 import pathlib
 import statistics
-import subprocess
-import sys
 import tempfile
 
-from figures.command import ROOT, add_program, parser_of, path, run
-from figures.files import read_json, write_file
+from figures.command import add_program, parser_of, path
+from figures.files import write_file
+from figures.timed import facts, timed
 
 SCENES = ("school", "meshes/chess.glb")
 TOGETHER = "depth,normal,albedo"
@@ -27,13 +26,7 @@ WIDTHS = (9, 9, 9, len(TOGETHER) + 3, 11, 10)  # of the columns
 def render(command, folder, layers):
     """Renders with these layers, none if empty. Returns the processor time in seconds."""
     words = [*command, "-o", folder / "image.exr", *(("--exr-layers", layers) if layers else ())]
-    environment = {**os.environ, "XDG_CACHE_HOME": str(folder)}  # other programs may empty the usual caches
-    child = subprocess.Popen([str(word) for word in words], cwd=ROOT, env=environment)
-    _, status, usage = os.wait4(child.pid, 0)
-    child.returncode = os.waitstatus_to_exitcode(status)
-    if child.returncode != 0:
-        sys.exit(f"a picture with layers '{layers}' failed with exit code {child.returncode}")
-    return usage.ru_utime + usage.ru_stime
+    return timed(words, folder, f"a picture with layers '{layers}'").processor
 
 
 def ratios_of(rounds):
@@ -57,18 +50,6 @@ def measure(command, runs, folder):
     return [{layers: render(command, folder, layers) for layers in ("", *LAYERS)} for _ in range(runs)]
 
 
-def facts(program, folder):
-    """Returns the statistics of a small picture, which name the program's commit, the device and the driver."""
-    stats = folder / "stats.json"
-    run(program, "render", "meshes/bokeh.gltf", "--size", "16x16", "--samples", 1, "--quiet", "--stats", stats, "-o", folder / "image.exr")
-    return read_json(stats)
-
-
-def processor():
-    with open("/proc/cpuinfo", encoding="utf-8") as file:
-        return next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "unknown processor")
-
-
 def main(words):
     parser = parser_of("layers", __doc__)
     parser.add_argument("scenes", nargs="*", metavar="SCENE")
@@ -82,10 +63,7 @@ def main(words):
     options = ["--size", arguments.size, "--samples", arguments.samples, "--method", "accumulation"]
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        stats = facts(arguments.program, folder)
-        if arguments.output and stats["commit"].endswith("-changed"):
-            sys.exit("the program has uncommitted changes; commit them, so that the run can be repeated")
-        lines = [f"Commit {stats['commit']}, {stats['device']}, {stats['driver']}, {os.cpu_count()} cores of {processor()}.",
+        lines = [facts(arguments.program, folder, arguments.output),
                  "Processor time of the whole program, as ratios to the picture alone. Other programs may run at the same time.", "",
                  f"$ scripts/figures layers {' '.join(pathlib.Path(scene).name for scene in scenes)} --size {arguments.size} "
                  f"--samples {arguments.samples} --runs {arguments.runs}", header()]
