@@ -147,7 +147,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
     static const std::map<std::string, OptionCase> table = {
         {"scene", {{"ball.glb"}, {}, true}},
         {"strict", {{"--strict"}, {}, true}},
-        {"variant", {{"--variant", "Green"}, {}}},
+        {"variant", {{"--variant", "Green"}, {"--samples", "32"}}},
         {"fishCount", {{"--fish", "3"}, {}, true}},
         {"trianglesPerFish", {{"--fish-triangles", "1500"}, {}, true}},
         {"units", {{"--units", "cm"}, {"--fstop", "0.5"}}},
