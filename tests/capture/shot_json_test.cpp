@@ -153,7 +153,7 @@ TEST(ShotJson, faultsNameTheirPlaceAndWhatWasExpected) {
         {R"({"focus": {"keys": [{"frame": 3}]}})",
          "shots/x.json: /focus/keys/0: give exactly one of 'node', 'distance', 'pixel' and 'auto'"},
         {R"({"lod": "best"})",
-         R"(shots/x.json: /lod: expected "fractional", "continuous", "nearest" or "off", not "best")"},
+         R"(shots/x.json: /lod: expected "auto", "fractional", "continuous", "nearest" or "off", not "best")"},
         {R"({"focus": {"distance": 1}, "lens": {"focusDistance": 2}})",
          "shots/x.json: /lens/focusDistance: cannot be combined with the shot's 'focus'; give only one of them"},
         {R"({"camera": {"dolly": {"distance": 1}, "turntable": {}}})",
