@@ -36,7 +36,7 @@ def first_picture(program, scene, options):
     """Renders with empty caches. Returns the times."""
     with tempfile.TemporaryDirectory() as name:
         words = [program, "render", scene, *options, "--quiet", "-o", pathlib.Path(name) / "image.png"]
-        return timed(words, name, f"the picture of {pathlib.Path(scene).name}")
+        return timed(words, f"the picture of {pathlib.Path(scene).name}", name)
 
 
 def main(words):

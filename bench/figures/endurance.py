@@ -26,6 +26,7 @@ import time
 from figures.command import ROOT, add_program, executable, parser_of, path
 from figures.markdown import table
 from figures.results import run_of
+from figures.timed import timed
 
 # Commit to compare the current program with in the test of files with many parts.
 FIRST = "f7ddc1ab"
@@ -82,14 +83,8 @@ def many(kind, count):
 
 def cost(program, scene, picture):
     """Renders a scene. Returns the elapsed and the processor time in seconds, and the peak memory in MiB."""
-    begin = time.monotonic()
-    child = subprocess.Popen([program, "render", scene, "--no-cache", "--samples", "4", "--size", "320x240", "--quiet", "-o", picture])
-    _, status, usage = os.wait4(child.pid, 0)
-    seconds = time.monotonic() - begin
-    child.returncode = os.waitstatus_to_exitcode(status)
-    if child.returncode != 0:
-        sys.exit(f"cannot render {scene}")
-    return seconds, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
+    words = [program, "render", scene, "--no-cache", "--samples", "4", "--size", "320x240", "--quiet", "-o", picture]
+    return timed(words, f"the picture of {scene.name}")
 
 
 def costs(program, folder, arguments):

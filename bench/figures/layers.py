@@ -26,7 +26,7 @@ WIDTHS = (9, 9, 9, len(TOGETHER) + 3, 11, 10)  # of the columns
 def render(command, folder, layers):
     """Renders with these layers, none if empty. Returns the processor time in seconds."""
     words = [*command, "-o", folder / "image.exr", *(("--exr-layers", layers) if layers else ())]
-    return timed(words, folder, f"a picture with layers '{layers}'").processor
+    return timed(words, f"a picture with layers '{layers}'", folder).processor
 
 
 def ratios_of(rounds):

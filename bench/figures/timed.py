@@ -11,14 +11,16 @@ from figures.files import read_json
 
 
 class Times(NamedTuple):
-    """Seconds of one run."""
+    """Times of one run, in seconds, and its memory."""
     wall: float
     processor: float  # of the whole program, on all cores
+    memory: float = 0  # peak, in MiB
 
 
-def timed(words, caches, what):
-    """Runs a command with its own folder of caches, the driver's and the program's. what: the run's name for a message."""
-    environment = {**os.environ, "XDG_CACHE_HOME": str(caches)}  # other programs may change the usual caches
+def timed(words, what, caches=None):
+    """Runs a command. what: the run's name for a message. caches: folder for the caches of the driver and of the program;
+    None: the usual folders, which other programs may change."""
+    environment = {**os.environ, **({"XDG_CACHE_HOME": str(caches)} if caches else {})}
     begin = time.monotonic()
     child = subprocess.Popen([str(word) for word in words], cwd=ROOT, env=environment)
     _, status, usage = os.wait4(child.pid, 0)
@@ -26,7 +28,7 @@ def timed(words, caches, what):
     child.returncode = os.waitstatus_to_exitcode(status)
     if child.returncode != 0:
         sys.exit(f"{what} failed with exit code {child.returncode}")
-    return Times(wall, usage.ru_utime + usage.ru_stime)
+    return Times(wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)
 
 
 def facts(program, folder, recorded):

@@ -12,10 +12,10 @@ namespace defocus::engine {
 
 namespace {
 
-// Number of times that an average triangle must be drawn for levels of detail to pay. With llvmpipe, building the levels
-// takes 17 to 30 µs of CPU time per triangle, and drawing the triangle once takes 0.1 to 0.4 µs. The number is low for a
-// single image, because later images read the levels from the cache. Images of fewer draws have little blur, so that
-// even then levels save little.
+// Number of times that an average triangle must be drawn for levels of detail to pay. Building the levels takes 15 to
+// 28 µs of CPU time per triangle (bench/results/llvmpipe-cold.txt), and drawing the triangle once takes a fraction of a
+// microsecond. A single image would need more draws, but later images read the levels from the cache. Images with fewer
+// draws have little blur, in which levels save little.
 constexpr double payingDraws = 64;
 
 // Returns whether the request sets the mode, the rule or the vertices of levels of detail.
@@ -26,8 +26,8 @@ bool asksForLevels(const Request& request) {
            request.levelVertices != defaults.levelVertices;
 }
 
-// Returns an upper bound of the CoC diameter in px over the scene's bounding box, without the ground. Infinity if the
-// box reaches the near plane.
+// Returns the largest CoC diameter in px over the scene's bounding box, without the ground and without blur controls of
+// single objects. Returns infinity if the box reaches the near plane.
 double largestBlur(const PreparedFrame& frame) {
     const View& view = frame.view;
     const Bounds& box = frame.world.pose.bounds;
