@@ -18,19 +18,25 @@ namespace {
 class ViewSoak : public ViewProgram {};
 
 TEST_F(ViewSoak, scenesInTurnTakeNoMoreMemoryAndLeaveNoHandleOpen) {
-    const int scenes = roundsOr("DEFOCUS_SOAK_SCENES", 60);
+    const int scenes = roundsOr("DEFOCUS_SOAK_SCENES", 90);
     const int early = std::max(scenes / 10, 20);
     for (int i = 0; i < 2; ++i) writeTwoQuads(folder() / fmt::format("scene{}.gltf", i));
     start({"scene0.gltf", "--size", "320x240"});
     ASSERT_TRUE(showsScene("scene0.gltf")) << state();
     DropSource hand(display());
     Held before, after;
+    // A reading depends on what the viewer draws at that moment and varies by 20 MB; the least of ten readings doesn't.
+    const auto keepLeast = [this](Held& least) {
+        const Held now = heldBy(process());
+        least.megabytes = least.megabytes > 0 ? std::min(least.megabytes, now.megabytes) : now.megabytes;
+        least.handles = now.handles;
+    };
     for (int i = 1; i <= scenes; ++i) {
         const std::string name = fmt::format("scene{}.gltf", i % 2);
         ASSERT_TRUE(hand.drop("file://" + (folder() / name).string() + "\r\n", 120, 100)) << i;
         ASSERT_TRUE(showsScene(name)) << i << " " << state();
-        if (i == early) before = heldBy(process());
-        if (i == scenes) after = heldBy(process());
+        if (i > early - 10 && i <= early) keepLeast(before);
+        if (i > scenes - 10) keepLeast(after);
     }
     fmt::print("{} scenes: {:.1f} MB after {}, {:.1f} MB at the end; {} and {} handles\n", scenes, before.megabytes,
                early, after.megabytes, before.handles, after.handles);
