@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "plan/frame_plan.h"
 #include "plan/visible/visibility.h"
@@ -14,6 +17,20 @@ namespace {
 int cellSide(int pixels) {
     const int cells = (pixels + maxCellPixels - 1) / maxCellPixels;
     return (pixels + cells - 1) / cells;
+}
+
+// Keeps the objects that `isKept` returns true for, and their part of the blend order.
+void keepObjects(FramePlan& plan, const auto& isKept) {
+    std::vector<std::optional<std::uint32_t>> newIndex(plan.objects.size());
+    std::vector<ObjectPlan> kept;
+    for (std::size_t i = 0; i < plan.objects.size(); ++i) {
+        if (!isKept(plan.objects[i])) continue;
+        newIndex[i] = static_cast<std::uint32_t>(kept.size());
+        kept.push_back(std::move(plan.objects[i]));
+    }
+    plan.objects = std::move(kept);
+    std::erase_if(plan.blendOrder, [&](const BlendRun& run) { return !newIndex[run.object]; });
+    for (BlendRun& run : plan.blendOrder) run.object = *newIndex[run.object];
 }
 
 }  // namespace
@@ -38,8 +55,8 @@ FramePlan tileOf(const FramePlan& plan, const Tile& tile) {
     FramePlan part = plan;
     part.tile = tile;
     if (plan.settings.keepAll || plan.usesTransmission) return part;
-    std::erase_if(part.objects, [&](const ObjectPlan& object) {
-        return outsideWidenedFrustum(object.viewBox, plan, object.own, object.coc.largest, tile.area);
+    keepObjects(part, [&](const ObjectPlan& object) {
+        return !outsideWidenedFrustum(object.viewBox, plan, object.own, object.coc.largest, tile.area);
     });
     part.trianglesDrawn = 0;
     for (const ObjectPlan& object : part.objects)

@@ -48,6 +48,17 @@ TEST_F(Tiles, haveTheBitsOfOnePieceBeforeAMapAndBeforeNothing) {
     expectTheBitsOfOnePiece(*small, planWith(*small, small->view), "no background");
 }
 
+// Some tiles contain only a few of the blended objects; the sky behind them is transparent.
+TEST_F(Tiles, haveTheBitsOfOnePieceWhereSurfacesBlend) {
+    const auto small = fiveSpheres();
+    small->world.environment.type = EnvironmentType::none;
+    small->scene.materials[0].alphaMode = AlphaMode::blend;
+    small->scene.materials[0].baseColorFactor.a = 0.4f;
+    const FramePlan plan = planWith(*small, small->view);
+    ASSERT_FALSE(plan.blendOrder.empty());
+    expectTheBitsOfOnePiece(*small, plan, "blending");
+}
+
 // Tiles stay exact if objects outside the tile, or outside the image, cast shadows into it.
 TEST_F(Tiles, haveTheBitsOfOnePieceWhereShadowsFallIntoThem) {
     const auto small = fiveSpheres();
