@@ -10,21 +10,16 @@
 // (LightSums). This sum takes few operations per light, which matters on software rasterizers.
 
 layout(std140, binding = 6) uniform WaveBlock {
-    float firstSample;    // index within the frame of this wave's first lens sample (a wave is drawn at once)
-    float firstOfBlock;   // index within the frame of the first lens sample of this block of blockSamples samples
-    // The next two members are the size of the area over which a texture lookup is filtered. The mean over the samples
-    // filters the texture over the rest of the pixel. A single sample is filtered over the whole pixel. Of N samples
-    // (all up to the end of this block), each is filtered over 1/(2N − 1) of the pixel's area. A sample represents 1/N
-    // of the pixel, but trilinear lookups average over more than their nominal area.
+    // The size of the area over which a texture lookup is filtered. The mean over the samples filters the texture over
+    // the rest of the pixel. A single sample is filtered over the whole pixel. Of N samples (all up to the end of this
+    // block), each is filtered over 1/(2N − 1) of the pixel's area. A sample represents 1/N of the pixel, but trilinear
+    // lookups average over more than their nominal area.
     float footprint;      // side of the filtered area, in px
     float mipBias;        // log2(footprint): bias on the mip level, which OpenGL chooses for a full pixel
 } wave;
 
 // Directional albedo of the specular part (src/scene/specular_albedo.h).
 layout(binding = 33) uniform sampler2D specularAlbedos;
-
-// Returns the index within the frame of the lens sample that is shaded. Each including shader defines this function.
-float sampleNumber();
 
 struct SurfacePoint {
     vec3 diffuse;         // albedo of the diffuse part
@@ -120,17 +115,13 @@ struct Spread {
 };
 
 // Pixel footprint: follows Kaplanyan et al. 2016 (Filtering Distributions of Normals for Shading Antialiasing). The
-// bound is from Tokuyoshi and Kaplanyan 2019 (Improved Geometric Specular Antialiasing). Sample n represents 1/(n + 1)
-// of the pixel's area, as a normal distribution whose σ is half the width of that area. The same variance in all
-// directions leaves the fewest white pixels on rippled surfaces. On a wire, however, normals vary by half a turn across
-// the wire and hardly along it. A highlight that is widened along the wire would light parts that face away from the
-// light. The variance along the wire is therefore at most 2σ² = 0.03, unless normals vary more in this direction.
-//
-// With few samples, a lobe narrower than the pixel's variation of normals would give isolated white pixels. The first
-// block of samples therefore widens such a lobe to that variation, and later blocks to a fraction of it. Both widths
-// depend only on the sample's index, so blocks that are drawn separately add up to the same image. Both vanish as the
-// number of samples grows, so highlights converge. The footprint's part of the result is proportional to the pixel's
-// area, and 0 on flat surfaces.
+// bound is from Tokuyoshi and Kaplanyan 2019 (Improved Geometric Specular Antialiasing). The normals are those of eight
+// times a texture's area (WaveBlock), but at most of a pixel, weighted by a normal distribution whose σ is half the
+// area's width. Over a smaller area, few samples meet the sun's highlight on a mirror, or none; over a larger one,
+// highlights are blurred. The same variance in all directions leaves the fewest white pixels. On a wire, however,
+// normals vary by half a turn across the wire and hardly along it. A highlight that is widened along the wire would
+// light parts that face away from the light. The variance along the wire is therefore at most 2σ² = 0.03, unless
+// normals vary more in this direction. The widening vanishes as the number of samples grows, and on flat surfaces.
 Spread slopeSpread(SurfacePoint point) {
     float right2 = dot(point.normalRight, point.normalRight);
     float up2 = dot(point.normalUp, point.normalUp);
@@ -144,10 +135,7 @@ Spread slopeSpread(SurfacePoint point) {
     float axis2 = dot(axis, axis);
     float ofEqual = 0.5 * mean;   // 2σ² over the pixel, with the same variance in all directions
     vec2 ofPixel = vec2(ofEqual, min(ofEqual, max(0.5 * (mean - deviation), 0.03)));
-    vec2 ofBlock = min(ofPixel / (wave.firstOfBlock / float(blockSamples) + 1.0), 0.18);
-    float width = point.roughness * point.roughness;
-    vec2 ofSample = min(ofPixel / (sampleNumber() + 1.0), 0.18);
-    vec2 spread = max(ofBlock - width * width, ofSample);
+    vec2 spread = min(ofPixel * min(8.0 * wave.footprint * wave.footprint, 1.0), 0.18);
     if (coarseLevel) spread += coarseSpread(point);
     return Spread(axis2 > 1e-20 ? axis * inversesqrt(axis2) : vec3(0.0), spread.x, spread.y);
 }

@@ -25,8 +25,6 @@ vec4 surfaceColor() {
 
 vec4 surfaceTexel(int unit, int slot) { return texture(materialTextures[unit], uvOf(slot, surface.uv), wave.mipBias); }
 
-float sampleNumber() { return wave.firstSample + float(gl_Layer); }
-
 bool showsFront() { return gl_FrontFacing; }
 
 void addNormalChanges(inout SurfacePoint point, vec3 normal) {

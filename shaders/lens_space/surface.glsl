@@ -39,10 +39,6 @@ vec4 surfaceTexel(int unit, int slot) {
                        uvOf(slot, surface.uvUp) - uvOf(slot, surface.uv));
 }
 
-// Returns the same fractional sample index for all samples of a block. Sample n represents the fraction 1/(n + 1) of a
-// pixel. In the first block the index is 12.5, for which this fraction equals its mean over the block's 64 samples.
-float sampleNumber() { return wave.firstOfBlock + 12.5; }
-
 bool showsFront() { return surface.showsFront; }
 
 void addNormalChanges(inout SurfacePoint point, vec3 normal) {

@@ -252,8 +252,7 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
             const std::uint32_t block = number / blockSamples * blockSamples;
             const double drawn = std::min(block + blockSamples, plan.frameSamples);
             const double footprint = std::sqrt(1 / (2 * drawn - 1));
-            waves[waveOf(i) * waveStride / sizeof(glm::vec4)] =
-                glm::vec4(number, block, footprint, std::log2(footprint));
+            waves[waveOf(i) * waveStride / sizeof(glm::vec4)] = glm::vec4(footprint, std::log2(footprint), 0, 0);
         }
     waves_ = Buffer::of(std::span<const glm::vec4>(waves));
 }
