@@ -45,12 +45,12 @@ std::size_t pyramidKind(const RenderSettings& settings) {
     return 1 + static_cast<std::size_t>(settings.levelVertices);
 }
 
-// Returns a note if a frame in tiles may use more samples than an untiled frame; otherwise empty.
+// Returns a note if a frame in tiles may take another number of samples than an untiled frame; otherwise empty.
 std::vector<std::string> tiledSamplesNote(const FramePlan& plan) {
-    if (plan.samples.size() <= blockSamples) return {};
+    if (!plan.usesLens) return {};
     return {
         fmt::format("the image is drawn in tiles with {} lens samples, the maximum that its blur may need; an untiled "
-                    "image may need fewer",
+                    "image estimates its error and may take another number",
                     plan.samples.size())};
 }
 
