@@ -100,6 +100,7 @@ Metadata renderMetadata(const RenderReport& report) {
     if (stopSettings(report.options).given()) metadata["defocus:stopped"] = stopReasonText(report.stats.stopped);
     if (report.stats.estimatedError) metadata["defocus:estimatedError"] = *report.stats.estimatedError;
     metadata["defocus:method"] = report.method;
+    metadata["defocus:lod"] = lodModeName(report.plan.settings.lod);
     metadata["defocus:layerFormat"] = report.stats.layerFormat;
     metadata["defocus:blurThreshold"] = report.plan.thresholds.blur;
     metadata["defocus:sizeThreshold"] = report.plan.thresholds.size;
