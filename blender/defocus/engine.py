@@ -37,6 +37,8 @@ class DefocusEngine(bpy.types.RenderEngine):
             pictures[picture_key(depsgraph)] = pixels, texts, view.picture_width, view.picture_height
         except Failure as failure:
             self.report({"ERROR"}, str(failure))
+        except OSError as error:
+            self.report({"ERROR"}, f"The temporary folder cannot be written: {error.strerror}")
         except Cancelled:
             pass
         self.show_last(depsgraph)

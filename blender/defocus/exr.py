@@ -59,8 +59,11 @@ def unpacked(block, size):
 
 def read(file):
     """Returns the channels (name → height × width floats, row 0 at the bottom) and the texts among the attributes."""
-    with open(file, "rb") as opened:
-        data = opened.read()
+    try:
+        with open(file, "rb") as opened:
+            data = opened.read()
+    except OSError as error:
+        raise Failure(f"the picture cannot be read: {error.strerror}") from error
     try:
         return read_data(data)
     except (IndexError, KeyError, ValueError, struct.error, zlib.error) as error:

@@ -22,7 +22,8 @@ METHODS = choices(("auto", "Automatic", "Multirate where a visible part of the p
                   ("scheuermann", "Scheuermann", "Poisson disk over one pinhole image"),
                   ("stochastic", "Stochastic", "Stochastic lens samples for each pixel"),
                   ("line", "Line", "Line samples on the lens"))
-LEVELS = choices(("fractional", "Fractional", "The lens samples are split between two levels of detail"),
+LEVELS = choices(("auto", "Automatic", "Full detail where few samples are drawn, else fractional"),
+                 ("fractional", "Fractional", "The lens samples are split between two levels of detail"),
                  ("continuous", "Continuous", "One sample draws both levels, each in some of its pixels"),
                  ("nearest", "Nearest", "One level of detail"),
                  ("off", "Off", "Full detail"))
@@ -49,7 +50,7 @@ class DefocusSettings(bpy.types.PropertyGroup):
         name="Target Error", min=0, max=1, default=0, precision=4, step=0.1,
         description="Add samples until the estimated root mean square error of the encoded picture is smaller. 0: off")
     method: bpy.props.EnumProperty(name="Method", items=METHODS, default="auto", description="Rendering method")
-    levels: bpy.props.EnumProperty(name="Levels of Detail", items=LEVELS, default="fractional",
+    levels: bpy.props.EnumProperty(name="Levels of Detail", items=LEVELS, default="auto",
                                    description="Use of simplified meshes for blurred objects")
     shadows: bpy.props.BoolProperty(name="Shadows", default=True, description="Soft shadows of the lights and of the world")
     shutter_position: bpy.props.EnumProperty(name="Position", items=POSITIONS, default="centre",
@@ -76,7 +77,7 @@ def setting_words(settings, for_view=False):
         words += ["--target-error", f"{settings.target_error:.7g}"]
     if settings.method not in ("", "auto"):
         words += ["--method", settings.method]
-    if settings.levels not in ("", "fractional"):
+    if settings.levels not in ("", "auto"):
         words += ["--lod", settings.levels]
     words += ["--shadows", "on" if settings.shadows else "off"]
     try:

@@ -175,6 +175,26 @@ class BadInput(unittest.TestCase):
             self.assertEqual(os.listdir(folder), [])
         self.assertAlmostEqual(brightness(scene), 0.25, places=3)
 
+    def testTemporaryFolderThatIsMissing(self):
+        small_scene()
+        usual, tempfile.tempdir = tempfile.tempdir, "/proc/none"
+        try:
+            with self.assertRaisesRegex(RuntimeError, "Error: The temporary folder cannot be written: No such file"):
+                bpy.ops.render.render()
+        finally:
+            tempfile.tempdir = usual
+
+    def testProgramThatWritesNoPicture(self):
+        small_scene()
+        given = bpy.context.preferences.addons["defocus_engine"].preferences
+        before, given.program = given.program, "/bin/true"
+        try:
+            with self.assertRaisesRegex(RuntimeError, "Error: the picture cannot be read: No such file"):
+                bpy.ops.render.render()
+        finally:
+            given.program = before
+        self.check_no_files()
+
     def testWindowGetsTheSceneAndItsFolderIsRemoved(self):
         scene = small_scene()
         scene.defocus.further = "--cat-eye 0.5"
