@@ -1,4 +1,4 @@
-// Uniform blocks of the frame, the object and the material. The C++ counterparts are GpuFrame in frame_uniforms.cpp,
+// Uniforms of the frame, the object and the material. The C++ counterparts are GpuFrame in frame_uniforms.cpp,
 // GpuObject in surface_draws.h and GpuMaterial in material_blocks.h, all in src/render/gpu_scene/.
 
 layout(std140, binding = 0) uniform FrameBlock {
@@ -14,17 +14,20 @@ layout(std140, binding = 0) uniform FrameBlock {
     vec4 lightPositions[maxLights];  // xyz: m from the camera along the world's axes; w: range (m), 0: unlimited
 } frame;
 
-layout(std140, binding = 1) uniform ObjectBlock {
+// Plain uniforms instead of a block: each draw has another object, and Mesa's software driver copies 33 KB of state if a
+// draw changes any block, even one that only the vertex shader reads.
+struct Object {
     mat4 viewFromObject;
-    mat4 normalMatrix;    // inverse transpose of the upper 3×3 of viewFromObject
+    mat3 normalMatrix;    // inverse transpose of the upper 3×3 of viewFromObject
     // Fractional level of detail λ; fraction of the pixels of the boundary sample (the lens sample that mixes two
     // levels) that draw the coarser level; object index; blur factor.
     vec4 values;
     // Texels per pose; number of joints; number of active morph targets; texels per attribute of a morph target.
     ivec4 posing;
     // x: max deviation of the drawn levels from full detail (m); y: max number of parts of an edge (refined.tesc).
-    vec4 levels;
-} object;
+    vec2 levels;
+};
+layout(location = 96) uniform Object object;   // locations 96 to 100
 
 layout(std140, binding = 2) uniform MaterialBlock {
     vec4 baseColor;

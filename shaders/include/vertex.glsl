@@ -25,7 +25,7 @@ struct Vertex {
 #include "include/posing.glsl"
 #else
 Vertex vertexAt(vec2 moment, Posed rest, vec3 eye) {
-    Posed view = Posed((object.viewFromObject * vec4(rest.position, 1.0)).xyz, mat3(object.normalMatrix) * rest.normal,
+    Posed view = Posed((object.viewFromObject * vec4(rest.position, 1.0)).xyz, object.normalMatrix * rest.normal,
                        mat3(object.viewFromObject) * rest.tangent);
     return Vertex(view, eye, pinholePosition(view.position));
 }

@@ -60,6 +60,13 @@ bool transformsAnyUv(const Material& material) {
 
 }  // namespace
 
+std::size_t uniformStride(std::size_t bytes) {
+    GLint alignment = 256;
+    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
+    const auto step = static_cast<std::size_t>(alignment);
+    return (bytes + step - 1) / step * step;
+}
+
 bool transformsUv(const TextureUse& use) {
     return use.used() && (use.uvSet != 0 || use.uvTransform != glm::mat3(1.0f));
 }

@@ -15,20 +15,11 @@ namespace defocus::engine {
 
 namespace {
 
+constexpr GLint objectLocation = 96;  // first uniform location of Object in shaders/include/frame.glsl
+
 bool local(const PlacedLight& placed) {
     return placed.light.type != LightType::directional;
 }
-
-}  // namespace
-
-std::size_t uniformStride(std::size_t bytes) {
-    GLint alignment = 256;
-    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
-    const auto step = static_cast<std::size_t>(alignment);
-    return (bytes + step - 1) / step * step;
-}
-
-namespace {
 
 // Returns the max deviation in m of the object's drawn levels from full detail.
 double levelError(const World& world, const ObjectPlan& object) {
@@ -41,18 +32,28 @@ double levelError(const World& world, const ObjectPlan& object) {
 
 }  // namespace
 
-UniformBlocks<GpuObject> objectBlocks(const FramePlan& plan, const GpuScene& scene, std::vector<GpuPoses>& poses) {
+std::vector<GpuObject> objectUniforms(const FramePlan& plan, const GpuScene& scene, std::vector<GpuPoses>& poses) {
     poses.clear();
     poses.reserve(plan.objects.size());
-    return UniformBlocks<GpuObject>(plan.objects.size(), [&](std::size_t i) -> GpuObject {
-        const ObjectPlan& object = plan.objects[i];
+    std::vector<GpuObject> objects;
+    objects.reserve(plan.objects.size());
+    for (const ObjectPlan& object : plan.objects) {
         const GpuMesh& mesh = scene.mesh(object.mesh);
         poses.push_back(gpuPoses(plan, object, mesh));
-        return {glm::mat4(glm::translate(object.viewFromObject, mesh.origin)),
-                glm::mat4(glm::mat3(glm::inverseTranspose(glm::dmat3(object.viewFromObject)))),
-                glm::vec4(object.lambda, object.boundaryShare, object.object, object.cocScale), poses.back().layout,
-                glm::vec4(levelError(scene.world(), object), object.maxParts, 0, 0)};
-    });
+        objects.push_back({glm::mat4(glm::translate(object.viewFromObject, mesh.origin)),
+                           glm::mat3(glm::inverseTranspose(glm::dmat3(object.viewFromObject))),
+                           glm::vec4(object.lambda, object.boundaryShare, object.object, object.cocScale),
+                           poses.back().layout, glm::vec2(levelError(scene.world(), object), object.maxParts)});
+    }
+    return objects;
+}
+
+void setObject(const GpuObject& object) {
+    glUniformMatrix4fv(objectLocation, 1, GL_FALSE, &object.viewFromObject[0].x);
+    glUniformMatrix3fv(objectLocation + 1, 1, GL_FALSE, &object.normalMatrix[0].x);
+    glUniform4fv(objectLocation + 2, 1, &object.values.x);
+    glUniform4iv(objectLocation + 3, 1, &object.posing.x);
+    glUniform2fv(objectLocation + 4, 1, &object.levels.x);
 }
 
 std::vector<IndexRun> indexRuns(const World& world, const ObjectPlan& object, const GpuMesh& mesh, std::uint32_t level,

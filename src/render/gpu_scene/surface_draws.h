@@ -1,29 +1,31 @@
 #pragma once
-// Functions shared by all passes that draw the surfaces of a FramePlan: uniform blocks and poses of objects, index
+// Functions shared by all passes that draw the surfaces of a FramePlan: uniforms and poses of objects, index
 // ranges of visible clusters, and shader defines of a material.
 
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <vector>
 
 #include "render/gpu_scene/frame_uniforms.h"
 #include "render/gpu_scene/gpu_poses.h"
 #include "render/gpu_scene/gpu_scene.h"
-#include "render/gpu_scene/uniform_blocks.h"
 
 namespace defocus::engine {
 
-// Uniform block of an object; matches shaders/include/frame.glsl (std140).
+// Uniforms of an object; matches shaders/include/frame.glsl.
 struct GpuObject {
     glm::mat4 viewFromObject;
-    glm::mat4 normalMatrix;
+    glm::mat3 normalMatrix;
     glm::vec4 values;
     glm::ivec4 posing;
-    glm::vec4 levels;
+    glm::vec2 levels;
 };
 
-// Returns one uniform block per object of the plan, whose meshes `scene` must hold. Sets `poses` to one entry per
+// Returns the uniforms of each object of the plan, whose meshes `scene` must hold. Sets `poses` to one entry per
 // object.
-UniformBlocks<GpuObject> objectBlocks(const FramePlan& plan, const GpuScene& scene, std::vector<GpuPoses>& poses);
+std::vector<GpuObject> objectUniforms(const FramePlan& plan, const GpuScene& scene, std::vector<GpuPoses>& poses);
+// Sets the uniforms of an object in the current program.
+void setObject(const GpuObject& object);
 
 // Range of indices in MeshBuffers::indices.
 struct IndexRun {

@@ -65,7 +65,7 @@ void submit(SubmissionPacer& pacer, GLenum mode, const IndexRun& run, const Samp
 void SurfacePass::prepare(const FramePlan& plan, const FrameUniforms& frame, const ShadowMaps* shadows) {
     frame_ = &frame;
     shadows_ = shadows != nullptr && !shadows->defines().empty() ? shadows : nullptr;
-    objectBlocks_ = objectBlocks(plan, *scene_, poses_);
+    objects_ = objectUniforms(plan, *scene_, poses_);
     for (const bool vertexShaderLayers : {false, true}) {
         passDefines_[vertexShaderLayers] = passDefines(vertexShaderLayers);
         passPrograms_[vertexShaderLayers] = &programs_[keyOf(passDefines_[vertexShaderLayers])];
@@ -269,7 +269,10 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
         if (shadows_ != nullptr) shadows_->bind(sample);  // also sets a uniform of the program
         bound_.sample = sample;
     }
-    objectBlocks_.bind(1, item.object);
+    if (otherProgram || bound_.object != item.object) {
+        setObject(objects_[item.object]);
+        bound_.object = item.object;
+    }
     if (info_.writesNumbers) {  // the default material, −1, follows all others
         const auto last = static_cast<int>(scene_->world().scene->materials.size());
         glUniform1f(materialNumberLocation, static_cast<float>((item.material >= 0 ? item.material : last) + 1));
@@ -492,7 +495,7 @@ void SurfacePass::drawSky(std::uint32_t first, std::uint32_t count) {
 }
 
 std::size_t SurfacePass::bytes() const {
-    std::size_t total = objectBlocks_.bytes() + materialBlocks_.bytes() + backdrop_.bytes();
+    std::size_t total = materialBlocks_.bytes() + backdrop_.bytes();
     for (const GpuPoses& poses : poses_) total += poses.texels.bytes();
     return total;
 }

@@ -90,7 +90,7 @@ private:
         int mesh = -1;
         std::uint32_t level = 0;
         std::uint32_t primitive = 0;
-        std::uint32_t object = 0;  // index into the object blocks
+        std::uint32_t object = 0;  // index into FramePlan::objects
         int material = -1;
         std::size_t materialSlot = 0;  // index into the material blocks
         std::uint32_t firstSample = 0;
@@ -115,6 +115,7 @@ private:
         std::uint32_t level = 0;
         GLuint indices = 0;
         std::optional<std::uint32_t> sample;  // first sample of the draw
+        std::optional<std::uint32_t> object;
         std::optional<std::size_t> materialSlot;
     };
 
@@ -162,7 +163,7 @@ private:
     const FrameUniforms* frame_ = nullptr;
     const ShadowMaps* shadows_ = nullptr;
     int shadowSlot_ = 0;  // shadow map into which casters are drawn
-    UniformBlocks<GpuObject> objectBlocks_;
+    std::vector<GpuObject> objects_;
     MaterialBlocks materialBlocks_;
     std::vector<GpuPoses> poses_;  // poses, one entry per object
     std::map<int, std::size_t> materialSlots_;

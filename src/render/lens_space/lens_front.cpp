@@ -82,7 +82,7 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
     parts_ = moving ? static_cast<std::uint32_t>(std::clamp<std::size_t>(moments - 1, 1, plan.samples.size())) : 1;
     defines_ = frame.defines();
     if (moving) defines_.emplace_back("moving", "true");
-    objects_ = objectBlocks(plan, *scene_, poses_);
+    objects_ = objectUniforms(plan, *scene_, poses_);
     arrays_ = VertexArrays();
 
     // Collect vertices and triangles of all levels that are drawn for at least one ray.
@@ -253,7 +253,7 @@ void LensFront::makeVertices(const Buffer& target, std::size_t vertexBytes, bool
         const float place = static_cast<float>(moment) + fraction;
         if (poses.moving || (changesBlur(vertices) && !attributes))
             glUniform3f(0, static_cast<float>(moment), fraction, place / static_cast<float>(parts_));
-        objects_.bind(1, vertices.object);
+        setObject(objects_[vertices.object]);
         if (poses.texels) poses.texels.attach(6);
         if (mesh.morphs) mesh.morphs.texels.attach(7);
         glBindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, target.name(),
@@ -417,7 +417,7 @@ void LensFront::bindVertices() const {
 }
 
 std::size_t LensFront::bytes() const {
-    std::size_t total = objects_.bytes();
+    std::size_t total = 0;
     for (const Buffer* buffer : {&clips_, &clipsAtEnd_, &attributes_, &triangles_, &draws_, &depths_, &firstTriangles_,
                                  &vertexLight_, &tileCounts_, &tileEnds_, &entries_, &bases_, &ownBlurs_})
         total += buffer->bytes();

@@ -139,7 +139,7 @@ private:
     Program trianglesProgram_, depthsProgram_, countProgram_, fillProgram_, sortProgram_;
     GlTexture unused_;  // dummy target, which drivers need even with rasterization disabled
     Target unusedTarget_;
-    UniformBlocks<GpuObject> objects_;
+    std::vector<GpuObject> objects_;
     VertexArrays arrays_;
     std::vector<GpuPoses> poses_;
     std::vector<Vertices> vertices_;

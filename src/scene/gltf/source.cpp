@@ -147,7 +147,6 @@ Source openSource(const std::filesystem::path& path, const std::string& variant,
 
     // 2. Convert the JSON to tinygltf structures.
     source.model = readStructure(source.document);
-    source.document.json.erase("accessors");  // free memory: the structures hold all data of accessors
     useWebpImages(source);
 
     // 3. Read the buffers and decompress buffer views.

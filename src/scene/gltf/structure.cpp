@@ -33,9 +33,9 @@ void checkPrimitives(const Document& document, const tinygltf::Model& model) {
 
 }  // namespace
 
-tinygltf::Model readStructure(const Document& document) {
+tinygltf::Model readStructure(Document& document) {
     using namespace tinygltf;
-    const Json& json = document.json;
+    Json& json = document.json;
     Model model;
     readEach(document, json, "bufferViews", model.bufferViews, [](BufferView& view, auto& error, const Json& entry) {
         return ParseBufferView(&view, &error, entry, keepText);
@@ -43,6 +43,7 @@ tinygltf::Model readStructure(const Document& document) {
     readEach(document, json, "accessors", model.accessors, [](Accessor& accessor, auto& error, const Json& entry) {
         return ParseAccessor(&accessor, &error, entry, keepText);
     });
+    json.erase("accessors");  // free memory for the meshes: the structures hold all data of accessors
     readEach(document, json, "meshes", model.meshes, [&](Mesh& mesh, auto& error, const Json& entry) {
         return ParseMesh(&mesh, &model, &error, entry, keepText);
     });

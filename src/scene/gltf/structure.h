@@ -7,7 +7,8 @@
 namespace defocus::engine::gltf {
 
 // Converts all parts except buffers, images, materials and scenes, which are read directly from the JSON. The document
-// must have passed checkSchema. Throws Error if tinygltf cannot parse a part.
-tinygltf::Model readStructure(const Document& document);
+// must have passed checkSchema. Erases the JSON of accessors, which is large and no longer needed. Throws Error if
+// tinygltf cannot parse a part.
+tinygltf::Model readStructure(Document& document);
 
 }  // namespace defocus::engine::gltf
