@@ -163,7 +163,7 @@ def measure(arguments, name, folder):
         notes.append(f"EEVEE's image of {EEVEE_COUNTS[-1]} samples is {-20 * math.log10(points['eevee'][-1].rmse):.1f} dB from Cycles' limit.")
     distances = [f"{second} {difference(arguments.defocus, folder, 'accumulation-reference', f'{second}-reference')['psnr']:.1f} dB"
                  for second in ("embree", "cycles")]
-    drawn = next(image["drawnBy"] for image in images if image["method"] == "auto")
+    drawn = ", then ".join(dict.fromkeys(image["drawnBy"] for image in images if image["method"] == "auto"))
     return [f"{name}: {facts['triangles']:,} triangles, f/{facts['fStop']:.3g}; auto draws with {drawn}", *table(points),
             f"Distance between the limits of accumulation and of: {', '.join(distances)}", *notes, ""], facts
 
@@ -199,5 +199,5 @@ def main(words):
             print(lines[0])
         lines += more
         print(*more, sep="\n", flush=True)
-    if arguments.output:
-        write_file(arguments.output, "\n".join(lines).rstrip() + "\n")
+        if arguments.output:  # after each scene, so that a killed run keeps its tables
+            write_file(arguments.output, "\n".join(lines).rstrip() + "\n")
