@@ -51,3 +51,10 @@ def test_unknown_scenes_are_named(capsys):
     with pytest.raises(SystemExit):
         peers.main(["herring", "--program", __file__])
     assert "there is no scene 'herring'; the scenes are: school, helmets" in capsys.readouterr().err
+
+
+def test_the_committed_record_has_tables_of_the_command():
+    record = (RESULTS / "llvmpipe-peers.txt").read_text()
+    assert "-changed" not in record and " /" not in record
+    header, *_ = peers.table({"auto": power_law(1)})
+    assert "\nschool: " in record and header in record and record.count("\nfirst ") == record.count(header)
