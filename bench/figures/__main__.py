@@ -17,6 +17,7 @@ COMMANDS = {  # each name is a module of this package, with "-" for "_"
     "artefacts": "render known artefacts of image-space methods for a report",
     "lines": "compare line samples with points, in pictures and runs of bench/results/line-samples.md",
     "cycles": "compare lit, textured scenes with Blender's Cycles",
+    "peers": "compare the time to an equal error with Embree's, Cycles' and EEVEE's",
     "copies": "write a glTF scene of many copies of another, a load for the benches",
     "levels": "compare levels with full detail on copies of thin parts or of models",
     "quality": "measure how well the automatic number of samples meets its quality",

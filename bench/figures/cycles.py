@@ -32,6 +32,15 @@ def blender():
     return program, version
 
 
+def start_blender(program, script, settings, under=()):
+    """Starts a script of this folder in Blender's Python. settings: its last argument, as JSON. under: words before the command."""
+    # Debian's Blender uses the first Python in PATH, so put Blender's folder first.
+    environment = os.environ | {"PATH": f"{pathlib.Path(program).parent}:{os.environ['PATH']}"}
+    return subprocess.Popen([*under, program, "-b", "-noaudio", "--factory-startup", "--python-exit-code", "1",
+                             "-P", pathlib.Path(__file__).with_name(script), "--", json.dumps(settings)],
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=ROOT, env=environment)
+
+
 def size(text):
     width, height = map(int, text.split("x"))
     return width, height
@@ -52,11 +61,7 @@ def main(words):
             folder.mkdir(parents=True, exist_ok=True)
         settings = {"scenes": arguments.scenes, "width": arguments.size[0], "height": arguments.size[1],
                     "samples": arguments.samples, "counts": COUNTS, "folder": str(folder), "program": str(arguments.program)}
-        script = pathlib.Path(__file__).with_name("cycles_render.py")
-        # Debian's Blender uses the first Python in PATH, so put Blender's folder first.
-        environment = os.environ | {"PATH": f"{pathlib.Path(program).parent}:{os.environ['PATH']}"}
-        process = subprocess.Popen([program, "-b", "-noaudio", "--factory-startup", "--python-exit-code", "1", "-P", script, "--",
-                                    json.dumps(settings)], stdout=subprocess.PIPE, text=True, cwd=ROOT, env=environment)
+        process = start_blender(program, "cycles_render.py", settings)
         header = [f"{count} samples" for count in COUNTS] + ["Cycles' noise", f"{COUNTS[-1]}, shadows"]
         device, messages = "", []
         for line in process.stdout:

@@ -201,6 +201,22 @@ def error_times():
         f"\nCommand of the school on the H200: `{command_of('h200-school', run_of('h200-school'))}` (runs: {links}).\n")
 
 
+def peers():
+    """Returns the table of the times to equal errors of defocus, Embree, Cycles and EEVEE."""
+    rows, header, commands = [], [], []
+    for line in lines_of("llvmpipe-peers"):
+        cells = [line[:24].strip(), *(line[24 + 18 * i:42 + 18 * i].strip() for i in range(6))]
+        if line.startswith("$ "):
+            commands.append(line.removeprefix("$ "))
+        elif "; auto draws with " in line:
+            rows.append([f"**{line}**", *[""] * 6])
+        elif line.startswith("CPU s"):
+            header = cells
+        elif len(line) == 132:
+            rows.append([f"**{cell}**" for cell in cells] if cells[0] == "first" else cells)
+    return table(header, rows) + source("`, `".join(commands), "geometry, colours, camera, lens, image size", "llvmpipe-peers.txt")
+
+
 def window():
     """Returns the table of the window's frame rate, response and error for each method."""
     def waited(value):
@@ -216,4 +232,4 @@ def window():
 TABLES = {"window": window, "gpu speed": gpu_speed, "gpu equal error": gpu_equal_error, "speed": speed_sentence, "demo": demo, "seeds": seeds,
           "speedup": lambda: speed_table(FISH), "helmets": lambda: speed_table("llvmpipe-speedup-helmets"), "measured": measured,
           "levels": levels, "pop shares": pop_shares, "error times": error_times, "published ratios": published_ratios,
-          "published": published, "lenses": lenses, "popping": popping}
+          "published": published, "lenses": lenses, "popping": popping, "peers": peers}

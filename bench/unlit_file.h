@@ -1,0 +1,14 @@
+#pragma once
+// Writes a scene with painted light as a .glb file, so that other renderers can draw the picture of the benches.
+
+#include <filesystem>
+
+#include "frame/setup/prepared_frame.h"
+
+namespace defocus::engine {
+
+// Writes the frame's meshes with the colours of unlitScene (eval/convergence/unlit_scene.h), and its camera with the
+// lens in the extras. Lengths are in metres. Throws Error for skins and morph targets, and if writing fails.
+void writeUnlitFile(const std::filesystem::path& path, const PreparedFrame& frame);
+
+}  // namespace defocus::engine
