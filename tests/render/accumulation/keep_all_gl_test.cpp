@@ -23,9 +23,12 @@ protected:
     static void expectSameBits(const SmallWorld& small) { expectSameBits(small, settingsFor(16)); }
 };
 
-// Beside the camera; the pane reaches from 1 m behind the camera to 1 m before it.
+// A horizontal pane beside the camera, at the height of the lens. It reaches from 3 m behind the camera to 3 m before
+// it.
 glm::dmat4 beside() {
-    return glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(5, 0, 0)), 1.5, glm::dvec3(0, 1, 0));
+    const glm::dmat4 turned =
+        glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(3, 0, 0)), 1.5707963267948966, glm::dvec3(1, 0, 0));
+    return glm::scale(turned, glm::dvec3(1, 3, 1));
 }
 
 void addPane(SmallWorld& small, const Material& material, const glm::dmat4& worldFromObject) {
@@ -35,7 +38,7 @@ void addPane(SmallWorld& small, const Material& material, const glm::dmat4& worl
     finish(small);
 }
 
-// The unseen pane has no order with the others, and would make them stochastic.
+// The lens sees both sides of the unseen pane, which crosses the planes of others. It would make these stochastic.
 TEST_F(KeepAll, unseenPanesDoNotChangeTheBlending) {
     const auto small = overlappingPanes();
     Material blended = unlitMaterial({1, 0, 0, 0.5f});
@@ -49,10 +52,12 @@ TEST_F(KeepAll, unseenPanesDoNotChangeTheBlending) {
 TEST_F(KeepAll, unseenGlassDoesNotChangeTheGlass) {
     Material glass = unlitMaterial({0.5f, 0.8f, 0.9f, 1});
     glass.unlit = false;
+    glass.metallicFactor = 0;
+    glass.roughnessFactor = 0;
     glass.transmissionFactor = 1;
     const auto small = sceneOf({{1, facing(0, 0, 6, 0.8)}});
     small->world.environment = gradientSky();
-    for (int i = 0; i < 8; ++i) addPane(*small, glass, facing(0.1 * i - 0.4, 0, 1 + 0.5 * i, 0.5));
+    for (int i = 0; i < 10; ++i) addPane(*small, glass, facing(0.1 * i - 0.4, 0, 1 + 0.4 * i, 0.5));
     addPane(*small, glass, beside());
     expectSameBits(*small);
 }
@@ -63,14 +68,6 @@ TEST_F(KeepAll, unseenObjectsDoNotChangeShadows) {
     RenderSettings settings = settingsFor(8);
     settings.shadows = Shadows::on;
     expectSameBits(*small, settings);
-}
-
-TEST_F(KeepAll, unseenMotionDoesNotChangeTheSamples) {
-    const auto small = overlappingPanes();
-    addPane(*small, unlitMaterial(glm::vec4(1)), beside());
-    small->world.shutter.poses.assign(2, small->world.pose);
-    small->world.shutter.poses[1].objects.back().worldFromObject = glm::translate(beside(), glm::dvec3(0, 1, 0));
-    expectSameBits(*small);
 }
 
 }  // namespace
