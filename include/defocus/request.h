@@ -125,7 +125,7 @@ struct Request {
     LodCoc lodCoc = LodCoc::smallest;
     // Max error in px, > 0, of linear interpolation of the circle of confusion within a triangle.
     double cocTolerance = 0.5;
-    bool keepAll = false;                 // true: disables culling of invisible parts; the image stays the same
+    bool keepAll = false;                 // true: disables culling, and keeps the lens even if no blur is visible
     std::optional<std::uint64_t> memory;  // memory limit in bytes. Default: 3/4 of the free memory
     // Number of lens samples drawn at once, 1 … 64; does not change the image. Default: as many as fit into memory.
     std::optional<std::uint32_t> wave;

@@ -64,12 +64,14 @@ vec2 movement() {
 #endif
 
 #ifdef NUMBER_SLOT
-// Returns 1 if the lens sample counts the surface, else 0. A sample counts the surface if alpha exceeds the sample's
-// threshold. The thresholds are the van der Corput sequence, shifted for each object and pixel, so the fraction of
-// samples that count the surface is alpha.
-float counted(float alpha) {
-    uint offset = pixelPattern(pixelOfImage(), uint(object.values.z) + 1u);
-    return alpha > fractionOf(bitfieldReverse(uint(surface.sampleNumber)) + offset) ? 1.0 : 0.0;
+// Returns 1 if the lens sample shows the surface unless a nearer surface hides it, else 0. Blended surfaces that the
+// picture sorts are chosen by alpha, independently of each other. They are drawn from back to front, so the fraction of
+// samples with a surface's number is alpha · Π (1 − alpha of each nearer surface), its weight in the picture.
+float chosen(float alpha) {
+#ifdef CHOOSES_BY_ALPHA
+    if (alphaBlended) return alpha > alphaThreshold(pixelOfImage()) ? 1.0 : 0.0;
+#endif
+    return 1.0;
 }
 #endif
 
@@ -100,7 +102,6 @@ void main() {
     motionOut = covering(vec3(movement(), 0.0), alpha);
 #endif
 #ifdef NUMBER_SLOT
-    float shown = counted(alpha);
-    numberOut = vec4(object.values.z + 1.0, materialNumber, 0.0, 1.0) * shown;
+    numberOut = vec4(object.values.z + 1.0, materialNumber, 0.0, 1.0) * chosen(alpha);
 #endif
 }

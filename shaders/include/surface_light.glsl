@@ -47,8 +47,8 @@ vec4 surfaceLight() {
     vec4 baseColor = texturedColor(plainColor);
     surfaceBase = baseColor;
 #ifdef CHOOSES_BY_ALPHA
-    if (alphaTested ? maskHides(baseColor.a, plainColor.a, pixelOfImage(), wave.mipBias)
-                    : baseColor.a <= alphaThreshold(pixelOfImage())) discard;
+    if (alphaTested && maskHides(baseColor.a, plainColor.a, pixelOfImage(), wave.mipBias)) discard;
+    if (!alphaTested && !alphaBlended && baseColor.a <= alphaThreshold(pixelOfImage())) discard;
 #endif
     vec4 light = vec4(surfaceRadiance(baseColor.rgb), surfaceCoverage);
 #ifdef TRANSMISSIVE

@@ -57,8 +57,9 @@ constexpr ShaderConstant constants[] = {
     {"bool", "doubleSided", "false"},
     {"bool", "alphaTested", "false"},
     {"bool", "alphaBlended", "false"},
-    {"bool", "choosesByAlpha", "false", "CHOOSES_BY_ALPHA"},  // alpha decides which lens samples show a fragment
-    {"bool", "letsLightPass", "false"},                       // the shadow caster transmits light
+    {"bool", "choosesByAlpha", "false",
+     "CHOOSES_BY_ALPHA"},                // alpha decides which lens samples show or count a fragment
+    {"bool", "letsLightPass", "false"},  // the shadow caster transmits light
     {"bool", "vertexColors", "false"},
     {"bool", "colorRanges", "false", "COLOR_RANGES"},
     {"bool", "levelColorRange", "false"},

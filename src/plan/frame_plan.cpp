@@ -199,7 +199,6 @@ void boundDivisions(FramePlan& plan, const World& world) {
 std::string reasonToLeaveOut(const World& world, const FramePlan& plan, const ObjectPlan& object) {
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
     if (pyramid.levels.front().triangleCount == 0) return "it has no triangles";
-    if (plan.settings.keepAll) return "";
     if (outsideWidenedFrustum(object.viewBox, plan, object.own, object.coc.largest)) return "no lens sample can see it";
     return "";
 }
@@ -221,8 +220,9 @@ void arrange(std::vector<ObjectPlan>& values, std::vector<std::size_t> order) {
 }
 
 // Adds the potentially visible objects to the plan, nearest first, so that near objects occlude farther objects early.
-// If `all` isn't null, it receives all objects in the order of the pose.
-void placeObjects(FramePlan& plan, const World& world, std::vector<ObjectPlan>* all) {
+// Returns the other objects if RenderSettings::keepAll is set. If `all` isn't null, it receives all objects in the
+// order of the pose.
+std::vector<ObjectPlan> placeObjects(FramePlan& plan, const World& world, std::vector<ObjectPlan>* all) {
     const glm::dmat4 viewFromWorld = glm::inverse(plan.view.worldFromCamera);
     std::vector<ObjectPlan>& objects = plan.objects;
     objects.resize(world.pose.objects.size());
@@ -232,8 +232,14 @@ void placeObjects(FramePlan& plan, const World& world, std::vector<ObjectPlan>* 
         reasons[i] = reasonToLeaveOut(world, plan, objects[i]);
     });
     if (all != nullptr) *all = objects;
+    std::vector<ObjectPlan> unseen;
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < objects.size(); ++i) {
+        const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(objects[i].mesh)];
+        if (!reasons[i].empty() && plan.settings.keepAll && pyramid.levels.front().triangleCount > 0) {
+            unseen.push_back(std::move(objects[i]));
+            continue;
+        }
         if (!reasons[i].empty()) {
             plan.leftOut.push_back({"object " + objects[i].name, std::move(reasons[i])});
             continue;
@@ -244,6 +250,7 @@ void placeObjects(FramePlan& plan, const World& world, std::vector<ObjectPlan>* 
     objects.resize(order.size());
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return objects[i].nearestDepth; });
     arrange(objects, std::move(order));
+    return unseen;
 }
 
 // Returns the largest CoC in px of all drawn objects. A visible background counts if its colour varies.
@@ -330,6 +337,31 @@ void noteUnusedPaths(FramePlan& plan, const World& world) {
     if (plan.moments.empty()) plan.leftOut.push_back({"motion path", "nothing moves while the shutter is open"});
 }
 
+// Adds objects that no lens sample sees to a plan whose decisions are made, so that they change no decision. Their
+// transmissive primitives are not drawn, because glass takes a copy of the image.
+void addUnseen(FramePlan& plan, const World& world, std::vector<ObjectPlan> unseen) {
+    const std::uint32_t maxParts = plan.objects.empty() ? 1 : plan.objects.front().maxParts;
+    for (ObjectPlan& object : unseen) {
+        const auto mesh = static_cast<std::size_t>(object.mesh);
+        if (plan.moments.empty()) {
+            object.motion.clear();
+            object.blurMoves = false;
+        }
+        chooseLevels(object, world.pyramids[mesh], plan);
+        chooseRefinement(object, world, plan);
+        object.maxParts = maxParts;
+        object.coc = {};  // renderers and methods read the largest blur of all objects
+        const std::vector<Primitive>& primitives = world.scene->meshes[mesh].primitives;
+        for (std::uint32_t p = 0; p < primitives.size(); ++p) {
+            const Material& material = materialOf(*world.scene, primitives[p]);
+            if (material.alphaMode == AlphaMode::blend && !material.transmits())
+                plan.blendOrder.insert(plan.blendOrder.begin(),
+                                       {static_cast<std::uint32_t>(plan.objects.size()), p, 0, {}, true});
+        }
+        plan.objects.push_back(std::move(object));
+    }
+}
+
 void noteLevels(FramePlan& plan, const World& world) {
     std::uint64_t kept = 0;
     std::uint64_t all = 0;
@@ -408,7 +440,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
 
     const bool shadows = drawsShadows(world, settings);
     std::vector<ObjectPlan> mayCast;
-    placeObjects(plan, world, shadows ? &mayCast : nullptr);
+    std::vector<ObjectPlan> unseen = placeObjects(plan, world, shadows ? &mayCast : nullptr);
     planMoments(plan, world, mayCast);
     if (shadows) plan.shadows = planShadows(world, plan, mayCast);
 
@@ -432,6 +464,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     });
     if (plan.usesCocControls) boundDivisions(plan, world);
     noteUnusedPaths(plan, world);
+    addUnseen(plan, world, std::move(unseen));
     noteLevels(plan, world);
     return plan;
 }

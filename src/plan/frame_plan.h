@@ -153,7 +153,7 @@ struct FramePlan {
     // Transforms from view space at each shutter time to view space in the middle of the exposure; empty if the camera
     // doesn't move.
     std::vector<glm::dmat4> middleFromView;
-    std::vector<ObjectPlan> objects;   // objects to draw, front to back
+    std::vector<ObjectPlan> objects;   // objects to draw, front to back; then unseen objects of keepAll
     std::vector<BlendRun> blendOrder;  // all alpha-blended and transmissive primitives, back to front
     ShadowPlan shadows;
     std::vector<LeftOut> leftOut;

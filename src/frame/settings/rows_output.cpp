@@ -109,7 +109,9 @@ Rows developerRows() {
                      "are subdivided")
             .unit("px")
             .unused(methodWithoutSamples),
-        rows::boolean("keepAll", "--keep-all", MEMBER(keepAll), "Disable culling (same image, slower)")
+        rows::boolean("keepAll", "--keep-all", MEMBER(keepAll),
+                      "Disable culling, and keep the lens and all samples if no blur reaches half a pixel (slower; the "
+                      "image is the same if some blur reaches half a pixel)")
             .effect(SettingEffect::run),
         rows::other(
             "memory", "--memory", "SIZE",
@@ -128,9 +130,10 @@ Rows developerRows() {
             "Maximum number of samples drawn at once; does not affect the image. Default: as many as fit into "
             "memory, at most 16 for each thread")
             .effect(SettingEffect::run),
-        rows::integer("threads", "--threads", 1, 64, MEMBER(threads),
-                      "Number of threads that draw lens samples at the same time, each with an OpenGL context of its "
-                      "own; does not affect the image. Default: half of the cores with llvmpipe of Mesa 25.0 or later, else 1")
+        rows::integer(
+            "threads", "--threads", 1, 64, MEMBER(threads),
+            "Number of threads that draw lens samples at the same time, each with an OpenGL context of its "
+            "own; does not affect the image. Default: half of the cores with llvmpipe of Mesa 25.0 or later, else 1")
             .effect(SettingEffect::run)
             .unused(methodWithoutThreads),
     };

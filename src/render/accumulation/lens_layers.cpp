@@ -42,7 +42,10 @@ std::vector<Slot> slotsOf(const std::vector<Layer>& layers, bool countsSamples) 
         if (wanted) slots.push_back({name, format});
     };
     const bool coc = has(layers, Layer::coc);
-    add(countsSamples || coc || has(layers, Layer::depth), "DEPTH_SLOT",
+    // Numbers have no alpha of which the coverage is the sum: each sample has one number or none.
+    const auto isNumber = [](Layer layer) { return layer == Layer::objects || layer == Layer::materials; };
+    const bool onlyNumbers = !layers.empty() && std::ranges::all_of(layers, isNumber);
+    add(countsSamples || onlyNumbers || coc || has(layers, Layer::depth), "DEPTH_SLOT",
         coc ? TextureFormat::rgba32f : TextureFormat::rg32f);
     add(has(layers, Layer::position), "POSITION_SLOT", TextureFormat::rgba32f);
     add(has(layers, Layer::normal), "NORMAL_SLOT", TextureFormat::rgba16f);
@@ -87,18 +90,6 @@ Image mean(const Image& sum, const Image& samples, int first, int channels) {
             result.pixels[i * static_cast<std::size_t>(channels) + static_cast<std::size_t>(c)] =
                 sum.pixels[4 * i + static_cast<std::size_t>(first + c)] / std::max(samples.pixels[i], 1.0f);
     return result;
-}
-
-// Returns for each pixel the fraction of the samples that show any object or material.
-Image coverageOf(const NumberCounts& counts, const Image& samples) {
-    Image coverage(counts.width, counts.height, 1);
-    const auto entries = static_cast<std::size_t>(counts.entries);
-    for (std::size_t i = 0; i < coverage.pixels.size(); ++i) {
-        std::uint32_t counted = 0;
-        for (std::size_t e = 0; e < entries; ++e) counted += counts.values[i * entries + e] & 0xffffu;
-        coverage.pixels[i] = static_cast<float>(counted) / std::max(samples.pixels[i], 1.0f);
-    }
-    return coverage;
 }
 
 NumberCounts readCounts(const GlTexture& table) {
@@ -272,10 +263,8 @@ LayerImages LensLayers::images(const glm::dvec3& camera) const {
         result.samples = channelOf(lost, 3);
         if (has(layers_, Layer::depth)) result.nearestDepth = channelOf(sum, 3);
     }
-    if (!sums.empty()) {
-        const std::string& slot = coverageSlot();
-        result.coverage = mean(sums.at(slot), result.samples, slot == depthSlot ? 1 : 3, 1);
-    }
+    const std::string& slot = coverageSlot();
+    result.coverage = mean(sums.at(slot), result.samples, slot == depthSlot ? 1 : 3, 1);
     const auto take = [&](Layer layer, const char* slot, int first, int channels) {
         if (has(layers_, layer)) result.means[layer] = mean(sums.at(slot), result.samples, first, channels);
     };
@@ -292,7 +281,6 @@ LayerImages LensLayers::images(const glm::dvec3& camera) const {
                 position->second.pixels[3 * i + static_cast<std::size_t>(c)] +=
                     static_cast<float>(camera[c] * static_cast<double>(result.coverage.pixels[i]));
     for (const auto& [layer, table] : tables_) result.numbers[layer] = readCounts(table.entries);
-    if (sums.empty()) result.coverage = coverageOf(result.numbers.begin()->second, result.samples);
     return result;
 }
 

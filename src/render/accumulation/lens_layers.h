@@ -76,7 +76,7 @@ private:
     };
 
     const Program& program(const char* fragment, ShaderDefines defines);
-    // Returns the slot whose sum has the coverage; all slots have the same alpha. There must be a slot.
+    // Returns the slot whose sum has the coverage; all slots but the numbers have the same alpha.
     [[nodiscard]] const std::string& coverageSlot() const;
     void addSlot(const std::string& slot, const GlTexture& layers, const FrameUniforms& frame, std::uint32_t first,
                  std::uint32_t count);

@@ -203,7 +203,7 @@ const Program& SurfacePass::program(const Draw& draw) {
     set(material.alphaMode == AlphaMode::mask, "alphaTested");
     const bool blended = material.alphaMode == AlphaMode::blend;
     set(blended && !draw.stochasticAlpha, "alphaBlended");
-    set(material.alphaMode == AlphaMode::mask || draw.stochasticAlpha ||
+    set(material.alphaMode == AlphaMode::mask || draw.stochasticAlpha || (info_.writesNumbers && blended) ||
             (info_.look == SurfaceLook::caster && (blended || material.transmits())),
         "choosesByAlpha");
     set(draw.screenDoor == ScreenDoor::coarseShare, "coarseShare");

@@ -6,41 +6,10 @@
 
 #include "lens/circle_of_confusion.h"
 #include "likeness.h"
-#include "render/accumulation/accumulated.h"
+#include "render/accumulation/drawn_layers.h"
 
 namespace defocus::engine {
 namespace {
-
-const std::vector<Layer> everyLayer = {Layer::depth,  Layer::position, Layer::normal,  Layer::albedo,   Layer::emission,
-                                       Layer::motion, Layer::coc,      Layer::objects, Layer::materials};
-
-struct Drawn {
-    Image picture;
-    LayerImages layers;
-    FramePlan plan;
-};
-
-class LensLayer : public Accumulation {
-protected:
-    static Drawn drawn(const SmallWorld& small, std::uint32_t samples, const std::vector<Layer>& layers = everyLayer,
-                       std::uint32_t wave = 0) {
-        RenderSettings settings = settingsFor(samples, LodMode::off);
-        settings.layers = layers;
-        RendererOptions options;
-        options.layerFormat = LayerFormat::rgba32f;
-        options.wave = wave;
-        const auto renderer = methodNamed("accumulation").make(small.world, options);
-        Drawn result;
-        result.plan = planFrame(small.world, small.view, settings);
-        result.picture = imageOf(*renderer, result.plan);
-        result.layers = renderer->layerImages().value();
-        return result;
-    }
-};
-
-glm::dmat4 facing(double x, double y, double depth, double halfSize) {
-    return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(x, y, -depth)), glm::dvec3(halfSize));
-}
 
 // Three squares of unlit colours at different depths on black; the lens blurs the first and the last.
 std::unique_ptr<SmallWorld> threeSquares() {
@@ -61,10 +30,6 @@ std::unique_ptr<SmallWorld> threeSquares() {
     small->view.lens.focusDistance = 2;
     finish(*small);
     return small;
-}
-
-float valueAt(const Image& image, int x, int y, int channel = 0) {
-    return image.at(x, y)[channel];
 }
 
 TEST_F(LensLayer, leavesThePictureUnchanged) {
