@@ -52,21 +52,21 @@ std::string arcsAdvice(const UsdLayer& layer) {
            "--flatten";
 }
 
-PrimPath chosenCamera(const UsdLayer& layer, const std::string& path, const std::string& file) {
+// Returns the camera with a path or a name; `chosen` empty: the only camera.
+PrimPath chosenCamera(const UsdLayer& layer, const std::string& chosen, const std::string& file) {
     std::vector<PrimPath> cameras;
     PrimPath scratch;
     for (const UsdPrim& prim : layer.prims) collectCameras(prim, scratch, cameras);
     if (cameras.empty()) fail("{}: the file has no camera{}", file, arcsAdvice(layer));
-    if (path.empty()) {
-        if (cameras.size() > 1)
-            fail("{}: the file has several cameras: {}; add one to the name, such as {}:{}", file, listOf(cameras),
-                 file, pathText(cameras.front()));
-        return cameras.front();
-    }
-    const auto found = std::ranges::find(cameras, path, pathText);
-    if (found == cameras.end())
-        fail("{}: there is no camera {}; the cameras are: {}{}", file, path, listOf(cameras), arcsAdvice(layer));
-    return *found;
+    std::vector<PrimPath> found;
+    for (const PrimPath& camera : cameras)
+        if (chosen.empty() || chosen == pathText(camera) || chosen == camera.back()->name) found.push_back(camera);
+    if (found.empty())
+        fail("{}: there is no camera {}; the cameras are: {}{}", file, chosen, listOf(cameras), arcsAdvice(layer));
+    if (found.size() > 1)
+        fail("{}: the file has several cameras{}: {}; give a path, such as {}:{}", file,
+             chosen.empty() ? "" : " of the name " + chosen, listOf(found), file, pathText(found.front()));
+    return found.front();
 }
 
 struct Stage {

@@ -110,6 +110,15 @@ TEST(UsdCamera, takesAnImpossibleSensorAsMillimetres) {
     EXPECT_NE(track.warnings[0].find("3.6 m wide"), std::string::npos) << track.warnings[0];
 }
 
+TEST(UsdCamera, isChosenByPathOrByName) {
+    EXPECT_EQ(camera(usda_samples::plain, "cam").at(0).camera.name, "cam");
+    const std::string two =
+        "#usda 1.0\ndef Xform \"a\" { def Camera \"cam\" {} }\ndef Xform \"b\" { def Camera \"cam\" {} }\n";
+    EXPECT_EQ(refusal(two, "cam", "cam", "cam"),
+              "shot.usda: the file has several cameras of the name cam: /a/cam, /b/cam; give a path, such as "
+              "shot.usda:/a/cam");
+}
+
 TEST(UsdCamera, refusesWhatItCannotRead) {
     const std::string plain = usda_samples::plain;
     EXPECT_NE(refusal(plain, "#usda 1.0", "PXR-USDC").find("usdcat"), std::string::npos);
