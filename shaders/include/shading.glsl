@@ -115,13 +115,14 @@ struct Spread {
 };
 
 // Pixel footprint: follows Kaplanyan et al. 2016 (Filtering Distributions of Normals for Shading Antialiasing). The
-// bound is from Tokuyoshi and Kaplanyan 2019 (Improved Geometric Specular Antialiasing). The normals are those of eight
-// times a texture's area (WaveBlock), but at most of a pixel, weighted by a normal distribution whose σ is half the
-// area's width. Over a smaller area, few samples meet the sun's highlight on a mirror, or none; over a larger one,
-// highlights are blurred. The same variance in all directions leaves the fewest white pixels. On a wire, however,
-// normals vary by half a turn across the wire and hardly along it. A highlight that is widened along the wire would
-// light parts that face away from the light. The variance along the wire is therefore at most 2σ² = 0.03, unless
-// normals vary more in this direction. The widening vanishes as the number of samples grows, and on flat surfaces.
+// bound is from Tokuyoshi and Kaplanyan 2019 (Improved Geometric Specular Antialiasing). σ² is the variance of the
+// normals over an area of 8 · footprint² px (WaveBlock), at most one pixel, weighted by a normal distribution whose σ is
+// half the width of the area. With half of this area, 64 samples miss up to 12 % of the sun's light that a mirror ball
+// reflects, because its highlight is far smaller than a pixel. A larger area blurs highlights more than it saves noise.
+//
+// The same variance is used in all directions. On a wire, however, normals vary by half a turn across the wire and
+// hardly along it. A highlight that is widened along the wire would light parts that face away from the light. The
+// variance along the wire is therefore at most 2σ² = 0.03, unless normals vary more in this direction.
 Spread slopeSpread(SurfacePoint point) {
     float right2 = dot(point.normalRight, point.normalRight);
     float up2 = dot(point.normalUp, point.normalUp);
