@@ -12,8 +12,10 @@ Levels of detail are those of `--lod fractional`, the default for a given number
 Errors are RMSE and FLIP of sRGB-encoded values in [0, 1]. Each renderer is compared with its own image of many samples and
 another seed, at full detail; EEVEE with that of Cycles. The distances between these images show that all draw one picture.
 Times are CPU seconds of all threads to draw an image, and in brackets wall-clock seconds. They exclude start-up, loading,
-pyramids and ray-tracing hierarchies. Up to 32 samples, the fastest of three images counts. Times between two numbers of samples are interpolated, logarithm over logarithm. "first" has the least CPU time of its column, and says how many times
-the CPU time of embree-shared is as long.
+pyramids and ray-tracing hierarchies. Up to 32 samples, each time is the least of three images, except for EEVEE. Times
+between two numbers of samples are interpolated, logarithm over logarithm. The row "first" names the renderer with the
+least CPU time, and how many times this time the CPU time of embree-shared is. It is undecided if another renderer
+reaches the error with its smallest number of samples, whose time is only an upper bound.
 """
 
 import json
@@ -33,7 +35,7 @@ from figures.files import write_file
 from figures.timed import processor
 
 COUNTS = (2, 4, 8, 16, 32, 64, 128, 256)
-EEVEE_COUNTS = (4, 16)  # more change its image little
+EEVEE_COUNTS = (4, 16)  # more samples hardly change its image
 TARGETS = [("rmse", 0.01), ("rmse", 0.005), ("rmse", 0.0033), ("flip", 0.03), ("flip", 0.015), ("flip", 0.01)]
 REFERENCES = {"auto": "accumulation", "accumulation": "accumulation", "embree-shared": "embree", "embree": "embree", "cycles": "cycles",
               "eevee": "cycles"}
@@ -56,7 +58,7 @@ class Time(NamedTuple):
 
 
 def time_to(points, metric, target):
-    """Returns the Time in which points, by rising numbers of samples, reach an error; None if none does."""
+    """Returns the interpolated Time at which the error falls to the target; None if it does not. points: by number of samples."""
     before = None
     for point in points:
         error = getattr(point, metric)
@@ -132,7 +134,7 @@ def rendered_with_eevee(program, settings):
         process.kill()
         return "EEVEE is left out: it takes more than ten minutes"
     images = [json.loads(line) for line in output.splitlines() if line.startswith("{")]
-    return without_overhead(images) if process.returncode == 0 else "EEVEE is left out: it does not start here"
+    return without_overhead(images) if process.returncode == 0 else f"EEVEE is left out: Blender fails with exit code {process.returncode}"
 
 
 def measure(arguments, name, folder):

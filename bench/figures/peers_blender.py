@@ -17,7 +17,7 @@ REFERENCE_SEED = 1_000_000
 
 
 def emit_base_colour(material):
-    """Makes the surface emit vertex colour times factor. Lamps are never sampled, because nothing is lit."""
+    """Makes the surface emit vertex colour times factor. Cycles does not sample it as a light, because light does not bounce."""
     factor = next((socket.default_value[:] for node in material.node_tree.nodes if node.type == "MIX"
                    for socket in node.inputs if socket.type == "RGBA" and not socket.is_linked), (1, 1, 1))
     add, link = material.node_tree.nodes.new, material.node_tree.links.new

@@ -22,7 +22,7 @@ METHODS = choices(("auto", "Automatic", "Multirate where a visible part of the p
                   ("scheuermann", "Scheuermann", "Poisson disk over one pinhole image"),
                   ("stochastic", "Stochastic", "Stochastic lens samples for each pixel"),
                   ("line", "Line", "Line samples on the lens"))
-LEVELS = choices(("auto", "Automatic", "Full detail where few samples are drawn, else fractional"),
+LEVELS = choices(("auto", "Automatic", "Full detail if building the levels of a still image takes longer than they save, else fractional"),
                  ("fractional", "Fractional", "The lens samples are split between two levels of detail"),
                  ("continuous", "Continuous", "One sample draws both levels, each in some of its pixels"),
                  ("nearest", "Nearest", "One level of detail"),

@@ -14,8 +14,8 @@ layout(std140, binding = 0) uniform FrameBlock {
     vec4 lightPositions[maxLights];  // xyz: m from the camera along the world's axes; w: range (m), 0: unlimited
 } frame;
 
-// Plain uniforms instead of a block: each draw has another object, and Mesa's software driver copies 33 KB of state if a
-// draw changes any block, even one that only the vertex shader reads.
+// Plain uniforms instead of a block, because most draws change the object. llvmpipe copies 33 KB of state for each draw
+// that changes a uniform block.
 struct Object {
     mat4 viewFromObject;
     mat3 normalMatrix;    // inverse transpose of the upper 3×3 of viewFromObject

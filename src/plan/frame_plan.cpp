@@ -337,8 +337,8 @@ void noteUnusedPaths(FramePlan& plan, const World& world) {
     if (plan.moments.empty()) plan.leftOut.push_back({"motion path", "nothing moves while the shutter is open"});
 }
 
-// Adds objects that no lens sample sees to a plan whose decisions are made, so that they change no decision. Their
-// transmissive primitives are not drawn, because glass takes a copy of the image.
+// Appends objects that no lens sample sees, after all decisions of the plan, so that they change none. Omits their
+// transmissive primitives, because only the nearest eight glass objects may copy the image.
 void addUnseen(FramePlan& plan, const World& world, std::vector<ObjectPlan> unseen) {
     const std::uint32_t maxParts = plan.objects.empty() ? 1 : plan.objects.front().maxParts;
     for (ObjectPlan& object : unseen) {
@@ -350,7 +350,7 @@ void addUnseen(FramePlan& plan, const World& world, std::vector<ObjectPlan> unse
         chooseLevels(object, world.pyramids[mesh], plan);
         chooseRefinement(object, world, plan);
         object.maxParts = maxParts;
-        object.coc = {};  // renderers and methods read the largest blur of all objects
+        object.coc = {};  // no blur, because renderers take the maximum over all objects
         const std::vector<Primitive>& primitives = world.scene->meshes[mesh].primitives;
         for (std::uint32_t p = 0; p < primitives.size(); ++p) {
             const Material& material = materialOf(*world.scene, primitives[p]);

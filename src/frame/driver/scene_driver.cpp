@@ -49,8 +49,8 @@ std::size_t pyramidKind(const RenderSettings& settings) {
 std::vector<std::string> tiledSamplesNote(const FramePlan& plan) {
     if (!plan.usesLens) return {};
     return {
-        fmt::format("the image is drawn in tiles with {} lens samples, the maximum that its blur may need; an untiled "
-                    "image estimates its error and may take another number",
+        fmt::format("the image is drawn in tiles with {} lens samples, predicted from its blur; an untiled image may take "
+                    "another number; set the number with --samples",
                     plan.samples.size())};
 }
 

@@ -110,8 +110,8 @@ Rows developerRows() {
             .unit("px")
             .unused(methodWithoutSamples),
         rows::boolean("keepAll", "--keep-all", MEMBER(keepAll),
-                      "Disable culling, and keep the lens and all samples if no blur reaches half a pixel (slower; the "
-                      "image is the same if some blur reaches half a pixel)")
+                      "Disable culling (slower). Also draws the blur and all samples if all blur is below half a pixel; otherwise, "
+                      "the image is the same")
             .effect(SettingEffect::run),
         rows::other(
             "memory", "--memory", "SIZE",

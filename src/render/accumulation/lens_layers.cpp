@@ -42,7 +42,7 @@ std::vector<Slot> slotsOf(const std::vector<Layer>& layers, bool countsSamples) 
         if (wanted) slots.push_back({name, format});
     };
     const bool coc = has(layers, Layer::coc);
-    // Numbers have no alpha of which the coverage is the sum: each sample has one number or none.
+    // The coverage is the mean alpha of a slot. NUMBER_SLOT has none, so layers of numbers alone also need DEPTH_SLOT.
     const auto isNumber = [](Layer layer) { return layer == Layer::objects || layer == Layer::materials; };
     const bool onlyNumbers = !layers.empty() && std::ranges::all_of(layers, isNumber);
     add(countsSamples || onlyNumbers || coc || has(layers, Layer::depth), "DEPTH_SLOT",

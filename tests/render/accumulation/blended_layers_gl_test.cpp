@@ -73,7 +73,7 @@ protected:
     }
 };
 
-// The slow tests try all combinations.
+// The slow tests try all pairs.
 TEST_F(BlendedLayer, coverageIsThePicturesAlphaWithAnyLayer) {
     const auto small = overlappingPanes();
     expectCoverage(*small, everyLayer);
@@ -99,7 +99,7 @@ TEST_F(BlendedLayer, countsBeforeAnOpaqueWallFillThePixel) {
     }
 }
 
-// Two surfaces of one object cover 1 − (1 − a)(1 − b) of it.
+// Two surfaces of one object, of alpha a and b, cover 1 − (1 − a)(1 − b) of a pixel.
 TEST_F(BlendedLayer, surfacesOfOneObjectAreIndependent) {
     const auto small = sceneOf({pane(0.5f, 1)});
     Mesh& mesh = small->scene.meshes[0];

@@ -38,7 +38,7 @@ void addPane(SmallWorld& small, const Material& material, const glm::dmat4& worl
     finish(small);
 }
 
-// The lens sees both sides of the unseen pane, which crosses the planes of others. It would make these stochastic.
+// The unseen pane has no order relative to the visible panes. If it were sorted with them, these would become stochastic.
 TEST_F(KeepAll, unseenPanesDoNotChangeTheBlending) {
     const auto small = overlappingPanes();
     Material blended = unlitMaterial({1, 0, 0, 0.5f});
