@@ -1,6 +1,6 @@
 #pragma once
 // Includes tinygltf with its namespace renamed. structure.cpp compiles tinygltf into this library; the new name avoids
-// clashes with another copy in a program. Internal to the glTF loader.
+// clashes with another copy in a program. Internal to the code that reads and writes glTF.
 
 #include <fstream>  // tinygltf needs <fstream>, but does not include it with TINYGLTF_NO_FS
 

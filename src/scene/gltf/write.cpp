@@ -1,29 +1,20 @@
-// Source: glTF 2.0 specification, buffers and accessors (3.6) and meshes (3.7.2).
+// Source: glTF 2.0 specification, meshes (3.7.2).
 
 #include "scene/gltf/write.h"
 
-#include <bit>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/bounds.h"
 #include "core/error.h"
-#include "core/file.h"
-#include "scene/gltf/tinygltf.h"
+#include "scene/gltf/model_writer.h"
 #include "scene/vertex_block.h"
 
 namespace defocus::engine {
 
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "buffers are written as they lie in memory");
 
 namespace tinygltf = gltf::tinygltf;
 
@@ -72,55 +63,19 @@ glm::vec3 unitNormal(const glm::vec3& normal) {
     return glm::vec3(wide / length);
 }
 
-// Appends `values` as a new buffer view with an accessor, and returns the accessor's index. `type` is a TINYGLTF_TYPE_…
-// constant.
-template <typename T>
-int append(tinygltf::Model& model, const std::vector<T>& values, int type, int componentType, int target) {
-    static_assert(sizeof(T) % 4 == 0);
-    std::vector<unsigned char>& buffer = model.buffers.front().data;
-    tinygltf::BufferView& view = model.bufferViews.emplace_back();
-    view.buffer = 0;
-    view.byteOffset = buffer.size();
-    view.byteLength = values.size() * sizeof(T);
-    view.target = target;
-    const auto* const bytes = reinterpret_cast<const unsigned char*>(values.data());
-    buffer.insert(buffer.end(), bytes, bytes + view.byteLength);
-    tinygltf::Accessor& accessor = model.accessors.emplace_back();
-    accessor.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
-    accessor.componentType = componentType;
-    accessor.count = values.size();
-    accessor.type = type;
-    return static_cast<int>(model.accessors.size()) - 1;
-}
-
-template <typename Vector>
-int appendVectors(tinygltf::Model& model, const std::vector<Vector>& values) {
-    static_assert(TINYGLTF_TYPE_VEC2 == 2 && TINYGLTF_TYPE_VEC3 == 3 && TINYGLTF_TYPE_VEC4 == 4);
-    return append(model, values, Vector::length(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TARGET_ARRAY_BUFFER);
-}
-
-int appendPositions(tinygltf::Model& model, const std::vector<glm::vec3>& positions) {
-    const int number = appendVectors(model, positions);
-    Bounds bounds;
-    for (const glm::vec3& position : positions) bounds.extend(glm::dvec3(position));
-    model.accessors.back().minValues = {bounds.minimum.x, bounds.minimum.y, bounds.minimum.z};
-    model.accessors.back().maxValues = {bounds.maximum.x, bounds.maximum.y, bounds.maximum.z};
-    return number;
-}
-
 std::map<std::string, int> appendVertices(tinygltf::Model& model, Vertices vertices) {
     std::map<std::string, int> attributes;
-    attributes["POSITION"] = appendPositions(model, vertices.positions);
+    attributes["POSITION"] = gltf::appendPositions(model, vertices.positions);
     for (glm::vec3& normal : vertices.normals) normal = unitNormal(normal);
-    if (!vertices.normals.empty()) attributes["NORMAL"] = appendVectors(model, vertices.normals);
+    if (!vertices.normals.empty()) attributes["NORMAL"] = gltf::appendVectors(model, vertices.normals);
     const auto appendUv = [&](const char* name, std::vector<glm::vec2>& uv) {
         for (glm::vec2& place : uv)
             if (!std::isfinite(place.x) || !std::isfinite(place.y)) place = glm::vec2(0);
-        if (!uv.empty()) attributes[name] = appendVectors(model, uv);
+        if (!uv.empty()) attributes[name] = gltf::appendVectors(model, uv);
     };
     appendUv("TEXCOORD_0", vertices.uv0);
     if (!vertices.uv0.empty()) appendUv("TEXCOORD_1", vertices.uv1);  // glTF does not allow set 1 without set 0
-    if (!vertices.colors.empty()) attributes["COLOR_0"] = appendVectors(model, vertices.colors);
+    if (!vertices.colors.empty()) attributes["COLOR_0"] = gltf::appendVectors(model, vertices.colors);
     return attributes;
 }
 
@@ -140,13 +95,11 @@ tinygltf::Model modelOf(const Mesh& mesh) {
     model.nodes.emplace_back().mesh = 0;
     model.nodes.back().name = utf8(mesh.name);
     model.meshes.emplace_back().name = model.nodes.back().name;
-    model.buffers.emplace_back();
     const std::map<std::string, int> attributes = appendVertices(model, gathered(mesh.vertices, written.vertices));
     for (const std::vector<std::uint32_t>& triangles : written.triangles) {
         tinygltf::Primitive& primitive = model.meshes.back().primitives.emplace_back();
         primitive.attributes = attributes;
-        primitive.indices = append(model, triangles, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-                                   TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+        primitive.indices = gltf::appendIndices(model, triangles);
         primitive.mode = TINYGLTF_MODE_TRIANGLES;
     }
     return model;
@@ -155,15 +108,7 @@ tinygltf::Model modelOf(const Mesh& mesh) {
 }  // namespace
 
 void writeGlb(const std::filesystem::path& path, const Mesh& mesh) {
-    const tinygltf::Model model = modelOf(mesh);
-    PendingFile file(path);
-    std::ofstream stream(file.temporaryPath(), std::ios::binary);
-    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
-    if (stream.tellp() > std::streamoff{std::numeric_limits<std::uint32_t>::max()})
-        fail("mesh \"{}\": {} bytes exceed the maximum size of a .glb file", mesh.name, std::streamoff{stream.tellp()});
-    stream.close();
-    if (!stream) fail("cannot write {}: {}", path.string(), std::strerror(errno));
-    file.commit();
+    gltf::writeModel(path, modelOf(mesh));
 }
 
 }  // namespace defocus::engine
