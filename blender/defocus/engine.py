@@ -15,6 +15,7 @@ from .main_thread import on_main_thread
 from .motion import exposure_of, poses_during
 from .passes import passes_of, read_passes, words_for
 from .preferences import find_program
+from .scratch import new_folder
 
 pictures = {}  # last picture of a (scene, view layer): (pixels of each pass, texts, width, height)
 reports = {}  # scene name → lines about everything that the last export left out
@@ -37,8 +38,6 @@ class DefocusEngine(bpy.types.RenderEngine):
             pictures[picture_key(depsgraph)] = pixels, texts, view.picture_width, view.picture_height
         except Failure as failure:
             self.report({"ERROR"}, str(failure))
-        except OSError as error:
-            self.report({"ERROR"}, f"The temporary folder cannot be written: {error.strerror}")
         except Cancelled:
             pass
         self.show_last(depsgraph)
@@ -50,7 +49,7 @@ class DefocusEngine(bpy.types.RenderEngine):
         """Returns the pixels of each pass (name → array of all values), the texts for the metadata, and the View."""
         scene = depsgraph.scene_eval
         found = find_program()
-        with tempfile.TemporaryDirectory(prefix="defocus-") as folder:
+        with new_folder("render", tempfile.TemporaryDirectory) as folder:
             self.update_stats("", "Defocus: exporting the scene")
             poses = poses_during(self, depsgraph, exposure_of(scene)[1])
             exported = self.on_main_thread(lambda: export(depsgraph, folder, poses, is_film=self.is_animation))

@@ -63,7 +63,7 @@ def read(file):
         with open(file, "rb") as opened:
             data = opened.read()
     except OSError as error:
-        raise Failure(f"the picture cannot be read: {error.strerror}") from error
+        raise Failure(f"defocus wrote no picture that can be read: {error.strerror}") from error
     try:
         return read_data(data)
     except (IndexError, KeyError, ValueError, struct.error, zlib.error) as error:

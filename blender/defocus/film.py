@@ -6,7 +6,6 @@ hash of all that the exporter writes, except for the poses of objects.
 
 import hashlib
 import shutil
-import tempfile
 
 import bpy
 import numpy
@@ -14,6 +13,7 @@ from bpy.app.handlers import persistent
 
 from .materials import changes_with_time
 from .motion import instance_key
+from .scratch import new_folder
 from .scene_copy import LIGHT_VALUES, is_sheared
 
 _film = {"folder": None, "signature": None, "file": None}
@@ -72,7 +72,7 @@ def signature_of(depsgraph):
 def folder():
     """Returns the folder of the animation's files."""
     if _film["folder"] is None:
-        _film["folder"] = tempfile.mkdtemp(prefix="defocus-film-")
+        _film["folder"] = new_folder("film")
     return _film["folder"]
 
 

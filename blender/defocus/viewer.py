@@ -2,7 +2,6 @@
 
 import shutil
 import subprocess
-import tempfile
 
 import bpy
 
@@ -10,6 +9,7 @@ from .engine import reports
 from .export import export
 from .failure import Failure
 from .preferences import find_program
+from .scratch import new_folder
 
 SECONDS_BETWEEN_CHECKS = 1.0
 views = []  # open views: (process, its folder)
@@ -21,21 +21,29 @@ class DefocusView(bpy.types.Operator):
     bl_description = "Open the scene in the window of 'defocus view'"
 
     def execute(self, context):
-        folder = tempfile.mkdtemp(prefix="defocus-view-")
         try:
-            found = find_program()
-            exported = export(context.evaluated_depsgraph_get(), folder, for_view=True)
-            reports[context.scene.name] = exported.notes
-            views.append((subprocess.Popen([found, "view", *exported.words], cwd=folder), folder))
+            notes = reports[context.scene.name] = open_view(context.evaluated_depsgraph_get())
         except (Failure, OSError) as failure:
-            shutil.rmtree(folder, ignore_errors=True)
             self.report({"ERROR"}, str(failure))
             return {"CANCELLED"}
-        for note in exported.notes:
+        for note in notes:
             self.report({"WARNING"}, f"Defocus: {note}")
         if not bpy.app.timers.is_registered(remove_closed):
             bpy.app.timers.register(remove_closed, first_interval=SECONDS_BETWEEN_CHECKS, persistent=True)
         return {"FINISHED"}
+
+
+def open_view(depsgraph):
+    """Opens the scene in the window, and returns the notes of its export. Throws Failure or OSError."""
+    found = find_program()
+    folder = new_folder("view")
+    try:
+        exported = export(depsgraph, folder, for_view=True)
+        views.append((subprocess.Popen([found, "view", *exported.words], cwd=folder), folder))
+    except BaseException:
+        shutil.rmtree(folder, ignore_errors=True)
+        raise
+    return exported.notes
 
 
 def remove_closed():
