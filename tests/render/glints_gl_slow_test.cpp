@@ -88,6 +88,21 @@ double displayError(const Image& image, const Image& converged) {
     return std::sqrt(sum / (static_cast<double>(image.width) * image.height));
 }
 
+// Returns the largest ratio of a pixel to the brightest of the converged pixels at and around its place, clamped to at
+// least 0.05.
+double worstPixel(const Image& image, const Image& converged) {
+    double worst = 0;
+    for (int y = 1; y + 1 < image.height; ++y)
+        for (int x = 1; x + 1 < image.width; ++x) {
+            float brightest = 0.05f;
+            for (int row = y - 1; row <= y + 1; ++row)
+                for (int column = x - 1; column <= x + 1; ++column)
+                    brightest = std::max(brightest, converged.at(column, row)[0]);
+            worst = std::max<double>(worst, image.at(x, y)[0] / brightest);
+        }
+    return worst;
+}
+
 // The converged image has single white pixels, too: its glints are smaller than a pixel and up to 500 times as bright.
 TEST_F(Glints, convergeWithinTheFirstSamples) {
     for (const float metallic : {0.0f, 1.0f})
@@ -101,6 +116,18 @@ TEST_F(Glints, convergeWithinTheFirstSamples) {
                 EXPECT_LT(few, 0.08) << roughness << ' ' << metallic << ' ' << way.x;
                 EXPECT_LT(more, 0.75 * few) << roughness << ' ' << metallic << ' ' << way.x;
             }
+}
+
+TEST_F(Glints, fewSamplesMakeNoWhitePixelsOfTheirOwn) {
+    for (const float metallic : {0.0f, 1.0f})
+        for (const glm::dvec3& way : {glm::dvec3(1, -0.3, -0.2), glm::dvec3(-0.3, -0.8, -1)}) {
+            const auto small = rippledBall(0.2f, metallic);
+            small->world.lights = {sun(way, 3)};
+            const Image converged = ballImage(*small, 1024, false);
+            for (const std::uint32_t samples : {16u, 64u})
+                EXPECT_LT(worstPixel(ballImage(*small, samples, true), converged), 3.5)
+                    << metallic << ' ' << way.x << ' ' << samples;
+        }
 }
 
 TEST_F(Glints, spreadingThemKeepsTheirLight) {
