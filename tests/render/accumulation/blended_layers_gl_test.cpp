@@ -73,7 +73,7 @@ protected:
     }
 };
 
-// The slow tests try all pairs.
+// layer_combinations_gl_slow_test.cpp tries all pairs of layers.
 TEST_F(BlendedLayer, coverageIsThePicturesAlphaWithAnyLayer) {
     const auto small = overlappingPanes();
     expectCoverage(*small, everyLayer);
@@ -128,7 +128,7 @@ TEST_F(BlendedLayer, countsAtBordersAreUnbiased) {
     EXPECT_LT(errorOf(errors).rms, 0.045);
 }
 
-// Where the picture itself chooses by alpha, a sample counts the surface that it shows.
+// With stochastic transparency, each sample counts the surface that it shows in the picture.
 TEST_F(BlendedLayer, countsOfStochasticPanesAreThePicturesAlpha) {
     const auto small = sceneOf({turned(0.4f, 0.6), turned(0.7f, -0.6)});
     RenderSettings settings = settingsFor(64, LodMode::off);
