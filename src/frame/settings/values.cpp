@@ -231,7 +231,10 @@ void setLayers(Request& request, const std::string& text) {
 std::optional<std::string> layersText(const Request& request) {
     if (request.layers.empty()) return {};
     std::string text;
-    for (const Layer layer : request.layers) text += (text.empty() ? "" : ",") + std::string(layerNames(layer).option);
+    for (const Layer layer : request.layers) {
+        if (!text.empty()) text += ',';
+        text += layerNames(layer).option;
+    }
     return text;
 }
 
