@@ -1,5 +1,5 @@
 #pragma once
-// Measures the pops of a film: how much an image changes because objects change their levels of detail between a frame
+// Measures the pops of a shot: how much an image changes because objects change their levels of detail between a frame
 // and the next.
 
 #include <filesystem>

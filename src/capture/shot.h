@@ -1,6 +1,6 @@
 #pragma once
-// A shot: scene, camera and lens of a film, as in a shot file (docs/shot.schema.json). Plain data. Values missing in
-// the file are taken from the scene's camera or the program's defaults. Frame 0 is at time 0.
+// A shot: scene, camera and lens of a sequence of frames, as in a shot file (docs/shot.schema.json). Plain data. Values
+// missing in the file are taken from the scene's camera or the program's defaults. Frame 0 is at time 0.
 
 #include <filesystem>
 #include <glm/vec3.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-// Time codes and frame rates of film frames, as EXR files store them. Source: SMPTE ST 12-1, non-drop-frame time
+// Time codes and frame rates of video frames, as EXR files store them. Source: SMPTE ST 12-1, non-drop-frame time
 // address of 60-field television.
 
 #include <cstdint>

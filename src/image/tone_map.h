@@ -1,5 +1,5 @@
 #pragma once
-// Tone mapping from linear HDR to display values: exposure, an optional film curve and sRGB encoding (IEC 61966-2-1).
+// Tone mapping from linear HDR to display values: exposure, an optional tone curve and sRGB encoding (IEC 61966-2-1).
 // It is the last step before an 8-bit image file or the window.
 
 #include <string_view>

@@ -1,5 +1,5 @@
 #pragma once
-// Lens images in memory, for the frames of a film.
+// Lens images in memory, for the frames of a shot.
 
 #include <functional>
 #include <string>

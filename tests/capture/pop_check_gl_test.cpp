@@ -1,4 +1,4 @@
-// Tests of PopCheck, which measures how much changed levels of detail change the images of a film.
+// Tests of PopCheck, which measures how much changed levels of detail change the images of a shot.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Tests time codes and frame rates of film frames, and EXR's standard attributes as the image library reads them.
+// Tests time codes and frame rates of video frames, and EXR's standard attributes as the image library reads them.
 
 #include "image/time_code.h"
 

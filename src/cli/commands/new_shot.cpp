@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int frameRate = 24;
-constexpr int stillSeconds = 5;  // duration of the film of a scene without animation, s
+constexpr int stillSeconds = 5;  // duration of the shot of a scene without animation, s
 constexpr const char* schemaName = "shot.schema.json";
 
 struct NewShotArguments {

@@ -39,7 +39,7 @@ struct RefocusArguments {
     Request request;                 // values of ownSettings()
     std::optional<double> exposure;  // exposure in EV; nullopt: as rendered
     std::filesystem::path page;      // write a web page to this file, instead of outputs
-    FocusPullFilm pull;              // write the film of a focus pull if pull.video isn't empty
+    FocusPullFilm pull;              // write the video of a focus pull if pull.video isn't empty
     bool fillGaps = true;            // fill the gaps between the lens images
     int stack = 0;                   // number of pictures of a focal stack; 0: one picture
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Series of pictures from one file of lens images: the film of a focus pull, and a focal stack.
+// Series of pictures from one file of lens images: the video of a focus pull, and a focal stack.
 
 #include <filesystem>
 #include <functional>
@@ -16,13 +16,13 @@ struct FocusPullFilm {
     double to = 1;    // m
     int frames = 96;
     double frameRate = 24;        // frames per second
-    std::filesystem::path video;  // file of the film
+    std::filesystem::path video;  // output file
 };
 
 // Parses "A:B", two distances in m. Throws Error for other text.
 void parseFocusPull(const std::string& text, FocusPullFilm& pull);
 
-// Writes a film in which the focus moves from one distance to the other, evenly in 1/distance. `refocusing` gives the
+// Writes a video in which the focus moves from one distance to the other, evenly in 1/distance. `refocusing` gives the
 // aperture.
 void writeFocusPull(LightField& field, const Refocusing& refocusing, const FocusPullFilm& pull,
                     const WriteOptions& write, const GlobalOptions& global);

@@ -12,7 +12,7 @@ namespace defocus::engine {
 // `share`: finished fraction, 0 … 1. `left`: seconds; nullopt: unknown.
 std::string progressLine(std::string_view stage, double share, std::optional<double> left, int columns);
 
-// Estimates the remaining time of a task. Stages with the same first word, such as the frames of a film, count as one
+// Estimates the remaining time of a task. Stages with the same first word, such as the frames of a shot, count as one
 // task.
 class TimeLeft {
 public:

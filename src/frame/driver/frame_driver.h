@@ -1,6 +1,6 @@
 #pragma once
 // Draws complete frames of a world: untiled, in tiles if memory is short, or as partial sums over some of the lens
-// samples. Still images, films, exports from the window and the library all use this class.
+// samples. Still images, videos, exports from the window and the library all use this class.
 //
 //   FrameDriver driver(world, options);
 //   driver.start({.view = view, .settings = settings});

@@ -1,5 +1,5 @@
 #pragma once
-// Writes `defocus` commands, to paste into a shell, that render a view or film a recorded shot.
+// Writes `defocus` commands, to paste into a shell, that render a view or a recorded shot.
 
 #include <string>
 

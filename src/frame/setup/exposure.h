@@ -1,5 +1,5 @@
 #pragma once
-// Chooses the exposure of 8-bit images and films: from the request, from the lens, or by metering the scene.
+// Chooses the exposure of 8-bit images and videos: from the request, from the lens, or by metering the scene.
 
 #include <filesystem>
 #include <optional>

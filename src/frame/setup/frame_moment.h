@@ -1,5 +1,5 @@
 #pragma once
-// State of the scene, lights and camera in one frame: everything that changes between the frames of a film.
+// State of the scene, lights and camera in one frame: everything that changes between the frames of a shot.
 
 #include <vector>
 
@@ -10,7 +10,7 @@
 namespace defocus::engine {
 
 struct FrameMoment {
-    int frame = 0;    // frame number in the film
+    int frame = 0;    // frame number in the shot
     double time = 0;  // time in the animation clip, s
     Pose pose;        // pose in the middle of the exposure
     Shutter shutter;

@@ -60,7 +60,7 @@ bool hasCameraTrack(const Request& request, const Scene& scene);
 void setStrokes(const Request& request, Scene& scene);
 
 // Adds the ground that the request asks for, unless the scene has a ground. The ground lies beneath the scene's pose at
-// the start of the animation, so that all frames of a film share it. The scene's units must already be set.
+// the start of the animation, so that all frames of a shot share it. The scene's units must already be set.
 void setGround(const Request& request, Scene& scene);
 
 // Returns the lights `own`, moved by `pose`, with the light sizes that the request gives.

@@ -12,7 +12,7 @@
 
 namespace defocus::engine {
 
-// Settings that all frames of a film, or all parts of a frame, have in common.
+// Settings that all frames of a shot, or all parts of a frame, have in common.
 struct FilmSettings {
     std::uint64_t world = 0;      // worldHash of meshes, materials, environment and shaders
     Request request;              // provides the method, the layer format and other settings that affect pixels
@@ -20,7 +20,7 @@ struct FilmSettings {
     std::string lensImages = {};  // lens images from which the frame is computed; empty: the frame is rendered
 };
 
-// Returns the settings that `frame` has in common with the other frames of its film. `frame` needs no pyramids.
+// Returns the settings that `frame` has in common with the other frames of its shot. `frame` needs no pyramids.
 FilmSettings filmSettings(const PreparedFrame& frame, const Request& request,
                           const std::filesystem::path& shaderFolder);
 

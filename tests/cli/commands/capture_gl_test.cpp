@@ -47,7 +47,7 @@ TEST_F(Capture, writesEachFrameWithItsMetadataAndASidecarOfTimes) {
     EXPECT_GT(json::parse(times.substr(0, times.find('\n'))).at("renderMilliseconds").get<double>(), 0);
 }
 
-// By default, films have LodMode::continuous, which pops least. Shot, options and presets override this default.
+// By default, shots have LodMode::continuous, which pops least. Shot files, options and presets override this default.
 TEST_F(Capture, levelsChangePixelByPixelByDefault) {
     const auto lodWith = [&](const std::vector<std::string>& more) {
         std::vector<std::string> words = {"--range", "0"};
