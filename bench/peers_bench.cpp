@@ -31,7 +31,8 @@ using namespace defocus;
 using namespace defocus::engine;
 using Json = nlohmann::json;
 
-constexpr std::uint32_t maxRepeated = 32;  // up to this number of samples, the fastest of three images counts
+// Images with at most this number of samples are drawn three times, and the fastest run counts.
+constexpr std::uint32_t maxRepeated = 32;
 constexpr std::uint32_t referenceSeed = 1'000'000;
 constexpr Color background = {0.02f, 0.08f, 0.15f};  // linear
 

@@ -57,7 +57,7 @@ Rendered rendered(const char* method, const TruthScene& subject, const Options& 
     RenderSettings settings = fullDetailSettings(wanted.samples);
     settings.sequence = wanted.sequence;
     settings.shadows = shadows;
-    settings.cocTolerance = 0.05;  // tolerance in px; low, because the blur's slope jumps at the foreground limit
+    settings.cocTolerance = 0.05;  // in px; small, because the slope of the blur jumps at the foreground limit
     Image image = renderedImage(*renderer, planFrame(subject.world, subject.view, settings));
     return {std::move(image), renderer->stats()};
 }

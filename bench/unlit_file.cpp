@@ -72,7 +72,7 @@ tinygltf::Model modelOf(const PreparedFrame& frame) {
     for (const Material& material : scene.materials) model.materials.push_back(materialOf(material));
     model.cameras = {cameraOf(frame.view)};
     addNode(model, frame.view.worldFromCamera).camera = 0;
-    std::map<int, int> meshes;  // index in the file by index in the scene, of the meshes that are drawn
+    std::map<int, int> meshes;  // for each drawn mesh: index in the scene → index in the file
     for (const Object& object : frame.world.pose.objects) {
         if (object.skinned()) fail("object \"{}\" has a skin, which is not written", object.name);
         const auto [found, added] = meshes.try_emplace(object.mesh, static_cast<int>(meshes.size()));

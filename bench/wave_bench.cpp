@@ -51,7 +51,7 @@ int run() {
     world.scene = std::make_shared<const Scene>();
     View view;
     RenderSettings settings;
-    settings.keepAll = true;  // otherwise a plan without blurred objects omits the lens samples
+    settings.keepAll = true;  // keeps all lens samples in the plan although nothing is blurred
     fmt::print("{}, {}\n1024 x 768, 64 samples, nothing drawn, fastest of {} runs\n\n", context->device(),
                context->driver(), runs);
     fmt::print("{:<10} {:<10} {:>4} {:>14} {:>10}\n", "sky", "format", "K", "ms a sample", "GB");

@@ -26,7 +26,7 @@ OUTPUT = Path(sys.argv[2] if len(sys.argv) > 2 else "blur-study.png")
 SIZE = (240, 180)
 F_STOPS = (1.4, 2.8, 5.6, 11)
 SAMPLES = (4, 8, 16, 32, 64, 128)
-REFERENCE = {"samples": 512, "lod": "off", "seed": 1}  # full detail; other lens points than in the images
+REFERENCE = {"samples": 512, "lod": "off", "seed": 1}  # full detail, with a different set of lens points
 
 # %% Render images, references and blur with one renderer, so that the scene is read and simplified only once.
 pictures, blurs, references = {}, {}, {}

@@ -15,12 +15,12 @@ struct ReversedLanes {
     Lanes<std::uint32_t> x, y;
 };
 
-// Returns unscrambledPoint (sample_scramble.h) for each of the 16 orders of the points, one order per lane. All packets
-// use this result.
+// Returns unscrambledPoint (sample_scramble.h) with one of the 16 point orders per lane. The result is the same for all
+// packets.
 ReversedLanes unscrambledPoints(std::uint32_t index, SamplePair pair, std::uint32_t seed);
 
-// Returns scrambleSeeds (sample_scramble.h) for 16 streams, beginning with firstStream (a multiple of 16). All samples
-// use this result.
+// Returns scrambleSeeds (sample_scramble.h) for 16 streams, beginning with firstStream (a multiple of 16). The result
+// is the same for all samples.
 ReversedLanes packetSeeds(std::uint32_t firstStream, SamplePair pair, std::uint32_t seed);
 
 // Writes the scrambled points, in [0, 1)², to `x` and `y`.

@@ -20,7 +20,7 @@ from figures.timed import facts, timed
 SCENES = ("school", "meshes/chess.glb")
 TOGETHER = "depth,normal,albedo"
 LAYERS = ("depth", "normal", "albedo", TOGETHER, "position", "objects")
-WIDTHS = (9, 9, 9, len(TOGETHER) + 3, 11, 10)  # of the columns
+WIDTHS = (9, 9, 9, len(TOGETHER) + 3, 11, 10)  # widths of the columns, characters
 
 
 def render(command, folder, layers):

@@ -54,7 +54,7 @@ class Point(NamedTuple):
 class Time(NamedTuple):
     cpu: float
     wall: float
-    at_most: bool = False  # whether the fewest samples already reach the error
+    at_most: bool = False  # True: upper bound, because even the image with the fewest samples reaches the target error
 
 
 def time_to(points, metric, target):
@@ -95,7 +95,7 @@ def winner(times):
         return "none"
     first = min(reached, key=lambda name: reached[name].cpu)
     if any(time.at_most for name, time in reached.items() if name != first):
-        return "undecided"  # the fewest samples of another one are enough, so its time may be shorter
+        return "undecided"  # another contestant's time is only an upper bound
     rival = reached.get("embree-shared")
     if first.startswith("embree") or not rival or reached[first].at_most:
         return first

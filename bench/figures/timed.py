@@ -13,8 +13,8 @@ from figures.files import read_json
 class Times(NamedTuple):
     """Times of one run, in seconds, and its memory."""
     wall: float
-    processor: float  # of the whole program, on all cores
-    memory: float = 0  # peak, in MiB
+    processor: float  # CPU time of the program, summed over all cores
+    memory: float = 0  # peak memory, MiB
 
 
 def timed(words, what, caches=None):

@@ -1,5 +1,5 @@
-// Levels of detail λ near integers and near sample boundaries. A tiny change of λ must change the level of at most one
-// sample, both in the split of the samples and in the image.
+// Measures how tiny changes of λ, the fractional level of detail, change an object's split of samples between two
+// levels. At integers and at sample boundaries, at most one sample may change its level, in the split and in the image.
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ constexpr double nudge = 1e-6;                 // tiny change of λ
 constexpr double oneSample = 1 + 1e-4;         // max change: one sample, plus rounding of 32-bit layers
 constexpr std::uint32_t renderedSamples = 60;  // not a multiple of the wave size
 
-// Returns the number of samples whose level changes when λ passes the integer `level`.
+// Returns the number of samples whose level changes when the level of detail λ crosses the integer `level`.
 double splitError(double level, std::uint32_t samples) {
     const auto levelsOf = [&](double lambda) {
         const SampleSplit split = splitSamples(lambda, samples, LodMode::fractional);

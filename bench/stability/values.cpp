@@ -21,7 +21,7 @@ constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
 double materialError() {
     View view = boardView();
     setBlur(view, 5, 12);
-    const double reach = 6 + 4 + 1;  // reach in px: blur radius, half the board, pixel filter
+    const double reach = 6 + 4 + 1;  // half side in px of the affected area: blur radius + half board + pixel filter
     const std::vector<Board> list = {squareAt(view, 5, 8, glm::vec3(notANumber)),
                                      squareAt(view, 7, 400, {0.3f, 0.5f, 0.7f})};
     BoardScene spoiled(view, list);

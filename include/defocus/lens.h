@@ -28,7 +28,7 @@ struct LensSettings {
     std::optional<double> sphericalAberration;       // [−1, 1]; > 0: bokeh has a brighter rim; < 0: brighter centre
     std::optional<double> catEye;                    // fraction of the aperture radius hidden in the corners, [0, 1]
     std::optional<double> axialChromaticAberration;  // focus shift in dioptres; > 0: red focuses farther away than blue
-    std::optional<double> astigmatism;               // length in mm on the sensor of a focused point at the edges
+    std::optional<double> astigmatism;               // radial streak length in mm on the sensor at the edges
     std::optional<double> coma;                      // comet tail length in mm on the sensor at edges; > 0: outwards
     std::filesystem::path apertureImage;             // replaces blades, obstruction, spherical aberration; empty: none
 

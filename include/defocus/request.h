@@ -66,8 +66,8 @@ struct Request {
     // true: adds the light that is reflected several times between the microfacets of rough surfaces. glTF's materials
     // have single scattering, so rough metals lose light.
     bool multipleScattering = false;
-    std::optional<double> lightAngle;   // angular diameter of directional lights. Default: from each light
-    std::optional<double> lightRadius;  // radius of point and spot lights. Default: from each light
+    std::optional<double> lightAngle;   // angular diameter of directional lights in degrees. Default: each light's own
+    std::optional<double> lightRadius;  // radius of point and spot lights in m. Default: each light's own
 
     // Camera and image.
     CameraChoice camera;

@@ -4,9 +4,9 @@
 #include "include/cells.glsl"
 
 layout(binding = 6) uniform sampler2DArray layerDepths;
-// Sums of the blur classes that are part of the render target.
+// Sums of the first drawnClasses blur classes, which are colour attachments.
 layout(binding = 7) uniform sampler2DArray drawnSums;
-// Sums of the blur classes that do not fit into the render target.
+// Sums of all blur classes; used only for the classes that are not colour attachments.
 layout(rgba32f, binding = 0) uniform image2DArray cellSums;
 // Per tile, a bit mask of the blur classes with samples in the tile.
 layout(r32ui, binding = 1) uniform uimage2D heldClasses;

@@ -8,7 +8,8 @@
 // the difference of two adjacent layers. RGB is radiance, and alpha counts samples.
 
 const int cellClasses = cellsInFront + cellsBehind;
-// Number of the blur classes whose sums fit into a render target together with the sum of all samples.
+// Number of blur classes whose sums are colour attachments. OpenGL guarantees 8 attachments; the sum of all samples
+// takes one. The sums of further classes are written with imageStore.
 const int drawnClasses = min(cellClasses, 7);
 
 // Side in px of the tiles for which a bit mask of the contained classes is recorded. Most tiles contain few classes.

@@ -10,11 +10,10 @@
 // (LightSums). This sum takes few operations per light, which matters on software rasterizers.
 
 layout(std140, binding = 6) uniform WaveBlock {
-    // The size of the area over which a texture lookup is filtered. The mean over the samples filters the texture over
-    // the rest of the pixel. A single sample is filtered over the whole pixel. Of N samples (all up to the end of this
-    // block), each is filtered over 1/(2N − 1) of the pixel's area. A sample represents 1/N of the pixel, but trilinear
-    // lookups average over more than their nominal area.
-    float footprint;      // side of the filtered area, in px
+    // Side in px of the square over which a texture lookup is filtered. With N samples per pixel (all up to the end of
+    // this block), its area is 1/(2N − 1) of the pixel; the mean over the samples filters the texture over the full
+    // pixel. The area is less than 1/N, because trilinear lookups average over more than their nominal area.
+    float footprint;
     float mipBias;        // log2(footprint): bias on the mip level, which OpenGL chooses for a full pixel
 } wave;
 

@@ -17,7 +17,7 @@ uint current = 0u;                // start of the current list: 0 or segmentCapa
 uint nextCount = 0u;
 uint nextList = 0u;
 vec2 lineSides;
-float lost = 0.0;                 // fraction of the line's light in pieces beyond the capacity
+float lost = 0.0;                 // fraction of the line's light in pieces that were dropped because the list was full
 uint lostPieces = 0u;
 float hidden = 0.0;               // min visible 1/w if the entire line is covered, else 0
 float nextMin = 1e30;           // min visible 1/w in the list being written

@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t room = std::uint64_t{16} << 20;  // free bytes; index and shaders of a frame need a third
+// Required free disk space in bytes: about three times the size of the cache's index and one frame's shaders.
+constexpr std::uint64_t room = std::uint64_t{16} << 20;
 
 fs::path pathIn(const char* variable) {
     const char* const value = std::getenv(variable);

@@ -36,7 +36,7 @@ struct Lens {
     double sphericalAberration = 0;       // [−1, 1]; > 0: blur disks with a bright rim, < 0: with a bright centre
     double catEye = 0;                    // fraction of the aperture's radius hidden in the corners, [0, 1]
     double axialChromaticAberration = 0;  // dioptres between the focus of red and blue; > 0: red focuses farther
-    double astigmatism = 0;               // length in mm on the sensor; see aberrations.h
+    double astigmatism = 0;               // radial streak length in mm on the sensor at the edges; see aberrations.h
     double coma = 0;                      // length in mm on the sensor; > 0: tails point outwards
     std::shared_ptr<const Image> apertureImage;  // grey values are transmission; null: shape from the fields above
 

@@ -32,7 +32,7 @@ struct RenderSettings {
     Shadows shadows = Shadows::automatic;
     bool multipleScattering = false;  // compensates the energy that rough specular reflection loses
     double cocTolerance = 0.5;        // max error in px of interpolating C inside a triangle, > 0
-    bool keepAll = false;             // disables culling; the image only changes if the lens would be left out
+    bool keepAll = false;             // disables culling, and keeps the lens even if no blur is visible
     // Focus distances for which the images of the lens samples are used. Each object's levels suit the smallest blur
     // over this range, and the lens samples are kept even if nothing is blurred at the frame's own focus. Needs a lens
     // with C(w) = a + b·w (circle_of_confusion.h).

@@ -50,8 +50,8 @@ struct Pose {
 Pose poseAt(const Scene& scene, double time, int clip = 0);
 // Returns the pose of poseAt but with empty `bounds`, whose computation takes most of the time of poseAt.
 Pose unmeasuredPoseAt(const Scene& scene, double time, int clip = 0);
-// Returns the pose of a time while the shutter is open, without bounds. Its objects are those of `exposed`, the pose of
-// the exposure, in the same order, even if an animation shows or hides others at this time.
+// Returns the pose at a shutter time, with empty `bounds`. It contains the objects of `exposed`, the frame's pose, in
+// the same order, even if an animation shows or hides objects during the exposure.
 Pose shutterPoseAt(const Scene& scene, double time, int clip, const Pose& exposed);
 
 // Returns the pose's lights with the angular diameters and radii of the lights `before`, matched by index. Returns

@@ -81,5 +81,6 @@ def disk(light):
     x, y = numpy.arange(light.shape[1]), numpy.arange(light.shape[0])
     across, up = light.sum(0) / light.sum(), light.sum(1) / light.sum()
     centre = across @ x, up @ y
-    variance = across @ (x - centre[0]) ** 2 + up @ (y - centre[1]) ** 2 - 2 / 12  # minus twice a pixel's variance
+    # Along each axis, a pixel adds the variance 1/12 px².
+    variance = across @ (x - centre[0]) ** 2 + up @ (y - centre[1]) ** 2 - 2 / 12
     return centre, math.sqrt(2 * variance)

@@ -152,8 +152,8 @@ TEST(CircleOfConfusion, rangeOverABoxHoldsEveryPointOfIt) {
     }
 }
 
-// A foreground limit also limits interpolated |C/w| from the near plane, where triangles are clipped, to any vertex
-// whose blur is limited (Munkberg et al. 2012, 4.1).
+// C is interpolated linearly in w along an edge from the near plane, where triangles are clipped, to a vertex whose
+// blur is limited. The interpolated blur |C/w| doesn't exceed the foreground limit (Munkberg et al. 2012, 4.1).
 TEST(CircleOfConfusion, limitHoldsUpToTheNearPlane) {
     Lens lens = lensAt(2);
     lens.foregroundLimit = 15;

@@ -25,7 +25,8 @@ TEST_F(ViewSoak, scenesInTurnTakeNoMoreMemoryAndLeaveNoHandleOpen) {
     ASSERT_TRUE(showsScene("scene0.gltf")) << state();
     DropSource hand(display());
     Held before, after;
-    // A reading depends on what the viewer draws at that moment and varies by 20 MB. The least of ten readings is steady.
+    // A reading depends on what the viewer draws at that moment, and varies by 20 MB. The minimum of ten readings is
+    // steady.
     const auto keepLeast = [this](Held& least) {
         const Held now = heldBy(process());
         least.megabytes = least.megabytes > 0 ? std::min(least.megabytes, now.megabytes) : now.megabytes;

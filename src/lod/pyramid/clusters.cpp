@@ -55,7 +55,7 @@ struct ClusterGrowth {
     glm::vec3 normals{0};
     // Triangles that touch the growing cluster; some of them may already be assigned.
     std::vector<TriangleNumber> closed;    // triangles with all three corners in the cluster
-    std::vector<TriangleNumber> hanging;   // last unassigned triangles at a vertex; expensive in another cluster
+    std::vector<TriangleNumber> hanging;   // each is the last unassigned triangle at one of its vertices
     std::vector<TriangleNumber> beside;    // triangles with two corners in the cluster
     std::vector<TriangleNumber> touching;  // triangles with one corner in the cluster
     std::vector<TriangleNumber> left;      // unassigned neighbours of earlier clusters

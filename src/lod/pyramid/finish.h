@@ -69,7 +69,7 @@ private:
     const Scene& scene_;
     std::vector<std::uint64_t> imageHashes_;  // 0 for images that no finish uses
     mutable std::mutex mutex_;
-    mutable std::map<std::pair<int, bool>, std::weak_ptr<const FinishImage>> images_;  // by image and sRGB flag
+    mutable std::map<std::pair<int, bool>, std::weak_ptr<const FinishImage>> images_;  // keyed by image and sRGB flag
 };
 
 }  // namespace defocus::engine

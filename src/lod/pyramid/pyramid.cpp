@@ -278,8 +278,8 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
         leaveApart(unique, levels[0].triangles, mesh.vertices.count());
     }
     unique.id = {};
-    // Vertices without duplicates. Not used if the mesh's vertices can be used directly, possibly with a few unused
-    // duplicates.
+    // The mesh's vertices without duplicates. Empty if the mesh's own vertices are used instead, because they have
+    // normals and few or no duplicates.
     Vertices joined;
     const bool asTheyAre = hasNormals && isIdentity(unique.first, mesh.vertices.count());
     if (!asTheyAre) joined = gathered(mesh.vertices, plain(unique.first));
@@ -472,7 +472,8 @@ std::uint64_t trianglesOf(std::span<const Mesh> meshes) {
 std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all) {
     const double share =
         static_cast<double>(mesh.triangleCount()) / static_cast<double>(std::max<std::uint64_t>(1, all));
-    static const unsigned available = std::max(1u, std::thread::hardware_concurrency());  // cached system call
+    // Cached, because hardware_concurrency() makes a system call.
+    static const unsigned available = std::max(1u, std::thread::hardware_concurrency());
     const auto cores = std::llround(share * available);
     return static_cast<std::size_t>(std::max(1ll, cores) - 1);
 }

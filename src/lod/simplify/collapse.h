@@ -55,9 +55,10 @@ public:
     // replacement.
     void postprocess_collapse(const CollapseInfo& collapse) override;
 
-    // Selects a survivor's wedge for every remaining corner of the removed vertex. The first choice is the wedge across
-    // the edge on the same side of any seam; the second is the most similar wedge of the same primitive.
-    //   poor: the texture would be stretched across a seam; bad: the wedge belongs to another primitive.
+    // Selects a wedge of the surviving vertex for each remaining corner of the removed vertex, and classifies the
+    // result. The first choice is the wedge at the other end of the collapsed edge, on the same side of a seam. The
+    // second choice is the most similar wedge of the same primitive. Poor: the texture would be stretched across a
+    // seam. Bad: the wedge belongs to another primitive.
     Fit judge(HalfedgeHandle along);
     // Returns the wedges selected by the last judge(); empty after the collapse.
     [[nodiscard]] std::span<const Handover> handovers() const { return handovers_; }

@@ -22,7 +22,7 @@ struct Repairs {
     std::uint32_t faces = 0;    // total number of repaired faces
     std::uint32_t dropped = 0;  // degenerate or duplicate faces, which are removed
     std::uint32_t turned = 0;   // faces reversed because their winding was opposite to their neighbours
-    std::uint32_t cut = 0;      // faces cut off at an edge of over two faces, or of two of conflicting orientation
+    std::uint32_t cut = 0;      // faces cut off at an edge of three or more faces, or of two with conflicting winding
     std::uint32_t split = 0;    // faces separated from others at a vertex where several fans meet
 };
 

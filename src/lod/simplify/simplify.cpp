@@ -248,7 +248,7 @@ std::size_t nextTarget(const Simplifier& s, std::size_t minTriangles) {
 std::size_t collapseFloor(const Simplifier& s, std::size_t target, double share) {
     const SurfaceMesh& mesh = *s.mesh;
     std::size_t stuck = 0;  // faces without a collapsible vertex, such as faces of tetrahedra or isolated triangles
-    Numbered<ComponentNumber, std::uint8_t> movable(s.components.size(), 0);  // 1: some face is not stuck
+    Numbered<ComponentNumber, std::uint8_t> movable(s.components.size(), 0);  // 1: a face has a collapsible vertex
     forEachFace(mesh, [&](FaceHandle face) {
         const FaceCorners corners = cornersOf(mesh, face);
         const bool canGo = std::any_of(corners.begin(), corners.end(), [&](HalfedgeHandle corner) {

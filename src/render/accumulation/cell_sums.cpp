@@ -15,7 +15,7 @@ int tiles(int pixels) {
     return (pixels + tileSide - 1) / tileSide;
 }
 
-constexpr int maxDrawn = 7;  // max class sums per render target; equals the max of drawnClasses in cells.glsl
+constexpr int maxDrawn = 7;  // max class sums that are colour attachments; equals the max of drawnClasses in cells.glsl
 
 // Side in px of the largest point sprites, a multiple of the side of the point sprites of any blur class.
 constexpr int largestPoint = 4 << (maxCellClasses - 1);

@@ -15,7 +15,7 @@ constexpr std::uint32_t minSpread = 64;  // min samples for smooth penumbrae and
 struct QualityLimits {
     double flip;        // target error
     double firstGap;    // max distance in px between a blurred point's images in neighbouring samples
-    double gap;         // same distance in px if no error estimate can correct the number of samples
+    double gap;         // same distance in px for frames whose error is not estimated while they are drawn
     std::uint32_t min;  // samples
 };
 

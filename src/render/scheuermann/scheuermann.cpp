@@ -235,7 +235,7 @@ BlurrinessPlanes withPlanesByHand(const BlurrinessPlanes& planes, const PlanesBy
 }
 
 std::vector<glm::vec2> poissonDisk(std::uint32_t count) {
-    std::vector<glm::vec2> points = {glm::vec2(0)};  // taps also keep a distance to the centre, which is no tap
+    std::vector<glm::vec2> points = {glm::vec2(0)};  // the centre is not a tap, but taps keep their distance to it
     std::uint64_t next = 0;
     while (points.size() <= count) {
         glm::vec2 best(0);

@@ -91,7 +91,7 @@ TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLi
     return needs;
 }
 
-// Subtracts memory that the scene will take from the available memory. For software drivers.
+// Subtracts `bytes`, the memory that the scene will take, from the available memory. Only for software drivers.
 void reserve(TilingNeeds& needs, std::uint64_t bytes) {
     needs.elsewhere += bytes;
     needs.hostMemory = needs.deviceMemory = remainder(needs.hostMemory, bytes);

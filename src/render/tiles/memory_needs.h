@@ -33,7 +33,7 @@ std::uint64_t waveBytesWithin(std::uint64_t limit, std::uint32_t threads);
 // Returns how many of `wanted` threads fit into half of the memory that a frame of one thread leaves. The context and
 // layers of each further thread take memory.
 std::uint32_t threadsWithin(const TilingNeeds& needs, std::uint32_t wanted);
-// Returns the same for a frame that surely fits.
+// Returns the same for a frame for which surelyFits() is true.
 std::uint32_t threadsWithin(int width, int height, std::uint64_t limit, std::uint32_t wanted);
 
 // Subtracts the memory of the contexts of `threads` threads from the available memory.

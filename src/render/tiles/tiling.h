@@ -20,7 +20,7 @@ struct TilingNeeds {
     std::uint64_t deviceMemory = 0;  // free bytes for layers and sums
     std::uint64_t hostMemory = 0;    // free bytes for rows that are read back and written
     bool shared = true;              // true: device and host memory are the same
-    std::uint64_t elsewhere = 0;     // shared memory used by scene and program; 0: unknown
+    std::uint64_t elsewhere = 0;     // bytes of the process without layers and sums; 0: unknown
     std::uint64_t keptBytes = 0;     // images kept in main memory while drawing
     bool mayUseCells = true;         // false: the full image must be one cell
 };

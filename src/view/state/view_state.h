@@ -44,7 +44,7 @@ enum class Comparison {
     none,
     fullDetail,  // full detail with the same lens samples
     nearest,     // one level per object (LodMode::nearest)
-    reference,   // full detail with other lens samples
+    reference,   // full detail with a different set of lens samples
     method,      // method ViewState::comparedMethod
 };
 

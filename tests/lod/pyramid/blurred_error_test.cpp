@@ -67,8 +67,8 @@ TEST(BlurredError, halfTheErrorIsHalfTheTable) {
         EXPECT_NEAR(squaredError(full, 1, side) / squaredError(half, 1, side), 4, 1e-3) << "side " << side;
 }
 
-// A blur hides a lost pattern but not a lost colour offset. Half-waves 0.1 wide vanish under patches five times as
-// wide, while the offset remains under patches of any size.
+// A blur hides a lost pattern but not a colour offset. The mean over patches that are five half-periods wide hides most
+// of a wave's error; the error of a constant offset remains.
 TEST(BlurredError, aBlurHidesAPatternButNoShift) {
     const auto wave = [](const glm::vec3& p) { return 0.2f * std::sin(31.4f * p.x) * std::sin(31.4f * p.z); };
     const auto grey = [](const glm::vec3&) { return glm::vec4(0.5f, 0.5f, 0.5f, 1); };

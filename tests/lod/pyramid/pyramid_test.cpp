@@ -186,7 +186,8 @@ TEST(Pyramid, FlatSquareGetsEvenTriangles) {
 }
 
 TEST(Pyramid, StoredErrorOfASphereCoversTheDistanceOfItsFaces) {
-    // A fitted face intersects the unit sphere: a corner p lies | |p| − 1 | outside, and the face's centre lies inside.
+    // A fitted face intersects the unit sphere: its corners lie outside, its centre inside. The distance of a point p
+    // from the sphere is | |p| − 1 |.
     const Pyramid pyramid = buildPyramid(sphere(128, 64));
     for (std::size_t l = 3; l < pyramid.levels.size(); ++l) {
         std::vector<double> distances;

@@ -74,7 +74,7 @@ TEST_F(Accumulation, apertureZeroIsThePinhole) {
 TEST_F(Accumulation, focusPlaneIsUnchangedByTheAperture) {
     const auto small = wall(2, 0.4);  // the square is in focus, so its edges must stay in place
     RenderSettings settings = settingsFor(64);
-    settings.keepAll = true;  // otherwise the plan omits the lens, as nothing is blurred
+    settings.keepAll = true;  // keeps the lens in the plan although nothing is blurred
     const Image wide = rendered(*small, settings);
     small->view.lens.dofEnabled = false;
     EXPECT_LT(largestDifference(wide, rendered(*small, settings)), 1e-3);

@@ -24,7 +24,7 @@ inline RenderSettings samplesOf(std::uint32_t samples) {
     RenderSettings settings;
     settings.lod = LodMode::off;
     settings.sampleCount = samples;
-    settings.keepAll = true;  // otherwise the plan omits the lens where nothing is blurred
+    settings.keepAll = true;  // keeps the lens in the plan even if nothing is blurred
     return settings;
 }
 

@@ -16,7 +16,7 @@ namespace defocus::engine {
 inline RenderSettings settingsWithTheLens() {
     RenderSettings settings;
     settings.lod = LodMode::off;
-    settings.keepAll = true;  // otherwise the plan omits the lens if nothing is blurred
+    settings.keepAll = true;  // keeps the lens in the plan even if nothing is blurred
     return settings;
 }
 

@@ -131,11 +131,11 @@ TEST_P(PostProcesses, whatIsInFocusStaysWhenOnlyTheBackgroundBlurs) {
     EXPECT_LT(largestDifferenceInColumns(image, sharp, 0, edge - 1), 2e-3);
 }
 
-// A bright object in focus hardly leaks into the blurred background beside it. A gather with equal weights over a disk
-// of radius R adds to a column the fraction of the disk that lies beyond the edge. Over the columns within R of the
-// edge, this averages 2/(3π) of the bright radiance. Here, at most a quarter of it arrives. Scheuermann's pre-blurred
-// copy mixes object and background before the weights count, so three quarters are tolerated. Without the weights, copy
-// and taps together would leak more than the gather.
+// A bright object in focus hardly leaks into the blurred background beside it. For comparison: a gather with equal
+// weights over a disk of radius R adds to a column the fraction of the disk that lies beyond the edge. The mean over
+// the columns within R of the edge is 2/(3π) of the bright radiance. The test allows a quarter of this mean, and three
+// quarters for scheuermann, whose pre-blurred copy mixes object and background before taps are weighted. Without the
+// weights, scheuermann's copy and taps together would leak more than the gather.
 TEST_P(PostProcesses, aSharpObjectDoesNotLeakIntoTheBlurredBackground) {
     constexpr float bright = 4;
     const auto small = boards(
@@ -143,7 +143,7 @@ TEST_P(PostProcesses, aSharpObjectDoesNotLeakIntoTheBlurredBackground) {
     constexpr int radius = 5;  // max blur radius of scheuermann as published, px
     small->view.lens.blurScale = 2 * radius / (0.05 * (1.0 / 2 - 1.0 / 9) * 96 / 0.72);
     const Image image = postProcessed(*small, GetParam());
-    const int edge = 48;  // column where the board ends, the middle
+    const int edge = 48;  // column where the board ends, in the middle of the image
     double leaked = 0;
     for (int x = edge + 1; x < edge + 1 + radius; ++x) leaked += *image.at(x, 32) / bright / radius;
     const double tolerated = std::string(GetParam()).starts_with("scheuermann") ? 0.75 : 0.25;

@@ -78,7 +78,7 @@ TEST(PoissonDisk, keepsItsDistanceAndLeavesNoGap) {
     for (const std::uint32_t count : {8u, 12u, 24u, 64u}) {
         std::vector<glm::vec2> points = poissonDisk(count);
         ASSERT_EQ(points.size(), count);
-        points.emplace_back(0);  // the centre, which is not a tap, also keeps its distance
+        points.emplace_back(0);  // the centre is not a tap, but taps keep their distance to it
         double min = 2;
         for (std::size_t i = 0; i < points.size(); ++i) {
             EXPECT_LE(glm::length(points[i]), 1.0f + 1e-6f);
