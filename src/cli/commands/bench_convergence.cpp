@@ -301,8 +301,8 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
                "Factors on the default level-of-detail thresholds")
         ->group(group);
     addChoice<bool>(command, "--shading", arguments.unlit, {{"lit", false}, {"unlit", true}},
-                    "Shading: by the scene's lights (lit), or by lighting baked into the meshes (unlit), which ray "
-                    "tracers can reproduce. Default: unlit if the program has ray tracers")
+                    "Shading by the scene's lights (lit), or with light that is baked into the meshes (unlit), which "
+                    "ray tracers support too. Default: unlit in defocus_bench, which has ray tracers, else lit")
         ->group(group);
     options.runs = 5;
     options.seeds = 5;

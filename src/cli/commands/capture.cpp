@@ -209,20 +209,18 @@ void printFigures(const FilmFigures& figures, std::size_t frames) {
 }
 
 void printPops(const PopCheck& check) {
-    std::string text =
-        fmt::format("levels of detail, {} pair{} of frames: ", check.compared(), check.compared() == 1 ? "" : "s");
+    std::string text = fmt::format("pops of levels of detail, in {} pair{} of frames: ", check.compared(),
+                                   check.compared() == 1 ? "" : "s");
     if (const std::optional<FramePop>& pop = check.largest())
         text += fmt::format(
-            "the largest pop is an RMSE of {:.4f} over '{}' from frame {} to {}; another seed changes these pixels by "
-            "{:.4f}",
+            "the largest has an RMSE of {:.4f}, in the pixels of '{}' from frame {} to {}; for comparison, another "
+            "seed changes these pixels by {:.4f}",
             pop->rmse, pop->object, pop->frame - 1, pop->frame, pop->seedRmse);
     else
-        text += "no object changes its levels";
+        text += "none, as no object changes its level";
     if (check.incomparable() > 0)
-        text += fmt::format(
-            "; {} more can't be compared, because --samples N would give all frames the same number of "
-            "samples",
-            check.incomparable());
+        text += fmt::format("; {} more can't be compared, because their numbers of samples differ; give --samples N",
+                            check.incomparable());
     printMessage("{}\n", text);
 }
 
@@ -395,7 +393,8 @@ void addShot(CLI::App& command, CaptureArguments& arguments) {
         ->required()
         ->type_name("FILE");
     addParsed(command, "--range", "FIRST:LAST",
-              "First and last frame to render, or a single frame. Turntable and dolly keep the shot's full range",
+              "First and last frame to render, or a single frame. A turntable or dolly still moves over all frames of "
+              "the shot",
               [&arguments](const std::string& text) { arguments.range = parseFrameRange(text); })
         ->group(group);
     addNumber(command, "--frame-rate", arguments.shot.frameRate, {1e-3, 1e6}, "FPS", "Frame rate in frames per second")
