@@ -77,7 +77,7 @@ void checkArguments(const CaptureArguments& arguments) {
         if (!arguments.dryRun) checkWritable(framePath(pattern, 0));
     }
     if (arguments.refocus && (arguments.sampleRange || arguments.check || arguments.request.targetError))
-        throw UsageError("--refocus cannot be combined with --sample-range, --check and --target-error");
+        throw UsageError("--refocus cannot be combined with --sample-range, --check or --target-error");
     if (arguments.refocus && !arguments.request.layers.empty())
         throw UsageError("--refocus computes pictures without layers; leave out --exr-layers");
     const bool part = arguments.shard.count > 1 || arguments.sampleRange;
@@ -200,9 +200,9 @@ void printFigures(const FilmFigures& figures, std::size_t frames) {
     if (figures.finishedBefore > 0) text += fmt::format(", {} of them from earlier runs", figures.finishedBefore);
     if (figures.rendered > 0)
         text += fmt::format(
-            ": {} rendered in {:.1f} s, {:.2f} times the sum of their render times ({:.1f} s, {:.0f} ms and {:.2f} M "
-            "triangles per frame)",
-            figures.rendered, total, total / render, render, 1000 * render / figures.rendered,
+            ": {} rendered in {:.1f} s; their render times add up to {:.1f} s ({:.0f} ms and {:.2f} M triangles per "
+            "frame)",
+            figures.rendered, total, render, 1000 * render / figures.rendered,
             static_cast<double>(figures.triangles) * 1e-6 / figures.rendered);
     if (figures.tiles > 1) text += fmt::format(", each in {} tiles", figures.tiles);
     printMessage("{}\n", text);
