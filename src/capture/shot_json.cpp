@@ -74,7 +74,7 @@ std::vector<std::pair<double, JsonReader>> keysOf(const JsonReader& reader, cons
         key.requireObject(known);
         const double frame = key.at("frame").number(0, maxFrame);
         if (!keys.empty() && !(frame > keys.back().first))
-            key.at("frame").failExpecting(fmt::format("a frame after the previous key, {}", keys.back().first));
+            key.at("frame").failExpecting(fmt::format("a frame after the previous key's frame {}", keys.back().first));
         keys.emplace_back(frame, key);
     }
     return keys;
@@ -154,7 +154,8 @@ FocusTrack focusOf(const JsonReader& reader) {
     FocusTrack focus;
     if (!reader.has("keys")) {
         focus.keys = {{0, focusTargetOf(reader)}};
-        if (const auto easing = reader.find("interpolation")) easing->failWith("interpolation applies only to keys");
+        if (const auto easing = reader.find("interpolation"))
+            easing->failWith("interpolation applies only to keys; leave it out or give 'keys'");
         return focus;
     }
     if (namesFocusTarget(reader))

@@ -188,9 +188,7 @@ std::string outputFault() {
 
 int run(int argc, char** argv) {
     checkSourceDate();
-    CLI::App program(
-        "Renders glTF scenes with the depth of field of a real lens, from lens samples and levels of detail",
-        "defocus");
+    CLI::App program("Renders glTF scenes with the depth of field of a real lens", "defocus");
     GlobalOptions global;
     global.words.assign(argv, argv + argc);
     addCommands(program, global);

@@ -94,7 +94,7 @@ void checkExrHeader(Bytes head, std::uint64_t fileBytes, const std::string& name
         const std::uint64_t bytes = number(head, at);
         at += 4;
         const auto refuse = [&] {
-            fail("cannot read {}: {} bytes are not a valid size of its attribute '{}'", name, bytes, shown(*attribute));
+            fail("cannot read {}: its attribute '{}' has the invalid size of {} bytes", name, shown(*attribute), bytes);
         };
         if (bytes > fileBytes - std::min<std::uint64_t>(fileBytes, at)) refuse();
         const auto known = std::ranges::find(sizes, *type, &std::pair<std::string_view, std::uint64_t>::first);

@@ -122,7 +122,7 @@ ImagePartReader::ImagePartReader(const std::filesystem::path& path) : state_(std
     const auto margin = static_cast<std::int64_t>(first.full_x) - first.x;
     if (first.full_width < 1 || first.full_height < 1 || margin < 0 || first.full_width + 2 * margin != first.width ||
         first.full_height + 2 * margin != first.height)
-        fail("cannot read {}: its data window is not its display window with a margin", s.name);
+        fail("cannot read {}: its data window must be its display window with an equal margin on all sides", s.name);
     if (std::uint64_t(first.width) * std::uint64_t(first.height) > maxPixels)
         fail("cannot read {}: {}x{} pixels are too many", s.name, first.width, first.height);
     s.size = {first.full_width, first.full_height, static_cast<int>(margin)};

@@ -40,7 +40,7 @@ void checkThinLens(const Lens& lens) {
     for (const char* name : unsuited) {
         const LensField& field = *lensFieldNamed(name);
         if (lensFieldValue(lens, field) != lensFieldValue(Lens(), field))
-            fail("lens images cannot be combined with {}: a change of focus would do more than move each image",
+            fail("lens images cannot be combined with {}: a change of focus would not only shift each image",
                  field.option);
     }
 }
@@ -68,10 +68,13 @@ std::optional<double> numberIn(const Metadata& metadata, const char* name) {
 double needed(const Metadata& metadata, const char* attribute, const std::string& name, double min, double max) {
     const std::optional<double> value = numberIn(metadata, attribute);
     if (!value)
-        fail("{}: not a file of lens images: '{}' is missing; give a file from 'defocus render --lens-images'", name,
-             attribute);
+        fail(
+            "{}: not a file of lens images: the attribute '{}' is missing; give a file from 'defocus render "
+            "--lens-images'",
+            name, attribute);
     if (*value < min || *value > max)
-        fail("{}: its value {} of '{}' is outside {} to {}; render the file again", name, *value, attribute, min, max);
+        fail("{}: the attribute '{}' is {}, outside {} to {}; render the file again", name, attribute, *value, min,
+             max);
     return *value;
 }
 
@@ -122,7 +125,8 @@ LightFieldInfo lightFieldInfo(const View& view, const FocusRange& range) {
     const int longer = std::max(view.width, view.height);
     if (!(largestMove(info) <= longer))
         fail(
-            "lens images for a focus from {:.3g} to {:.3g} m need a margin of {:.0f} px, more than the image's {} px; "
+            "lens images for a focus from {:.3g} to {:.3g} m need a margin of {:.0f} px, larger than the image ({} "
+            "px); "
             "give a narrower range or a larger --fstop",
             range.nearest, range.farthest, largestMove(info), longer);
     info.size = {view.width, view.height, marginOf(info)};
@@ -133,7 +137,7 @@ void addSamples(LightFieldInfo& info, const FramePlan& plan) {
     if (plan.usesOwnBlur)
         fail(
             "lens images cannot show objects or vertices with their own blur (--node-blur, vertex attributes): a "
-            "change of focus would not move each image as a whole");
+            "change of focus would not shift each image as a whole");
     for (const LensSample& sample : plan.samples) {
         info.points.emplace_back(sample.lens);
         info.pixels.emplace_back(sample.pixel);

@@ -27,13 +27,14 @@ std::optional<FocusRange> visibleRange(const Image& depth) {
 LightFieldOutput::LightFieldOutput(SceneDriver& driver, std::filesystem::path path, std::optional<FocusRange> range)
     : driver_(driver), path_(std::move(path)), range_(range) {
     if (range && !(range->nearest > 0 && range->nearest <= range->farthest))
-        throw UsageError(fmt::format("the focus range {:g} to {:g} m is not 0 < nearest ≤ farthest", range->nearest,
-                                     range->farthest));
+        throw UsageError(fmt::format("the focus range must have 0 < nearest ≤ farthest, not {:g} and {:g} m",
+                                     range->nearest, range->farthest));
 }
 
 void LightFieldOutput::checkPath(const std::filesystem::path& path) {
     if (path.extension() != ".exr")
-        throw UsageError(fmt::format("--lens-images writes an EXR file; end '{}' with .exr", path.string()));
+        throw UsageError(fmt::format("--lens-images writes an EXR file; give a file name that ends with .exr, not '{}'",
+                                     path.string()));
 }
 
 Request LightFieldOutput::suited(Request request) {
@@ -47,8 +48,8 @@ Request LightFieldOutput::suited(Request request) {
     request.method = "accumulation";
     if (!request.samples) request.samples = defaultSamples;
     if (*request.samples > maxImageParts)
-        throw UsageError(fmt::format("--lens-images keeps at most {} images; --samples asks for {}", maxImageParts,
-                                     *request.samples));
+        throw UsageError(
+            fmt::format("--lens-images writes at most {} images; --samples is {}", maxImageParts, *request.samples));
     return request;
 }
 

@@ -147,7 +147,7 @@ TEST(ShotJson, faultsNameTheirPlaceAndWhatWasExpected) {
         {R"({"lens": {"fstop": 2}})", "shots/x.json: /lens: there is no key 'fstop'; did you mean 'fStop'?"},
         {R"({"sample": 2})", "shots/x.json: /: there is no key 'sample'; did you mean 'samples'?"},
         {R"({"focus": {"keys": [{"frame": 3, "distance": 1}, {"frame": 3, "distance": 2}]}})",
-         "shots/x.json: /focus/keys/1/frame: expected a frame after the previous key, 3, not 3"},
+         "shots/x.json: /focus/keys/1/frame: expected a frame after the previous key's frame 3, not 3"},
         {R"({"focus": {"keys": []}})",
          "shots/x.json: /focus/keys: expected one key or more, each with a frame, not []"},
         {R"({"focus": {"keys": [{"frame": 3}]}})",

@@ -298,15 +298,16 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
         ->default_str("measured")
         ->group(group);
     addNumbers(command, "--threshold-factors", options.thresholdFactors, {0, 1000}, "F,F,…",
-               "Factors on the default level-of-detail thresholds")
+               "Multipliers for the default level-of-detail thresholds")
         ->group(group);
     addChoice<bool>(command, "--shading", arguments.unlit, {{"lit", false}, {"unlit", true}},
-                    "Shading: by the scene's lights (lit), or by lighting baked into the meshes (unlit), which ray "
-                    "tracers can reproduce. Default: unlit if the program has ray tracers")
+                    "Shading by the scene's lights (lit), or with light that is baked into the meshes (unlit), which "
+                    "ray tracers support too. Default: unlit in defocus_bench, which has ray tracers, else lit")
         ->group(group);
     options.runs = 5;
     options.seeds = 5;
-    addInteger(command, "--runs", options.runs, 1, 1000, "Number of runs of each row; the median is reported")
+    addInteger(command, "--runs", options.runs, 1, 1000,
+               "Number of runs of each method and setting; the median is reported")
         ->group(group);
     addInteger(command, "--seeds", options.seeds, 1, 1000,
                "Number of seeds, used in turn by the runs; the error is reported as mean, minimum and maximum")

@@ -114,13 +114,13 @@ std::string cameraTable(const PreparedFrame& frame, const CameraQuestion& questi
     line("camera", fmt::format("{} of {}", frame.cameraName, frame.sceneName));
     line("lens", fmt::format("{:.4g} mm, f/{:.3g}{}", lens.focalLength, lens.fStop,
                              apertureDiameter(lens) > 0 ? "" : ", depth of field off"));
-    line("sensor", fmt::format("{:.4g} x {:.4g} mm, as wide as its image of {}x{} px", facts.sensor.x, facts.sensor.y,
-                               frame.view.width, frame.view.height));
+    line("sensor", fmt::format("{:.4g} x {:.4g} mm, with the shape of the image of {}x{} px", facts.sensor.x,
+                               facts.sensor.y, frame.view.width, frame.view.height));
     line("field of view", fmt::format("{:.4g} x {:.4g} degrees", facts.fieldOfView.x, facts.fieldOfView.y));
     line("focus",
          fmt::format("{}{}", inMetres(lens.focusDistance), lens.focusBreathing ? ", with focus breathing" : ""));
     line("acceptable blur",
-         fmt::format("{:.3g} mm on the sensor{}", facts.acceptable, facts.customary ? ", its diagonal over 1500" : ""));
+         fmt::format("{:.3g} mm on the sensor{}", facts.acceptable, facts.customary ? ", 1/1500 of its diagonal" : ""));
     line("in focus", fmt::format("{} to {}", inMetres(facts.depth.near), inMetres(facts.depth.far)));
     line("depth of field",
          fmt::format("{}: {} in front of the focus, {} behind", inMetres(facts.depth.far - facts.depth.near),
@@ -128,8 +128,8 @@ std::string cameraTable(const PreparedFrame& frame, const CameraQuestion& questi
     line("hyperfocal", inMetres(facts.depth.hyperfocal));
     if (lens.exposureTime > 0)
         line("exposure",
-             fmt::format("{} at ISO {:.4g}: EV100 {:.2f}, {:+.2f} EV on the scene's cd/m2",
-                         shutterText(lens.exposureTime), lens.iso, exposureValue100(lens), photographicExposure(lens)));
+             fmt::format("{} at ISO {:.4g}: EV100 {:.2f}, which is --exposure {:.2f}", shutterText(lens.exposureTime),
+                         lens.iso, exposureValue100(lens), photographicExposure(lens)));
     if (!facts.plain) text += fmt::format("{}.\n", plainLensNote);
     text += fmt::format("\n{:>12} {:>12} {:>14}\n", "depth", "blur, px", "on sensor, mm");
     for (const Blur& blur : facts.blurs)

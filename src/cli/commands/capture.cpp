@@ -77,7 +77,7 @@ void checkArguments(const CaptureArguments& arguments) {
         if (!arguments.dryRun) checkWritable(framePath(pattern, 0));
     }
     if (arguments.refocus && (arguments.sampleRange || arguments.check || arguments.request.targetError))
-        throw UsageError("--refocus cannot be combined with --sample-range, --check and --target-error");
+        throw UsageError("--refocus cannot be combined with --sample-range, --check or --target-error");
     if (arguments.refocus && !arguments.request.layers.empty())
         throw UsageError("--refocus computes pictures without layers; leave out --exr-layers");
     const bool part = arguments.shard.count > 1 || arguments.sampleRange;
@@ -200,29 +200,27 @@ void printFigures(const FilmFigures& figures, std::size_t frames) {
     if (figures.finishedBefore > 0) text += fmt::format(", {} of them from earlier runs", figures.finishedBefore);
     if (figures.rendered > 0)
         text += fmt::format(
-            ": {} rendered in {:.1f} s, {:.2f} times the sum of their render times ({:.1f} s, {:.0f} ms and {:.2f} M "
-            "triangles per frame)",
-            figures.rendered, total, total / render, render, 1000 * render / figures.rendered,
+            ": {} rendered in {:.1f} s; their render times add up to {:.1f} s ({:.0f} ms and {:.2f} M triangles per "
+            "frame)",
+            figures.rendered, total, render, 1000 * render / figures.rendered,
             static_cast<double>(figures.triangles) * 1e-6 / figures.rendered);
     if (figures.tiles > 1) text += fmt::format(", each in {} tiles", figures.tiles);
     printMessage("{}\n", text);
 }
 
 void printPops(const PopCheck& check) {
-    std::string text =
-        fmt::format("levels of detail, {} pair{} of frames: ", check.compared(), check.compared() == 1 ? "" : "s");
+    std::string text = fmt::format("pops of levels of detail, in {} pair{} of frames: ", check.compared(),
+                                   check.compared() == 1 ? "" : "s");
     if (const std::optional<FramePop>& pop = check.largest())
         text += fmt::format(
-            "the largest pop is an RMSE of {:.4f} over '{}' from frame {} to {}; another seed changes these pixels by "
-            "{:.4f}",
+            "the largest has an RMSE of {:.4f}, in the pixels of '{}' from frame {} to {}; for comparison, another "
+            "seed changes these pixels by {:.4f}",
             pop->rmse, pop->object, pop->frame - 1, pop->frame, pop->seedRmse);
     else
-        text += "no object changes its levels";
+        text += "none, as no object changes its level";
     if (check.incomparable() > 0)
-        text += fmt::format(
-            "; {} more can't be compared, because --samples N would give all frames the same number of "
-            "samples",
-            check.incomparable());
+        text += fmt::format("; {} more can't be compared, because their numbers of samples differ; give --samples N",
+                            check.incomparable());
     printMessage("{}\n", text);
 }
 
@@ -395,7 +393,8 @@ void addShot(CLI::App& command, CaptureArguments& arguments) {
         ->required()
         ->type_name("FILE");
     addParsed(command, "--range", "FIRST:LAST",
-              "First and last frame to render, or a single frame. Turntable and dolly keep the shot's full range",
+              "First and last frame to render, or a single frame. A turntable or dolly still moves over all frames of "
+              "the shot",
               [&arguments](const std::string& text) { arguments.range = parseFrameRange(text); })
         ->group(group);
     addNumber(command, "--frame-rate", arguments.shot.frameRate, {1e-3, 1e6}, "FPS", "Frame rate in frames per second")

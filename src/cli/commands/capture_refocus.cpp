@@ -30,14 +30,16 @@ RefocusRuns chosenRuns(const Shot& shot, const SequenceBase& base, const FilmSet
     for (const RefocusRun& run : runs.runs)
         if (const std::uint64_t bytes = memoryOf(run, base.view); bytes > limit)
             fail(
-                "--refocus needs {} of memory for {} lens images, and may use {}; give fewer --samples or a smaller "
-                "--size",
+                "--refocus needs {} of memory for {} lens images, but may use only {}; give fewer --samples or "
+                "a smaller --size",
                 bytesText(bytes), run.samples, bytesText(limit));
     return runs;
 }
 
 std::string savedText(const FilmSettings& settings, const FilmFigures& figures) {
-    if (figures.refocused == 0) return "no frames differ only in focus, f-number or aperture";
+    if (figures.refocused == 0)
+        return "--refocus computed no frames; it needs consecutive frames that differ only in focus, f-number or "
+               "aperture shape";
     return "refocused " +
            savingText(static_cast<std::uint64_t>(figures.refocused), figures.lensImages, samplesOf(settings));
 }

@@ -70,7 +70,9 @@ Limit limitOf(const std::string& text) {
 
 std::string limitFault(const std::string& text) {
     if (limitOf(text).metric != nullptr) return {};
-    return fmt::format("\"{}\" is not METRIC=VALUE with mae, rmse, psnr, ssim, flip, maxError or nonFinite", text);
+    return fmt::format(
+        "'{}' is not METRIC=VALUE, such as psnr=42; the metrics are: mae, rmse, psnr, ssim, flip, maxError, nonFinite",
+        text);
 }
 
 void printJson(const Difference& difference) {
@@ -199,7 +201,7 @@ void addCompareCommand(CLI::App& program, const GlobalOptions&) {
     command->footer(
         "All metrics except HDR FLIP use sRGB-encoded values in [0, 1] at EV 0. A pixel that is NaN or infinite in "
         "one\n"
-        "image counts as the largest difference, in both images as equal.\n\n"
+        "image counts as the maximum difference. If it is so in both images, it counts as equal.\n\n"
         "Example:\n"
         "  defocus compare reference.exr out.exr --error-map error.png --fail-above flip=0.015 --fail-above psnr=42");
     command->callback([arguments] { runCompare(*arguments); });

@@ -266,11 +266,11 @@ std::string repairSummary(const Scene& scene) {
     const auto mention = [&](std::uint32_t count, const char* what) {
         if (count > 0) kinds.push_back(fmt::format("{} {}", grouped(count), what));
     };
-    mention(sum.dropped, "without area or repeated");
-    mention(sum.turned, "wound against their neighbours");
-    mention(sum.cut, "at edges of more than two faces");
-    mention(sum.split, "at corners where surfaces only touch");
-    return fmt::format("{} face{} before simplification: {}", grouped(sum.faces), sum.faces == 1 ? "" : "s",
+    mention(sum.dropped, "removed (no area or repeated)");
+    mention(sum.turned, "flipped to face as their neighbours");
+    mention(sum.cut, "detached at edges of more than two faces");
+    mention(sum.split, "detached at corners where surfaces only touch");
+    return fmt::format("{} face{} repaired before simplification: {}", grouped(sum.faces), sum.faces == 1 ? "" : "s",
                        fmt::join(kinds, ", "));
 }
 

@@ -21,7 +21,7 @@ void checkFile(const RenderArguments& arguments) {
     const std::filesystem::path& path = arguments.lensImages;
     LightFieldOutput::checkPath(path);
     if (!arguments.stats.empty() || arguments.keepPartial)
-        throw UsageError("--lens-images cannot be combined with --stats and --keep-partial");
+        throw UsageError("--lens-images cannot be combined with --stats or --keep-partial");
     checkImageOutputs({path}, {},
                       {arguments.request.scene, arguments.request.environment, arguments.request.lens.apertureImage});
 }

@@ -352,7 +352,7 @@ void addPyramidCommand(CLI::App& program, const GlobalOptions& global) {
         ->type_name("NAME");
     CLI::Option* points =
         advanced(addInteger(*command, "--points", arguments->points, 100, 100'000'000,
-                            "Number of points on each of two surfaces at which their distance is measured"));
+                            "Number of points on a level, and on the full mesh, at which their distance is measured"));
     command
         ->add_flag("--no-measure", arguments->noMeasure,
                    "Skip the measurement of distances, which takes most of the time")

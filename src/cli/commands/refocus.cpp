@@ -51,10 +51,11 @@ Refocusing requested(const RefocusArguments& arguments, LightField& field) {
 void writePage(const RefocusArguments& arguments, const GlobalOptions& global) {
     const std::string extension = arguments.page.extension().string();
     if (extension != ".html" && extension != ".htm")
-        throw UsageError(fmt::format("--html writes a web page; end '{}' with .html", arguments.page.string()));
+        throw UsageError(fmt::format("--html writes a web page; give a file name that ends with .html, not '{}'",
+                                     arguments.page.string()));
     checkImageOutputs({}, {arguments.page}, {arguments.file});
     if (apertureShape(arguments.request.lens))
-        throw UsageError("--html has its own choice of aperture shapes; leave out the options of the aperture");
+        throw UsageError("--html lets the visitor choose the aperture shape; leave out options such as --blades");
     LightField field(arguments.file);
     const Refocusing start = requested(arguments, field);
     const WriteOptions write{arguments.request.toneMap,
@@ -93,7 +94,7 @@ void runRefocus(const RefocusArguments& arguments, const GlobalOptions& global) 
     else
         checkImageOutputs(arguments.outputs, {}, inputs);
     if (arguments.stack > 0 && arguments.outputs.size() > 1)
-        throw UsageError("--stack derives its files from one output; give -o once");
+        throw UsageError("--stack names its files after one output; give -o once");
     if ((films || arguments.stack > 0) && !std::holds_alternative<CameraFocus>(arguments.request.focus))
         throw UsageError(
             "--focus-pull and --stack set the focus distances; leave out --focus-distance and --focus-pixel");
@@ -146,9 +147,9 @@ void addRefocusCommand(CLI::App& program, const GlobalOptions& global) {
               "Frames per second of --focus-pull")
         ->needs(pull);
     addInteger(*command, "--stack", arguments->stack, 2, 100,
-               "Write a focal stack: N pictures with focus distances over the rendered range, evenly in 1/distance, as "
-               "out.00.exr, out.01.exr …, a picture with everything in focus, out.sharp.exr, and depths in m, "
-               "out.depth.exr")
+               "Write a focal stack for the output out.exr: N pictures (out.00.exr, out.01.exr …), a picture with "
+               "everything in focus (out.sharp.exr) and depths in m (out.depth.exr). The focus distances cover the "
+               "rendered range, evenly in 1/distance")
         ->default_str("")
         ->excludes("--html")
         ->excludes(pull);

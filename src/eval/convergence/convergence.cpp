@@ -148,15 +148,16 @@ bool allFinite(const Image& image) {
 std::string faultOf(const Image& image, const FramePlan& plan, const RenderStats& stats, const Method& method,
                     std::uint32_t sampleTotal) {
     if (image.width != plan.view.width || image.height != plan.view.height)
-        return fmt::format("{} x {} px instead of {} x {}", image.width, image.height, plan.view.width,
+        return fmt::format("the image has {} x {} px instead of {} x {}", image.width, image.height, plan.view.width,
                            plan.view.height);
-    if (!allFinite(image)) return "NaN or infinite pixels";
-    if (stats.samples != sampleTotal) return fmt::format("{} of {} samples", stats.samples, sampleTotal);
+    if (!allFinite(image)) return "the image has NaN or infinite pixels";
+    if (stats.samples != sampleTotal)
+        return fmt::format("the method drew {} of {} samples", stats.samples, sampleTotal);
     const bool asPlanned = stats.samples == plan.samples.size() || stats.samples == plan.settings.sampleCount;
     if (method.usesLensSamples && !asPlanned)
-        return fmt::format("{} lens samples instead of {}", stats.samples, plan.samples.size());
+        return fmt::format("the method drew {} lens samples instead of {}", stats.samples, plan.samples.size());
     if (method.name == baselineMethod && stats.trianglesDrawn != plan.trianglesDrawn)
-        return fmt::format("{} triangles instead of {}", stats.trianglesDrawn, plan.trianglesDrawn);
+        return fmt::format("the method drew {} triangles instead of {}", stats.trianglesDrawn, plan.trianglesDrawn);
     return {};
 }
 

@@ -23,7 +23,8 @@ std::string faultOf(const std::vector<const ConvergenceRun*>& runs, int seeds) {
         const auto other = std::ranges::find_if(
             runs, [&](const ConvergenceRun* each) { return each->run % seeds == run->run % seeds; });
         const auto [min, max] = std::minmax(run->error.mse, (*other)->error.mse);
-        if (max - min > maxDifference * min) return fmt::format("not one image: MSE {:.3g} to {:.3g}", min, max);
+        if (max - min > maxDifference * min)
+            return fmt::format("runs with the same seed differ: MSE {:.3g} to {:.3g}", min, max);
     }
     return {};
 }

@@ -81,8 +81,8 @@ std::vector<std::string> immenseBlur(const FramePlan& plan) {
         if (std::isfinite(object.coc.largest)) largest = std::max(largest, object.coc.largest);
     if (largest <= largestSampledBlur(plan)) return {};
     return {fmt::format(
-        "blur of up to {:.2g} px spreads points over more than {} times the image's area and is drawn with few "
-        "samples; check the f-number and the lens values in the camera's extras, or use --blur-scale {:g}",
+        "blur of up to {:.2g} px spreads a point over more than {} times the image's area, which no number of samples "
+        "resolves; check the f-number and the lens values in the camera's extras, or use --blur-scale {:g}",
         largest, grouped(maxAutomaticSamples),
         roundNumber(plan.view.lens.blurScale * visibleShare * plan.view.width / largest))};
 }
@@ -96,9 +96,9 @@ std::vector<std::string> coarseDivisions(const FramePlan& plan) {
     const auto count = std::ranges::count_if(plan.objects, bounded);
     if (count == 0) return {};
     return {
-        fmt::format("the blur of {} object(s) varies so nonlinearly inside triangles that it is approximated: edges "
-                    "are divided into at most {} parts; use a smaller --field-curvature, --radial-blur-gain or "
-                    "astigmatism, or levels of detail",
+        fmt::format("the blur of {} object(s) varies too much inside triangles and is approximated: their edges are "
+                    "divided into at most {} parts; use a smaller --field-curvature, --radial-blur-gain or "
+                    "--astigmatism, or levels of detail",
                     count, std::ranges::find_if(plan.objects, bounded)->maxParts)};
 }
 

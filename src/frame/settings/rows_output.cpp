@@ -110,8 +110,8 @@ Rows developerRows() {
             .unit("px")
             .unused(methodWithoutSamples),
         rows::boolean("keepAll", "--keep-all", MEMBER(keepAll),
-                      "Disable culling (slower). Also draws the blur and all samples if all blur is below half a pixel; otherwise, "
-                      "the image is the same")
+                      "Disable culling, which is slower and doesn't change the image. If all blur is below half a "
+                      "pixel, also draw this blur, with all samples")
             .effect(SettingEffect::run),
         rows::other(
             "memory", "--memory", "SIZE",

@@ -280,8 +280,8 @@ std::vector<MethodSetting> circularSettings() {
          .choices = {"fitted", "rescaled", "published"}},
         {.name = "max-coc",
          .defaultValue = "unlimited",
-         .description = "Maximum blur: unlimited, or 17 px at the resolution of the blur, as in the slides (68 px with "
-                        "--resolution quarter)",
+         .description = "Maximum blur diameter. published: 17 px at --resolution, as in Garcia's slides (68 px of the "
+                        "picture with --resolution quarter)",
          .choices = {"unlimited", "published"}},
         {.name = "kernel-taps",
          .defaultValue = "exact",
@@ -306,20 +306,21 @@ std::vector<MethodSetting> circularSettings() {
          .choices = {"premultiplied", "coverage"}},
         {.name = "blend-bias",
          .defaultValue = "1",
-         .description =
-             "Above 1, the blurred foreground hides more of its own sharp image: less ghosting, but wider edges",
+         .description = "Factor on the opacity of the blurred foreground. Above 1, less of the sharp foreground shows "
+                        "through as a ghost, but edges become wider",
          .choices = {},
          .min = 1,
          .max = 4,
          .integer = false},
         {.name = "bias-by",
          .defaultValue = "constant",
-         .description = "Where --blend-bias applies: equally everywhere (constant), or more where the foreground is "
-                        "dense and bright (luminance), which keeps edges",
+         .description = "Where --blend-bias applies: everywhere (constant), or mainly where the foreground covers most "
+                        "of the pixel and is brighter than the background (luminance), which keeps edges narrower",
          .choices = {"constant", "luminance"}},
         {.name = "convolution",
          .defaultValue = "separable",
-         .description = "separable: two fast passes. direct: one slow, two-dimensional pass, for tests of separable",
+         .description = "How the blur is convolved. separable: in two fast one-dimensional passes. direct: in one slow "
+                        "two-dimensional pass, to check separable",
          .choices = {"separable", "direct"}},
         transparencyBucketsSetting("1"),
         pinholesSetting(),

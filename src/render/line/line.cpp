@@ -299,8 +299,8 @@ Method lineMethod() {
     const std::vector<MethodSetting> settings = {
         {.name = "resolve",
          .defaultValue = "exact",
-         .description = "exact: keep all visible segments of a line. published: keep at most --segments, and drop or "
-                        "merge the others by the paper's rules",
+         .description = "Visible segments of a line that are kept. exact: all. published: at most --segments; the "
+                        "others are dropped or merged by the paper's rules",
          .choices = {"exact", "published"}},
         {.name = "segments",
          .defaultValue = std::to_string(standardSegments),
@@ -319,13 +319,13 @@ Method lineMethod() {
          .max = 64},
         {.name = "interval-bits",
          .defaultValue = "64",
-         .description = "Bits per segment, for both of its ends, in the buffer of --resolve published; 16 in the paper",
+         .description = "Number of bits that store both ends of a segment with --resolve published; 16 in the paper",
          .choices = {"64", "16"},
          .onlyWith = "resolve=published"},
         {.name = "line-weights",
          .defaultValue = "area",
-         .description = "Weights of the parts of a line: the lens area that they represent (κ in the paper), or their "
-                        "length, which makes the middle of bokeh too bright",
+         .description = "Weight of each part of a line: the lens area that it represents (area; κ in the paper), or "
+                        "its length (length), which makes the middle of bokeh too bright",
          .choices = {"area", "length"}},
         {.name = "lines-per-position",
          .defaultValue = "1",
@@ -335,8 +335,8 @@ Method lineMethod() {
          .max = 64},
         {.name = "bin-size",
          .defaultValue = "0",
-         .description = "Maximum number of triangles per tile of 8 x 8 px. Triangles farther away are left out, and "
-                        "--stats counts them. 0: unlimited",
+         .description = "Maximum number of triangles per tile of 8 x 8 px. Of more triangles, the farthest are left "
+                        "out, and --stats counts them. 0: unlimited",
          .choices = {},
          .min = 0,
          .max = 1'000'000},

@@ -147,7 +147,7 @@ MergedFrame mergeParts(const std::vector<fs::path>& paths) {
         parts.push_back({path, readPart(path)});
         parts.back().part.blocks.clear();
     }
-    if (parts.empty()) fail("there are no parts to merge");
+    if (parts.empty()) fail("no parts given; give the files of --sample-range");
     std::ranges::stable_sort(
         parts, {}, [](const NamedPart& named) { return std::pair(named.part.range.first, named.part.range.end); });
     checkComplete(parts);

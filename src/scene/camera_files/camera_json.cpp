@@ -36,7 +36,7 @@ CameraSample sampleOf(const Json& json, const std::string& what) {
     sample.worldFromCamera = glm::make_mat4(matrix->get<std::vector<double>>().data());
     if (glm::determinant(glm::dmat3(sample.worldFromCamera)) == 0) fail("{}: worldFromCamera has no inverse", what);
     const auto lens = json.find("lens");
-    if (lens == json.end() || !lens->is_object()) fail("{}: lens must be an object", what);
+    if (lens == json.end() || !lens->is_object()) fail("{}: 'lens' must be an object", what);
     for (const auto& [name, value] : lens->items()) {
         if (!value.is_number()) fail("{}: lens value {} must be a number", what, name);
         sample.lens[name] = value.get<double>();
@@ -100,15 +100,16 @@ CameraTrack jsonCamera(std::string_view text, const std::string& name, const std
     take->aspect = numberAt(json, "aspectRatio", file);
     if (!(take->aspect > 0)) fail("{}: aspectRatio must be above 0", file);
     const auto samples = json.find("samples");
-    if (samples == json.end() || !samples->is_array() || samples->empty()) fail("{}: the camera has no samples", file);
+    if (samples == json.end() || !samples->is_array() || samples->empty())
+        fail("{}: 'samples' must be a list of one camera or more", file);
     for (std::size_t i = 0; i < samples->size(); ++i) {
         take->samples.push_back(sampleOf((*samples)[i], fmt::format("{}: sample {}", file, i)));
         if (i > 0 && take->samples[i].time <= take->samples[i - 1].time)
-            fail("{}: the times of the samples do not increase", file);
+            fail("{}: the times of 'samples' must increase", file);
     }
     CameraTrack track;
     if (const auto shutter = json.find("shutter"); shutter != json.end()) {
-        if (!shutter->is_object()) fail("{}: shutter must be an object", file);
+        if (!shutter->is_object()) fail("{}: 'shutter' must be an object", file);
         track.shutter = ShutterInterval{numberAt(*shutter, "open", file), numberAt(*shutter, "close", file)};
         if (track.shutter->close < track.shutter->open) fail("{}: the shutter closes before it opens", file);
     }

@@ -78,8 +78,9 @@ TEST(Info, countsWhatIsRepairedBeforeSimplification) {
     const std::string file = (folder / "fin.glb").string();
     EXPECT_EQ(nlohmann::json::parse(info(file + " --json"))["meshes"][0]["repairedFaces"],
               nlohmann::json({{"all", 3}, {"dropped", 2}, {"turned", 0}, {"cut", 1}, {"split", 1}}));
-    EXPECT_NE(info(file).find("repairs     3 faces before simplification: 2 without area or repeated, 1 at edges of "
-                              "more than two faces, 1 at corners where surfaces only touch"),
+    EXPECT_NE(info(file).find("repairs     3 faces repaired before simplification: 2 removed (no area or repeated), 1 "
+                              "detached at edges of more than two faces, 1 detached at corners where surfaces only "
+                              "touch"),
               std::string::npos)
         << info(file);
 }
