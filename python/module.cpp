@@ -435,6 +435,7 @@ void defineRenderer(py::module_& package) {
     using defocus::SceneRenderer;
     py::class_<RenderStatistics>(package, "Statistics")
         .def_readonly("samples", &RenderStatistics::samples)
+        .def_readonly("positions", &RenderStatistics::positions)
         .def_readonly("load_milliseconds", &RenderStatistics::loadMilliseconds)
         .def_readonly("pyramid_milliseconds", &RenderStatistics::pyramidMilliseconds)
         .def_readonly("setup_milliseconds", &RenderStatistics::setupMilliseconds)

@@ -25,6 +25,7 @@ namespace defocus {
 // Cost of a frame. Times are wall-clock milliseconds.
 struct RenderStatistics {
     std::uint32_t samples = 0;                // lens samples drawn
+    std::uint32_t positions = 1;              // pixel positions of each lens sample: 1 or 4
     double loadMilliseconds = 0;              // reading the scene and posing it
     double pyramidMilliseconds = 0;           // building pyramids, or reading them from the cache
     double setupMilliseconds = 0;             // uploads and shader compilation

@@ -11,13 +11,14 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 sum = startsBlock ? vec4(0.0) : texelFetch(sumSoFar, pixel, 0);
     vec4 compensation = startsBlock ? vec4(0.0) : texelFetch(compensationSoFar, pixel, 0);
-    vec2 imagePlane = pixelOnImagePlane();
-    vec2 rim = barrelRim(imagePlane);
+    vec2 rim = barrelRim(pixelOnImagePlane());
     float seen = 0.0;
     for (int layer = 0; layer < layerCount; ++layer) {
         if (catEye > 0.0 && isClipped(layer, rim)) continue;
         seen += 1.0;
-        addLayer(sum, compensation, layerLight(ivec3(pixel + firstPixel, layer), imagePlane), layer);
+        vec4 light = layerLight(texelOf(0, layer));
+        for (int position = 1; position < positions; ++position) light += layerLight(texelOf(position, layer));
+        addLayer(sum, compensation, light / float(positions), layer);
     }
     // Alpha counts samples. Sums of integers are exact, so they need no compensation.
     if (backgroundType != 0) sum.a += catEye > 0.0 ? seen : float(layerCount);

@@ -21,12 +21,13 @@ layout(location = 1) out vec4 cellsOut[drawnClasses];
 const float blendedAlpha = 1.001;
 
 // Adds a layer's pixel to the sums of the blur classes, according to the pixel's blur.
-void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel, vec2 ndc) {
+void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel) {
+    vec2 ndc = onImagePlane(vec2(texel.xy) + 0.5) * frame.projection.xy;
     float c = circleOfConfusion(texelFetch(layerDepths, texel, 0).r, ndc, vec2(1.0, 0.0));
     float variance = value.a < blendedAlpha ? max(0.0, cellBlur * cellBlur * c * c - minCellVariance) : 0.0;
     float inFront = c < 0.0 ? variance : 0.0;
     float behind = variance - inFront;
-    value.a = 1.0;
+    value = vec4(value.rgb, 1.0) / float(positions);
     for (int k = 0; k < cellsInFront; ++k) sums[k] += (1.0 - reachOfClass(inFront, k)) * value;
     for (int k = 0; k < cellsBehind; ++k) sums[cellsInFront + k] += reachOfClass(behind, k) * value;
 }
@@ -44,9 +45,7 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 sum = startsBlock ? vec4(0.0) : texelFetch(sumSoFar, pixel, 0);
     vec4 compensation = vec4(0.0);   // discarded, because blurred sums need only single precision
-    vec2 imagePlane = pixelOnImagePlane();
-    vec2 rim = barrelRim(imagePlane);
-    vec2 ndc = imagePlane * frame.projection.xy;
+    vec2 rim = barrelRim(pixelOnImagePlane());
     vec4 cells[cellClasses];
     for (int k = 0; k < drawnClasses; ++k) cells[k] = startsBlock ? vec4(0.0) : texelFetch(drawnSums, ivec3(pixel, k), 0);
     for (int k = drawnClasses; k < cellClasses; ++k) cells[k] = startsBlock ? vec4(0.0) : imageLoad(cellSums, ivec3(pixel, k));
@@ -54,10 +53,14 @@ void main() {
     for (int layer = 0; layer < layerCount; ++layer) {
         if (catEye > 0.0 && isClipped(layer, rim)) continue;
         seen += 1.0;
-        ivec3 texel = ivec3(pixel + firstPixel, layer);
-        vec4 value = layerLight(texel, imagePlane);
-        addLayer(sum, compensation, value, layer);
-        addToCells(cells, value, texel, ndc);
+        vec4 light = vec4(0.0);
+        for (int position = 0; position < positions; ++position) {
+            ivec3 texel = texelOf(position, layer);
+            vec4 value = layerLight(texel);
+            light += value;
+            addToCells(cells, value, texel);
+        }
+        addLayer(sum, compensation, light / float(positions), layer);
     }
     // Alpha counts samples. Sums of integers are exact, so they need no compensation.
     if (backgroundType != 0) sum.a += catEye > 0.0 ? seen : float(layerCount);

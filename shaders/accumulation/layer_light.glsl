@@ -14,8 +14,10 @@ layout(std140, binding = 3) uniform ShiftBlock {
 };
 layout(location = 0) uniform int layerCount;
 layout(location = 1) uniform int firstInBlock;
-// Pixel of the layers that corresponds to pixel (0, 0) of the sums.
+// Pixel of the layers that corresponds to pixel (0, 0) of the sums. A pixel of the sums corresponds to positionsPerAxis
+// pixels of the layers along each axis, one per pixel position.
 layout(location = 2) uniform ivec2 firstPixel;
+const int positions = positionsPerAxis * positionsPerAxis;
 
 #ifdef WEIGHS_SAMPLES
 layout(std140, binding = 4) uniform SampleBlock {
@@ -32,8 +34,20 @@ vec4 bandOf(int layer) { return vec4(1.0, 1.0, 1.0, 0.0); }
 vec2 lensPointOf(int layer) { return vec2(0.0); }
 #endif
 
+// Returns the pixel of a layer that has a position of the pixel to sum. `position`: 0 to positions − 1.
+ivec3 texelOf(int position, int layer) {
+    ivec2 cell = ivec2(position % positionsPerAxis, position / positionsPerAxis);
+    return ivec3(ivec2(gl_FragCoord.xy) * positionsPerAxis + firstPixel + cell, layer);
+}
+
+// Returns the point on the image plane at distance 1 for a place in the layers, in px from the bottom left.
+vec2 onImagePlane(vec2 place) {
+    return (2.0 * (place + frame.window.xy) / frame.window.zw - 1.0) / frame.projection.xy;
+}
+
+// Returns the same for the centre of the pixel to sum.
 vec2 pixelOnImagePlane() {
-    return (2.0 * (gl_FragCoord.xy + vec2(firstPixel) + frame.window.xy) / frame.window.zw - 1.0) / frame.projection.xy;
+    return onImagePlane(gl_FragCoord.xy * float(positionsPerAxis) + vec2(firstPixel));
 }
 
 // Returns the vector r (in lens radii) of the cat-eye vignetting of a pixel. The lens barrel's rim, a circle as large
@@ -72,9 +86,10 @@ vec3 behind(vec2 imagePlane, int layer) {
 
 // Returns a pixel of a layer, composited over a uniform or gradient background. Without a background, alpha is the
 // coverage.
-vec4 layerLight(ivec3 texel, vec2 imagePlane) {
+vec4 layerLight(ivec3 texel) {
     vec4 value = texelFetch(layers, texel, 0);
-    if (backgroundType == 1 || backgroundType == 2) value.rgb += (1.0 - min(value.a, 1.0)) * behind(imagePlane, texel.z);
+    if (backgroundType == 1 || backgroundType == 2)
+        value.rgb += (1.0 - min(value.a, 1.0)) * behind(onImagePlane(vec2(texel.xy) + 0.5), texel.z);
     return value;
 }
 

@@ -25,6 +25,7 @@ MethodUse chosenMethod(const Request& request) {
 RenderSettings renderSettings(const Request& request) {
     RenderSettings settings;
     settings.sampleCount = request.samples.value_or(settings.sampleCount);
+    settings.positions = chosenMethod(request).method->drawsPositions ? request.positions.value_or(1) : 1;
     settings.sequence = request.sequence;
     settings.seed = request.seed;
     settings.lod = request.lod.value_or(settings.lod);
@@ -54,6 +55,8 @@ StopSettings stopSettings(const Request& request) {
     const bool exact = opens && shutterSettings(request).exactMotion();
     if (!request.samples && !stop.given() && !exact && chosenMethod(request).method->sumsBlocks)
         stop.automatic = request.quality;
+    stop.choosesPositions =
+        stop.automatic && !request.positions && request.layers.empty() && request.method == automaticMethod;
     return stop;
 }
 

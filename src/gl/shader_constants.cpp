@@ -22,6 +22,7 @@ struct ShaderConstant {
 constexpr ShaderConstant constants[] = {
     // Frame
     {"int", "blockSamples", "64"},  // lens samples per block of the accumulated sum
+    {"int", "positionsPerAxis", "1"},  // positions in a pixel of the image, i.e. pixels of a layer, along each axis
     {"int", "environmentType", "0"},
     {"int", "backgroundType", "0"},
     {"float", "environmentLevels", "0.0"},    // coarsest mip level of the environment map

@@ -31,10 +31,14 @@ void checkRequest(const View& view, const RenderSettings& settings) {
         fail("image size {} x {}: each side must be 1 to {} px", view.width, view.height, maxImageSide);
     if (settings.sampleCount < 1 || settings.sampleCount > maxSamples)
         fail("{} samples: choose 1 to {}", settings.sampleCount, maxSamples);
+    if (settings.positions != 1 && settings.positions != 4)
+        fail("{} pixel positions per lens sample: choose 1 or 4", settings.positions);
+    if (settings.positions > 1 && !settings.layers.empty())
+        fail("data layers need one pixel position per lens sample (--positions 1)");
     if (!(view.nearPlane > 0)) fail("the near plane must be above 0 m, not {}", view.nearPlane);
     if (!(settings.cocTolerance > 0)) fail("the CoC tolerance must be above 0 px, not {}", settings.cocTolerance);
     const LodThresholds thresholds =
-        chosenThresholds(settings.thresholds, settings.metric, std::max(settings.sampleCount, 1u));
+        chosenThresholds(settings.thresholds, settings.metric, std::max(positionCount(settings), 1u));
     if (!(thresholds.blur >= 0) || !(thresholds.size >= 0) || !(thresholds.light >= 0))
         fail("--blur-threshold, --size-threshold and --light-threshold must be at least 0");
     const LodMetric metric = chosenMetric(settings.metric, settings.thresholds);
@@ -284,8 +288,8 @@ void leaveOutSamples(FramePlan& plan) {
     if (plan.usesLens) return;
     const bool stochastic = std::ranges::any_of(plan.blendOrder, &BlendRun::stochastic);
     const bool still = plan.moments.empty() && plan.shadows.maps.empty() && !stochastic;
-    const std::uint32_t kept =
-        still ? std::min(plan.settings.sampleCount, antialiasingSamples) : plan.settings.sampleCount;
+    const std::uint32_t enough = antialiasingSamples / plan.settings.positions;
+    const std::uint32_t kept = still ? std::min(plan.settings.sampleCount, enough) : plan.settings.sampleCount;
     plan.leftOut.push_back(
         {"lens samples",
          fmt::format("no blur reaches half a pixel (maximum {:.2g} px); {} {} samples remain", plan.largestBlur, kept,
@@ -426,7 +430,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     plan.view = view;
     plan.settings = settings;
     plan.settings.metric = chosenMetric(settings.metric, settings.thresholds);
-    plan.thresholds = chosenThresholds(settings.thresholds, settings.metric, settings.sampleCount);
+    plan.thresholds = chosenThresholds(settings.thresholds, settings.metric, positionCount(settings));
     plan.tanHalfHorizontal = tanHalfHorizontalFov(view.lens);
     plan.apertureDiameter = apertureDiameter(view.lens);
     plan.coc = clipCircleOfConfusion(view.lens, view.width, view.height);
@@ -435,6 +439,8 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     if (plan.needsAlpha && view.lens.dofEnabled && view.lens.catEye > 0)
         fail("lens: a cat's eye cannot be combined with a transparent background");
     plan.samples = lensSamples(view.lens, settings.sequence, settings.firstSample, settings.sampleCount, settings.seed);
+    // The positions of a sample form a grid, and the sample moves the grid within one of its cells.
+    for (LensSample& sample : plan.samples) sample.pixel /= static_cast<float>(positionsPerAxis(settings));
     plan.frameFirst = settings.firstSample;
     plan.frameSamples = settings.firstSample + settings.sampleCount;
 

@@ -2,6 +2,14 @@
 
 namespace defocus::engine {
 
+int positionsPerAxis(const RenderSettings& settings) {
+    return settings.positions == 4 ? 2 : 1;
+}
+
+std::uint32_t positionCount(const RenderSettings& settings) {
+    return settings.sampleCount * settings.positions;
+}
+
 void fixThresholds(RenderSettings& settings, std::uint32_t sampleCount, double factor) {
     const LodThresholds standard = chosenThresholds(settings.thresholds, settings.metric, sampleCount);
     settings.metric = chosenMetric(settings.metric, settings.thresholds);

@@ -20,6 +20,8 @@ enum class LodCause {
 
 struct RenderSettings {
     std::uint32_t sampleCount = 64;  // lens samples, 1 … maxSamples
+    // Pixel positions of each lens sample: 1, or 4 in a grid of 2 × 2. A layer has one pixel per position.
+    std::uint32_t positions = 1;
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;         // selects a different set of sample points
     std::uint32_t firstSample = 0;  // offset into the sequence; reference images use a different offset
@@ -39,6 +41,13 @@ struct RenderSettings {
     std::optional<FocusRange> refocus = {};
     std::vector<Layer> layers = {};  // data layers to sum, such as depth and normals
 };
+
+// Returns the number of positions in a pixel along each axis: 1 or 2.
+int positionsPerAxis(const RenderSettings& settings);
+
+// Returns the number of positions that all samples draw in a pixel. Edges in focus are antialiased as well as by this
+// number of samples with one position each.
+std::uint32_t positionCount(const RenderSettings& settings);
 
 // Multiplies the thresholds by `factor`; unset thresholds first get the defaults for frames of `sampleCount` samples.
 void fixThresholds(RenderSettings& settings, std::uint32_t sampleCount, double factor = 1);

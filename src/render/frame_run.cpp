@@ -40,23 +40,29 @@ void FrameRun::start(const View& view, const RenderSettings& settings, const Sto
         schedule_.emplace(settings, stop, measuredLevels(settings, stop));
         return startBlock(true);
     }
-    if (stop.automatic) return startAutomatic(settings, *stop.automatic);
+    if (stop.automatic) return startAutomatic(settings, stop);
     plan_ = planned(settings);
     renderer_->start(plan_);
 }
 
-void FrameRun::startAutomatic(RenderSettings settings, Quality quality) {
+void FrameRun::startAutomatic(RenderSettings settings, const StopSettings& stop) {
+    const Quality quality = *stop.automatic;
     settings.sampleCount = blockSamples;
     plan_ = planned(settings);
     const std::uint32_t samples = firstSamples(plan_, quality);
-    if (samples >= blockSamples) {
+    const bool fourPositions = stop.choosesPositions && fourPositionsSuffice(plan_, samples);
+    if (!fourPositions && samples >= blockSamples) {
         schedule_ = BlockSchedule::automatic(settings, quality, samples);
         plan_ = {};
         return startBlock(true);
     }
     settings.sampleCount = samples;
-    plan_ = planned(settings);
     trial_ = Trial{settings, quality};
+    if (fourPositions) {
+        settings.positions = 4;
+        settings.sampleCount = samples / 4;
+    }
+    plan_ = planned(settings);
     renderer_->start(plan_);
 }
 
@@ -145,8 +151,9 @@ bool FrameRun::endTrial() {
     const double excess = trial.estimate.flip().value_or(0) / flipOf(trial.quality);
     if (excess <= 1 || blursBeyondSamples(plan_)) return false;
     keepStats();
-    schedule_ =
-        BlockSchedule::automatic(trial.settings, trial.quality, samples() * std::pow(excess, 1 / lensSampleExponent));
+    const double drawn = static_cast<double>(samples()) * plan_.settings.positions / trial.settings.positions;
+    const double expected = drawn * std::pow(excess, 1 / lensSampleExponent);
+    schedule_ = BlockSchedule::automatic(trial.settings, trial.quality, expected);
     trial_.reset();
     plan_ = {};
     startBlock(true);

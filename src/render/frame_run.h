@@ -49,7 +49,7 @@ private:
     FramePlan planned(const RenderSettings& settings);
     std::optional<LevelError> measuredLevels(const RenderSettings& settings, const StopSettings& stop);
     bool advanceRenderer();
-    void startAutomatic(RenderSettings settings, Quality quality);
+    void startAutomatic(RenderSettings settings, const StopSettings& stop);
     void startBlock(bool first);
     bool endTrial();
     void keepStats();
@@ -61,7 +61,7 @@ private:
     // A complete frame of fewer samples than a block, with an automatic number of samples. If its error exceeds the
     // limit of the quality setting, the frame is drawn again in blocks.
     struct Trial {
-        RenderSettings settings;
+        RenderSettings settings;  // for the blocks; the trial may have more positions per sample
         Quality quality;
         ErrorEstimate estimate = {};
     };

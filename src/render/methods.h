@@ -58,6 +58,7 @@ struct Method {
     bool sumsBlocks = false;      // true: Renderer::continueWith adds samples to the sum
     bool drawsTiles = false;      // true: draws only FramePlan::tile; false: always the full image
     bool drawsLayers = false;     // true: draws RenderSettings::layers
+    bool drawsPositions = false;  // true: draws RenderSettings::positions; false: needs one position per sample
     bool usesThreads = false;     // true: draws in RendererOptions::threads threads
     bool drawsShadows = true;     // false: no shadows
     bool drawsMotion = true;      // false: draws moving objects at a single time within the exposure

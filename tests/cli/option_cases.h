@@ -209,6 +209,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
         {"hide", {{"--hide", "Board"}, nearFocus}},
         {"apertureImage", {{"--aperture-image", "half.png"}, blurred}},
         {"samples", {{"--samples", "9"}, {}}},
+        {"positions", {{"--positions", "4"}, {"--samples", "2"}}},
         {"quality", {{"--quality", "fine"}, {"--samples", "auto", "--fstop", "0.5"}}},
         {"targetError", {{"--target-error", "0.5"}, {"--samples", "256", "--fstop", "0.5"}}},
         {"timeLimit", {{"--time-limit", "0.001"}, {"--samples", "256", "--fstop", "0.5"}}},

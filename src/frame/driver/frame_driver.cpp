@@ -271,11 +271,14 @@ void FrameDriver::fit(const FrameOrder& order) {
     }
     const Shadows shadows = order.settings.shadows;
     const bool mapsPossible = shadows == Shadows::on || (shadows == Shadows::automatic && hasGround(*world_->scene));
-    if (!order.rows && surelyFits(order.view.width, order.view.height, mapsPossible, limits, limit_)) {
+    const int axis = positionsPerAxis(order.settings);
+    const int width = order.view.width * axis;
+    const int height = order.view.height * axis;
+    if (!order.rows && surelyFits(width, height, mapsPossible, limits, limit_)) {
         if (!renderer_) makeRenderer();
         return renderer_->setWave(
             {.perWave = shortWave(order),
-             .threads = threadsWithin(order.view.width, order.view.height, limit_, wantedThreads(limits, method))});
+             .threads = threadsWithin(width, height, limit_, wantedThreads(limits, method))});
     }
 
     // Free the memory of the previous frame before the remaining memory is measured.

@@ -284,6 +284,7 @@ RenderStatistics SceneDriver::statistics() const {
     const InContext use(*context_);
     const RenderStats stats = driver_->stats();
     statistics.samples = driver_->samples();
+    statistics.positions = driver_->plan().settings.positions;
     statistics.setupMilliseconds = stats.setupMilliseconds;
     statistics.renderMilliseconds = stats.renderMilliseconds;
     statistics.trianglesDrawn = stats.trianglesDrawn;

@@ -97,6 +97,7 @@ Metadata renderMetadata(const RenderReport& report) {
     addSettings(metadata, report.options);
     // Values that the renderer chose for settings that the request leaves unset.
     metadata["defocus:samples"] = static_cast<int>(report.stats.samples);
+    metadata["defocus:positions"] = static_cast<int>(report.plan.settings.positions);
     if (stopSettings(report.options).given()) metadata["defocus:stopped"] = stopReasonText(report.stats.stopped);
     if (report.stats.estimatedError) metadata["defocus:estimatedError"] = *report.stats.estimatedError;
     metadata["defocus:method"] = report.method;
@@ -137,6 +138,7 @@ std::string statsJson(const RenderReport& report) {
         {"height", report.plan.view.height},
         {"method", report.method},
         {"samples", stats.samples},
+        {"positions", settings.positions},
         {"largestBlur", report.plan.largestBlur},
         {"sequence", sequenceName(settings.sequence)},
         {"seed", settings.seed},
@@ -199,6 +201,7 @@ std::string summary(const RenderReport& report) {
     if (report.plan.trianglesAtFullDetail > stats.trianglesDrawn)
         triangles += fmt::format(" (full detail: {})", inMillions(report.plan.trianglesAtFullDetail));
     std::string samples = fmt::format("{} samples", stats.samples);
+    if (report.plan.settings.positions > 1) samples += fmt::format(" with {} positions", report.plan.settings.positions);
     if (stopSettings(report.options).given())
         samples += fmt::format(" ({}; {})", errorText(stats), stopReasonText(stats.stopped));
     else if (stopSettings(report.options).automatic)

@@ -9,6 +9,11 @@ std::string methodWithoutSamples(const SettingContext& context) {
     return fmt::format("method {} has no lens samples", context.method.name);
 }
 
+std::string methodWithoutPositions(const SettingContext& context) {
+    if (context.method.drawsPositions) return {};
+    return fmt::format("method {} has one pixel position per lens sample", context.method.name);
+}
+
 std::string methodWithoutShapes(const SettingContext& context) {
     if (context.method.aperture != ApertureShown::oval) return {};
     return fmt::format("method {} supports only round and oval apertures", context.method.name);

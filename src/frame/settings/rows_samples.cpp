@@ -75,6 +75,13 @@ Rows sampleRows() {
     return {
         presetRow().inShot("/preset"),
         samplesRow().everyday().example("64").inShot("/samples").unused(methodWithoutSamples),
+        rows::choice<std::optional<std::uint32_t>>(
+            "positions", "--positions", {{"auto", std::nullopt}, {"1", 1u}, {"4", 4u}}, MEMBER(positions),
+            "Pixel positions that each lens sample draws: 1, or 4 in a grid of 2 x 2. Where little is blurred, a "
+            "quarter of the samples with 4 positions gives the same image, and draws the triangles a quarter as often. "
+            "auto: 4 for --method auto with --samples auto where no blur exceeds a few pixels, else 1")
+            .inShot("/positions")
+            .unused(methodWithoutPositions),
         rows::choice<Quality>("quality", "--quality",
                               {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
                               MEMBER(quality),

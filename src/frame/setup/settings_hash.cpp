@@ -86,7 +86,7 @@ std::string settingsHash(const FilmSettings& film, const FrameMoment& moment) {
     hashed.add(pixelSettings(drawn));
     hashed.add(moment.settings.seed);
     const LodThresholds thresholds =
-        chosenThresholds(moment.settings.thresholds, moment.settings.metric, moment.settings.sampleCount);
+        chosenThresholds(moment.settings.thresholds, moment.settings.metric, positionCount(moment.settings));
     hashed.add(moment.settings.firstSample, thresholds.blur, thresholds.size, thresholds.light);
     return hashed.hash();
 }

@@ -56,6 +56,8 @@ WaveShape chosenShape(const FramePlan& plan, const RendererOptions& options, con
                       std::uint64_t layers) {
     const std::uint64_t samples = std::max<std::uint64_t>(1, plan.samples.size());
     std::uint64_t longest = limit.perWave > 0 ? limit.perWave : maxWave;
+    // The error of a frame of few samples is estimated from half of them.
+    if (plan.settings.positions > 1) longest = std::min(longest, std::max<std::uint64_t>(1, samples / 2));
     if (currentIsSoftware()) {
         const std::uint64_t triangles = std::max<std::uint64_t>(1, plan.trianglesDrawn);
         longest = std::min(longest, std::max(minWaveOfTriangles, maxWaveTriangles * samples / triangles));
@@ -72,6 +74,15 @@ WaveShape chosenShape(const FramePlan& plan, const RendererOptions& options, con
         shape.samples = power(std::min({layers / shape.waves(), even, longest, std::uint64_t{maxSharedWave}}));
     }
     return shape;
+}
+
+// Returns the image of the first position of each pixel, at the top left. `axis`: positions along each axis.
+Image ofFirstPositions(Image drawn, int axis) {
+    if (axis == 1) return drawn;
+    Image result(drawn.width / axis, drawn.height / axis, 1);
+    for (int y = 0; y < result.height; ++y)
+        for (int x = 0; x < result.width; ++x) *result.at(x, y) = *drawn.at(x * axis, y * axis);
+    return result;
 }
 
 // Whether each sample's image is blurred by its lens cell. `automatic` decides by the blur in the image
@@ -138,7 +149,7 @@ public:
     [[nodiscard]] std::optional<BlockSum> blockSum() override { return sum_->block(); }
 
     [[nodiscard]] std::optional<Image> sampleDepth() override {
-        Image depth = readBack(latest_->picture.depths(), 1);
+        Image depth = ofFirstPositions(readBack(latest_->picture.depths(), 1), positionsPerAxis(plan_.settings));
         // The depth buffer holds near plane / depth.
         for (float& value : depth.pixels) value = static_cast<float>(plan_.view.nearPlane / static_cast<double>(value));
         return depth;
@@ -202,7 +213,8 @@ private:
         shape_ =
             chosenShape(plan_, options_, limit_, maxLayers(*scene_.world().scene, plan_, options_, limit_, format));
         const LayerWindow window = layerWindow(plan_);
-        const LayerSumInfo info{window.width, window.height, format, options_.shaderFolder};
+        const int axis = positionsPerAxis(plan_.settings);
+        const LayerSumInfo info{window.width / axis, window.height / axis, format, options_.shaderFolder};
         const std::vector<Layer>& layers = plan_.settings.layers;
         const bool countsSamples = plan_.view.lens.catEye > 0;
         const bool same = sum_ && sum_->info() == info && drawnLayers_ == layers && countsSamples_ == countsSamples;
@@ -215,7 +227,7 @@ private:
             drawnLayers_ = layers;
             countsSamples_ = countsSamples;
         }
-        sum_->reset(plan_.tile ? std::optional(window) : std::nullopt);
+        sum_->reset({window.left, window.bottom});
     }
 
     // Returns whether the environment is drawn into the layers. An environment that is not a map is usually composited

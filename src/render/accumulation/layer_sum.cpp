@@ -27,12 +27,11 @@ LayerSum::LayerSum(const LayerSumInfo& info)
     resolve_ = pass("accumulation/resolve.frag");
 }
 
-void LayerSum::reset(const std::optional<LayerWindow>& window) {
+void LayerSum::reset(const glm::ivec2& first) {
     samples_ = 0;
     meanIsCurrent_ = false;
-    window_ = window;
+    first_ = first;
     blursCells_ = false;
-    assert(!window || (window->width == info_.width && window->height == info_.height));
 }
 
 void LayerSum::blurCells(const LensCells& cells) {
@@ -62,7 +61,7 @@ void LayerSum::add(const WaveLayers& layers, const FrameUniforms& frame, std::ui
     if (blursCells_) cells_->bindForAdding(addLayers, layers.depths(), cellBlur_, samples_ % blockSamples == 0, next);
     glProgramUniform1i(addLayers.name(), 0, static_cast<GLint>(count));
     glProgramUniform1i(addLayers.name(), 1, static_cast<GLint>(samples_ % blockSamples));
-    glProgramUniform2i(addLayers.name(), 2, window_ ? window_->left : 0, window_ ? window_->bottom : 0);
+    glProgramUniform2i(addLayers.name(), 2, first_.x, first_.y);
     fullscreen_.draw(addLayers);
     block_.flip();
     countsInAlpha_ = frame.countsInAlpha();

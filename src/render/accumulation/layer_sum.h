@@ -6,6 +6,7 @@
 // rendered on several machines. The mean is a divided copy; the sum itself is never divided.
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <map>
 #include <optional>
 #include <utility>
@@ -16,14 +17,13 @@
 #include "render/accumulation/cell_sums.h"
 #include "render/accumulation/wave_layers.h"
 #include "render/gpu_scene/frame_uniforms.h"
-#include "render/gpu_scene/layer_window.h"
 #include "render/layer_format.h"
 #include "render/renderer.h"
 
 namespace defocus::engine {
 
 struct LayerSumInfo {
-    int width = 1;  // size of the sums in px: the layers, or the rectangle of them that is summed (see reset)
+    int width = 1;  // size of the sums in px of the image
     int height = 1;
     LayerFormat format = LayerFormat::rgba16f;  // format of the layers; not LayerFormat::automatic
     std::filesystem::path shaderFolder = {};
@@ -34,9 +34,8 @@ class LayerSum {
 public:
     explicit LayerSum(const LayerSumInfo& info);
 
-    // Clears all sums. `window` is the rectangle of the layers to sum. It must have the size of the sums;
-    // nullopt: all pixels.
-    void reset(const std::optional<LayerWindow>& window = {});
+    // Clears all sums. `first` is the pixel of the layers that belongs to pixel (0, 0) of the sums, from the bottom left.
+    void reset(const glm::ivec2& first = {0, 0});
     // Turns the blur of lens cells on for all further blocks. Call it only when all samples so far form complete
     // blocks. reset() turns the blur off.
     void blurCells(const LensCells& cells);
@@ -78,7 +77,7 @@ private:
     void divide(const Sum& total, int latest, float divisor);
 
     LayerSumInfo info_;
-    std::optional<LayerWindow> window_;
+    glm::ivec2 first_{0, 0};
     Sum block_;
     Sum frame_;
     GlTexture mean_;  // allocated on first use

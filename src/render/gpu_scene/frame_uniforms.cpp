@@ -148,6 +148,7 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
                            ? mipmapLevels(world.environment.map->width, world.environment.map->height) - 1
                            : 0;
     defines_ = {{"blockSamples", std::to_string(blockSamples)},
+                {"positionsPerAxis", std::to_string(positionsPerAxis(plan.settings))},
                 {"environmentType", std::to_string(environmentNumber(type))},
                 {"backgroundType", std::to_string(plan.needsAlpha ? 0 : environmentNumber(type))},
                 {"environmentLevels", fmt::format("{:.1f}", static_cast<double>(levels))},

@@ -3,21 +3,26 @@
 namespace defocus::engine {
 
 LayerWindow layerWindow(const FramePlan& plan) {
-    const int width = plan.view.width;
-    const int height = plan.view.height;
+    const int axis = positionsPerAxis(plan.settings);
+    const int width = plan.view.width * axis;
+    const int height = plan.view.height * axis;
+    const auto scaled = [axis](const PixelRectangle& area) {
+        return PixelRectangle{area.left * axis, area.top * axis, area.width * axis, area.height * axis};
+    };
     const PixelRectangle whole{0, 0, width, height};
-    const Tile tile = plan.tile.value_or(Tile{whole, whole});
+    const PixelRectangle cell = plan.tile ? scaled(plan.tile->cell) : whole;
+    const PixelRectangle area = plan.tile ? scaled(plan.tile->area) : whole;
     LayerWindow window;
-    window.layerWidth = tile.cell.width;
-    window.layerHeight = tile.cell.height;
-    window.imageLeft = tile.cell.left;
-    window.imageBottom = height - (tile.cell.top + tile.cell.height);
+    window.layerWidth = cell.width;
+    window.layerHeight = cell.height;
+    window.imageLeft = cell.left;
+    window.imageBottom = height - (cell.top + cell.height);
     window.imageWidth = width;
     window.imageHeight = height;
-    window.left = tile.area.left - tile.cell.left;
-    window.bottom = tile.cell.top + tile.cell.height - (tile.area.top + tile.area.height);
-    window.width = tile.area.width;
-    window.height = tile.area.height;
+    window.left = area.left - cell.left;
+    window.bottom = cell.top + cell.height - (area.top + area.height);
+    window.width = area.width;
+    window.height = area.height;
     window.cut = !plan.usesTransmission && (window.width < window.layerWidth || window.height < window.layerHeight);
     return window;
 }

@@ -1,21 +1,22 @@
 #pragma once
 // Rectangle of a frame's layers that is drawn and summed, and position of the layers in the image. Row 0 is the bottom
-// row, as in OpenGL.
+// row, as in OpenGL. All values are in pixels of the layers: a layer has one pixel for each of the positions in a pixel
+// of the image (RenderSettings::positions).
 
 #include "plan/frame_plan.h"
 
 namespace defocus::engine {
 
 struct LayerWindow {
-    // Size of the layers in px.
+    // Size of the layers.
     int layerWidth = 0;
     int layerHeight = 0;
-    // Rectangle of the layers that is summed, in px.
+    // Rectangle of the layers that is summed.
     int left = 0;
     int bottom = 0;
     int width = 0;
     int height = 0;
-    // Position in the image of the layers' pixel (0, 0), and size of the image, in px.
+    // Position in the image of the layers' pixel (0, 0), and size of the image.
     int imageLeft = 0;
     int imageBottom = 0;
     int imageWidth = 0;

@@ -10,6 +10,8 @@ namespace defocus::engine {
 
 namespace {
 
+constexpr double gapOfPositions = 1.25;  // as QualityLimits::gap, for samples with four positions
+constexpr int maxDoubledSide = 8192;     // max image side in px; layers with four positions are twice as large
 constexpr std::uint32_t minSpread = 64;  // min samples for smooth penumbrae and motion
 
 struct QualityLimits {
@@ -80,6 +82,14 @@ std::uint32_t firstSamples(const FramePlan& plan, Quality quality) {
 std::uint32_t firstSamples(double blur, Quality quality) {
     const QualityLimits limits = limitsOf(quality);
     return samplesForGap(blur, limits.firstGap, limits.min);
+}
+
+bool fourPositionsSuffice(const FramePlan& plan, std::uint32_t samples) {
+    const bool onlyLens =
+        plan.shadows.maps.empty() && plan.moments.empty() && !plan.usesTransmission && plan.coc.chromatic == 0;
+    const bool fits = std::max(plan.view.width, plan.view.height) <= maxDoubledSide;
+    const double gap = plan.largestBlur * std::sqrt(std::numbers::pi / samples);  // of samples / 4
+    return onlyLens && fits && gap <= gapOfPositions;
 }
 
 std::uint32_t samplesForBlur(const FramePlan& plan, Quality quality) {

@@ -20,6 +20,8 @@ struct StopSettings {
     std::uint32_t sampleLimit = maxSamples;
     // If set, the number of samples is chosen automatically; see automatic_samples.h.
     std::optional<Quality> automatic = {};
+    // If true, RenderSettings::positions is chosen automatically, too.
+    bool choosesPositions = false;
 
     // Returns whether a target error or a time limit is set.
     [[nodiscard]] bool given() const { return targetError || timeLimit; }

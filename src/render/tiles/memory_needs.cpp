@@ -81,6 +81,7 @@ TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLi
         needs.layerPixel += sizeof(float);  // copy of the depths for the occlusion test
         needs.elsewhere += std::min(plan.trianglesDrawn * pendingTriangleBytes, pendingBytesWithin(limit));
     }
+    needs.layerPixel *= plan.settings.positions;
     needs.hostMemory = remainder(limit, needs.elsewhere);
     needs.deviceMemory = needs.hostMemory;
     if (!needs.shared) {

@@ -58,6 +58,7 @@ void KeptImages::begin(const View& view, const RenderSettings& settings, const F
         info_ = lightFieldInfo(view, keptRange(view, plan));
         RenderSettings drawn = settings;
         drawn.refocus = info_.range;
+        drawn.positions = 1;
         drawn.sampleCount = fittingImages(info_.size, withinFreeMemory(bytes));
         plan_ = planFrame(*world_, withMargin(view, info_.size.margin), drawn);
         addSamples(info_, plan_);

@@ -62,6 +62,32 @@ TEST(SamplesForBlur, followTheQuality) {
     }
 }
 
+// A quarter of the samples has images of a blurred point that are twice as far apart.
+TEST(FourPositions, sufficeWhereAQuarterOfTheSamplesHasNoGaps) {
+    for (const std::uint32_t samples : {16u, 32u, 64u})
+        for (double blur = 0.5; blur < 200; blur *= 1.1) {
+            FramePlan plan = planOf(blur);
+            plan.largestBlur = blur;
+            EXPECT_EQ(fourPositionsSuffice(plan, samples), gapOf(blur, samples / 4) <= 1.25) << blur;
+        }
+}
+
+TEST(FourPositions, doNotReplaceSamplesThatOtherEffectsNeed) {
+    FramePlan plan = planOf(1);
+    ASSERT_TRUE(fourPositionsSuffice(plan, 32));
+    FramePlan refracting = plan;
+    refracting.usesTransmission = true;
+    EXPECT_FALSE(fourPositionsSuffice(refracting, 32));
+    FramePlan shadowed = plan;
+    shadowed.shadows.maps.emplace_back();
+    EXPECT_FALSE(fourPositionsSuffice(shadowed, 32));
+    FramePlan moving = plan;
+    moving.moments.emplace_back();
+    EXPECT_FALSE(fourPositionsSuffice(moving, 32));
+    plan.largestBlur = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(fourPositionsSuffice(plan, 32));
+}
+
 TEST(SamplesForBlur, leaveOutWhatHasNoBound) {
     FramePlan plan = planOf(8);
     plan.objects.push_back(plan.objects.front());
