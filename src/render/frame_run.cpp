@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -34,6 +35,7 @@ void FrameRun::start(const View& view, const RenderSettings& settings, const Sto
     plan_ = {};
     planMilliseconds_ = 0;
     schedule_.reset();
+    automatic_.reset();
     trial_.reset();
     timed_ = stop.timeLimit.has_value();
     if (stop.given()) {
@@ -45,23 +47,28 @@ void FrameRun::start(const View& view, const RenderSettings& settings, const Sto
     renderer_->start(plan_);
 }
 
-void FrameRun::startAutomatic(RenderSettings settings, const StopSettings& stop) {
-    const Quality quality = *stop.automatic;
-    settings.sampleCount = blockSamples;
-    plan_ = planned(settings);
-    const std::uint32_t samples = firstSamples(plan_, quality);
-    const bool fourPositions = stop.choosesPositions && fourPositionsSuffice(plan_, samples);
-    if (!fourPositions && samples >= blockSamples) {
-        schedule_ = BlockSchedule::automatic(settings, quality, samples);
+void FrameRun::startAutomatic(const RenderSettings& settings, const StopSettings& stop) {
+    automatic_ = {settings, *stop.automatic, stop.choosesPositions};
+    automatic_->settings.sampleCount = blockSamples;
+    plan_ = planned(automatic_->settings);
+    startAbout(firstSamples(plan_, automatic_->quality));
+}
+
+// Starts a frame with the quality of about `samples` samples of automatic_.settings: as a trial if this is less than a
+// block, else in blocks. plan_ must be a plan of the frame with any number of samples.
+void FrameRun::startAbout(double samples) {
+    RenderSettings settings = automatic_->settings;
+    if (automatic_->choosesPositions && fourPositionsSuffice(plan_, samples)) {
+        settings.positions = 4;
+        samples /= 4;
+    }
+    settings.sampleCount = std::bit_ceil(static_cast<std::uint32_t>(std::ceil(samples)));
+    if (settings.sampleCount >= blockSamples) {
+        schedule_ = BlockSchedule::automatic(settings, automatic_->quality, samples);
         plan_ = {};
         return startBlock(true);
     }
-    settings.sampleCount = samples;
-    trial_ = Trial{settings, quality};
-    if (fourPositions) {
-        settings.positions = 4;
-        settings.sampleCount = samples / 4;
-    }
+    trial_.emplace();
     plan_ = planned(settings);
     renderer_->start(plan_);
 }
@@ -124,7 +131,7 @@ bool FrameRun::advanceRenderer() {
 bool FrameRun::advance() {
     if (schedule_ && schedule_->stopped()) return false;
     if (advanceRenderer()) {
-        if (trial_ && 2 * samples() == plan_.samples.size()) trial_->estimate.add(renderer_->image(), samples());
+        if (trial_ && 2 * samples() == plan_.samples.size()) trial_->add(renderer_->image(), samples());
         if (schedule_ && schedule_->wantsImage(samples())) schedule_->addImage(renderer_->image(), samples());
         if (!timed_ || !schedule_->outOfTime(millisecondsSince(begin_) / 1000)) return true;
         schedule_->endWithinBlock(renderer_->samples() - schedule_->samples());
@@ -141,22 +148,19 @@ bool FrameRun::advance() {
     return true;
 }
 
-// Ends the trial (FrameRun::Trial). Returns false if the trial's error is small enough. Otherwise starts the frame
-// again, in blocks.
+// Ends the trial. Returns false if the trial's error is small enough. Otherwise starts the frame again, with more
+// samples.
 bool FrameRun::endTrial() {
-    Trial& trial = *trial_;
-    if (trial.estimate.samples() == samples()) return false;  // the trial was already assessed
-    const bool halved = trial.estimate.samples() > 0;
-    if (halved) trial.estimate.add(renderer_->image(), samples());
-    const double excess = trial.estimate.flip().value_or(0) / flipOf(trial.quality);
-    if (excess <= 1 || blursBeyondSamples(plan_)) return false;
+    const bool assessed = trial_->samples() == samples();
+    const bool halved = trial_->samples() > 0;
+    if (assessed || !halved || plan_.samples.size() < plan_.settings.sampleCount) return false;
+    trial_->add(renderer_->image(), samples());
+    const double excess = trial_->flip().value_or(0) / flipOf(automatic_->quality);
+    if (!(excess > 1) || blursBeyondSamples(plan_)) return false;  // the comparison is false for NaN, too
     keepStats();
-    const double drawn = static_cast<double>(samples()) * plan_.settings.positions / trial.settings.positions;
-    const double expected = drawn * std::pow(excess, 1 / lensSampleExponent);
-    schedule_ = BlockSchedule::automatic(trial.settings, trial.quality, expected);
     trial_.reset();
-    plan_ = {};
-    startBlock(true);
+    const double drawn = static_cast<double>(samples()) * plan_.settings.positions / automatic_->settings.positions;
+    startAbout(drawn * std::pow(excess, 1 / lensSampleExponent));
     return true;
 }
 
@@ -173,18 +177,18 @@ std::uint32_t FrameRun::sampleTotal() const {
 }
 
 double FrameRun::share() const {
-    const bool unconfirmed = trial_ ? trial_->estimate.samples() < samples() : schedule_ && schedule_->unconfirmed();
+    const bool unconfirmed = trial_ ? trial_->samples() < samples() : schedule_ && schedule_->unconfirmed();
     return (unconfirmed ? 0.5 : 1.0) * samples() / std::max(sampleTotal(), 1u);
 }
 
 RenderStats FrameRun::stats() const {
     RenderStats stats = renderer_->stats();
-    if (trial_) stats.estimatedError = trial_->estimate.error();
-    if (!schedule_) return stats;
     stats.renderMilliseconds += before_.renderMilliseconds;
     stats.setupMilliseconds += before_.setupMilliseconds;
     stats.gpuMilliseconds += before_.gpuMilliseconds;
     stats.cpuTime += before_.cpuTime;
+    if (trial_) stats.estimatedError = trial_->error();
+    if (!schedule_) return stats;
     stats.stopped = schedule_->stopped().value_or(StopReason::sampleCount);
     stats.estimatedError = schedule_->estimatedError();
     return stats;

@@ -49,7 +49,8 @@ private:
     FramePlan planned(const RenderSettings& settings);
     std::optional<LevelError> measuredLevels(const RenderSettings& settings, const StopSettings& stop);
     bool advanceRenderer();
-    void startAutomatic(RenderSettings settings, const StopSettings& stop);
+    void startAutomatic(const RenderSettings& settings, const StopSettings& stop);
+    void startAbout(double samples);
     void startBlock(bool first);
     bool endTrial();
     void keepStats();
@@ -58,14 +59,16 @@ private:
     Renderer* renderer_;
     View view_;
     std::optional<BlockSchedule> schedule_;  // nullopt: the frame has a single plan
-    // A complete frame of fewer samples than a block, with an automatic number of samples. If its error exceeds the
-    // limit of the quality setting, the frame is drawn again in blocks.
-    struct Trial {
-        RenderSettings settings;  // for the blocks; the trial may have more positions per sample
+    struct Automatic {
+        RenderSettings settings;
         Quality quality;
-        ErrorEstimate estimate = {};
+        bool choosesPositions;
     };
-    std::optional<Trial> trial_;
+    std::optional<Automatic> automatic_;  // nullopt: the number of samples is given, or stop conditions end the frame
+    // Estimates the error of a trial: a complete frame of fewer samples than a block, with an automatic number of
+    // samples. If the error exceeds the limit of the quality setting, the frame is drawn again with more samples.
+    // nullopt: the frame is no trial.
+    std::optional<ErrorEstimate> trial_;
     FramePlan plan_;
     double planMilliseconds_ = 0;
     RenderStats before_;  // sums over all blocks before the latest

@@ -84,7 +84,7 @@ std::uint32_t firstSamples(double blur, Quality quality) {
     return samplesForGap(blur, limits.firstGap, limits.min);
 }
 
-bool fourPositionsSuffice(const FramePlan& plan, std::uint32_t samples) {
+bool fourPositionsSuffice(const FramePlan& plan, double samples) {
     const bool onlyLens =
         plan.shadows.maps.empty() && plan.moments.empty() && !plan.usesTransmission && plan.coc.chromatic == 0;
     const bool fits = std::max(plan.view.width, plan.view.height) <= maxDoubledSide;

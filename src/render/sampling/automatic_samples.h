@@ -25,7 +25,7 @@ std::uint32_t firstSamples(double blur, Quality quality);
 // Returns whether `samples` / 4 lens samples with four pixel positions each can replace `samples` with one position.
 // They can if the images of a blurred point in neighbouring lens samples are then at most 1.25 px apart, and if nothing
 // else differs between samples: shadows, motion, wavelengths and refraction need the larger number of samples.
-bool fourPositionsSuffice(const FramePlan& plan, std::uint32_t samples);
+bool fourPositionsSuffice(const FramePlan& plan, double samples);
 
 // Returns the number of samples of a frame whose error cannot be estimated before it is complete, such as a frame in
 // tiles. The number is computed as in firstSamples(), but for points at most 3.5 (draft), 2 (good) or 1.4 px (fine)

@@ -61,10 +61,12 @@ BlockSchedule::BlockSchedule(const RenderSettings& settings, const StopSettings&
     : settings_(settings), stop_(stop), levels_(levels), nextEstimate_(blockSamples), expected_(firstEstimate) {}
 
 BlockSchedule BlockSchedule::automatic(const RenderSettings& settings, Quality quality, double expected) {
-    BlockSchedule schedule(settings, {.targetError = {}, .timeLimit = {}, .sampleLimit = maxAutomaticSamples});
+    BlockSchedule schedule(
+        settings, {.targetError = {}, .timeLimit = {}, .sampleLimit = maxAutomaticSamples / settings.positions});
     schedule.targetFlip_ = flipOf(quality);
     schedule.expected_ = expected;
-    const std::uint32_t blocks = wholeBlocks(0.5 * std::min(expected, double{maxAutomaticSamples})) / blockSamples;
+    const double first = 0.5 * std::min<double>(expected, schedule.stop_.sampleLimit);
+    const std::uint32_t blocks = wholeBlocks(first) / blockSamples;
     schedule.nextEstimate_ = (blocks == 1 ? 1 : blocks / 2 * 2) * blockSamples;
     return schedule;
 }
@@ -99,7 +101,7 @@ RenderSettings BlockSchedule::nextBlock() const {
     RenderSettings settings = settings_;
     settings.firstSample += samples_;
     settings.sampleCount = std::min(blockSamples, stop_.sampleLimit - samples_);
-    fixThresholds(settings, static_cast<std::uint32_t>(thresholdSamples()));
+    fixThresholds(settings, static_cast<std::uint32_t>(thresholdSamples() * settings.positions));
     return settings;
 }
 

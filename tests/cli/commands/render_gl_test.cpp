@@ -261,12 +261,17 @@ TEST_F(Render, theNumberOfSamplesIsAutomatic) {
                        {"render", "quads.gltf", "--size", "128x96", "--stats", "stats.json", "-o", name});
         const Outcome outcome = run(options);
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-        const auto samples = json::parse(textOf(folder() / "stats.json")).at("samples").get<int>();
-        EXPECT_NE(outcome.err.find(fmt::format("{} samples (automatic", samples)), std::string::npos) << outcome.err;
+        const json stats = json::parse(textOf(folder() / "stats.json"));
+        const auto samples = stats.at("samples").get<int>();
+        const std::string positions = stats.at("positions") == 4 ? " with 4 positions" : "";
+        EXPECT_NE(outcome.err.find(fmt::format("{} samples{} (automatic", samples, positions)), std::string::npos)
+            << outcome.err;
         return samples;
     };
-    EXPECT_EQ(rendered("sharp.exr", {"--no-dof"}), 16) << "pinhole samples only smooth edges";
-    EXPECT_EQ(rendered("little.exr", {"--fstop", "4"}), 32);
+    EXPECT_EQ(rendered("sharp.exr", {"--no-dof", "--positions", "1"}), 16) << "pinhole samples only smooth edges";
+    EXPECT_EQ(rendered("sharp4.exr", {"--no-dof"}), 4) << "with 4 positions each";
+    EXPECT_EQ(rendered("little.exr", {"--fstop", "4", "--positions", "1"}), 32);
+    EXPECT_EQ(rendered("little4.exr", {"--fstop", "4"}), 8) << "with 4 positions each";
     const int many = rendered("much.exr", {"--fstop", "0.3", "--focus-distance", "1"});
     EXPECT_GE(many, 128);
     EXPECT_EQ(rendered("again.exr", {"--fstop", "0.3", "--focus-distance", "1", "--samples", "auto", "--wave", "5"}),

@@ -139,10 +139,33 @@ TEST_F(Positions, areChosenByTheBlur) {
     EXPECT_EQ(drawn(false).positions, 1u);
     const RenderSettings few = drawn(true);
     EXPECT_EQ(few.positions, 4u);
-    EXPECT_EQ(few.sampleCount, 4u);
-    EXPECT_TRUE(sameBits(renderer->image(), drawnBy("accumulation", *small, settingsWith(4, 4))));
+    EXPECT_LT(few.sampleCount, 16u);
+    EXPECT_TRUE(sameBits(renderer->image(), drawnBy("accumulation", *small, settingsWith(4, few.sampleCount))));
     small->view.lens.fStop = 0.25;
     EXPECT_EQ(drawn(true).positions, 1u);
+}
+
+// The error of the image decides how many samples are drawn, with four positions as with one.
+TEST_F(Positions, areDrawnUntilTheQualityIsReached) {
+    SKIP_ON_SECOND_DRIVER();
+    const auto small = fiveSpheres();
+    small->view.lens.fStop = 1;
+    small->view.width = 64;
+    small->view.height = 48;
+    const Image reference = convergedImage(*small);
+    const auto renderer = rendererOf("auto", small->world);
+    std::uint32_t before = 0;
+    for (const Quality quality : {Quality::draft, Quality::good, Quality::fine}) {
+        FrameRun run(small->world, *renderer);
+        run.start(small->view, ratedSettings(64), {.automatic = quality, .choosesPositions = true});
+        while (run.advance()) {
+        }
+        EXPECT_EQ(run.plan().settings.positions, 4u);
+        EXPECT_TRUE(run.plan().usesLens);
+        EXPECT_GT(run.samples(), before);
+        before = run.samples();
+        EXPECT_LT(compareImages(reference, renderer->image()).flip, 1.2 * flipOf(quality));
+    }
 }
 
 }  // namespace
