@@ -72,6 +72,7 @@ struct Plan {
     bool usesLens = true;         // false: all blurs are smaller than half a pixel
     // Samples.
     std::uint32_t samples = 0;
+    std::uint32_t positions = 1;  // pixel positions of each lens sample
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;
     double cocTolerance = 0;          // tolerance in px; see Request::cocTolerance

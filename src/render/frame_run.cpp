@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -57,14 +56,10 @@ void FrameRun::startAutomatic(const RenderSettings& settings, const StopSettings
 // Starts a frame with the quality of about `samples` samples of automatic_.settings: as a trial if this is less than a
 // block, else in blocks. plan_ must be a plan of the frame with any number of samples.
 void FrameRun::startAbout(double samples) {
-    RenderSettings settings = automatic_->settings;
-    if (automatic_->choosesPositions && fourPositionsSuffice(plan_, samples)) {
-        settings.positions = 4;
-        samples /= 4;
-    }
-    settings.sampleCount = std::bit_ceil(static_cast<std::uint32_t>(std::ceil(samples)));
+    const RenderSettings settings = withSamples(automatic_->settings, plan_, samples, automatic_->choosesPositions);
     if (settings.sampleCount >= blockSamples) {
-        schedule_ = BlockSchedule::automatic(settings, automatic_->quality, samples);
+        const double expected = samples * automatic_->settings.positions / settings.positions;
+        schedule_ = BlockSchedule::automatic(settings, automatic_->quality, expected);
         plan_ = {};
         return startBlock(true);
     }

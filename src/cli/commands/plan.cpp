@@ -26,12 +26,10 @@ struct PlanArguments {
 void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
     const PreparedFrame frame = prepareFrame(arguments.request, terminalProgress(global));
     FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
-    if (const std::optional<Quality> quality =
-            stopSettings(arguments.request)
-                .automatic) {  // a render starts with this number of samples and may add more
-        RenderSettings settings = frame.settings;
-        settings.sampleCount = firstSamples(plan, *quality);
-        plan = planFrame(frame.world, frame.view, settings);
+    const StopSettings stop = stopSettings(arguments.request);
+    if (stop.automatic) {  // a render starts with this number of samples and may add more
+        const std::uint32_t samples = firstSamples(plan, *stop.automatic);
+        plan = planFrame(frame.world, frame.view, withSamples(frame.settings, plan, samples, stop.choosesPositions));
     }
     fmt::print("{}", arguments.json ? toJson(reportedPlan(plan)) : planTable(plan));
     printCacheUse(frame, global);

@@ -160,6 +160,7 @@ Plan engine::reportedPlan(const FramePlan& plan) {
     reported.apertureDiameter = plan.apertureDiameter;
     reported.usesLens = plan.usesLens;
     reported.samples = static_cast<std::uint32_t>(plan.samples.size());
+    reported.positions = plan.settings.positions;
     reported.sequence = plan.settings.sequence;
     reported.seed = plan.settings.seed;
     reported.cocTolerance = plan.settings.cocTolerance;
@@ -231,6 +232,7 @@ std::string toJson(const Plan& plan) {
                                    {"back", plan.cameraBack}}},
                                  {"lens", lensJson(plan)},
                                  {"samples", plan.samples},
+                                 {"positions", plan.positions},
                                  {"sequence", engine::sequenceName(plan.sequence)},
                                  {"seed", plan.seed},
                                  {"cocTolerance", plan.cocTolerance},

@@ -1,6 +1,7 @@
 #include "render/sampling/automatic_samples.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -90,6 +91,17 @@ bool fourPositionsSuffice(const FramePlan& plan, double samples) {
     const bool fits = std::max(plan.view.width, plan.view.height) <= maxDoubledSide;
     const double gap = plan.largestBlur * std::sqrt(std::numbers::pi / samples);  // of samples / 4
     return onlyLens && fits && gap <= gapOfPositions;
+}
+
+RenderSettings withSamples(RenderSettings settings, const FramePlan& plan, double samples, bool choosesPositions) {
+    if (choosesPositions && fourPositionsSuffice(plan, samples)) {
+        settings.positions = 4;
+        samples /= 4;
+    }
+    const auto count = static_cast<std::uint32_t>(std::ceil(samples));
+    settings.sampleCount =
+        count <= blockSamples ? std::bit_ceil(count) : (count + blockSamples - 1) / blockSamples * blockSamples;
+    return settings;
 }
 
 std::uint32_t samplesForBlur(const FramePlan& plan, Quality quality) {

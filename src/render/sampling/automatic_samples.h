@@ -27,6 +27,11 @@ std::uint32_t firstSamples(double blur, Quality quality);
 // else differs between samples: shadows, motion, wavelengths and refraction need the larger number of samples.
 bool fourPositionsSuffice(const FramePlan& plan, double samples);
 
+// Returns the settings of a frame with the quality of about `samples` samples of `settings`: a power of two up to 64,
+// or complete blocks of 64. With `choosesPositions`, a quarter of them with four positions each if
+// fourPositionsSuffice(). `plan` is a plan of the frame with any number of samples.
+RenderSettings withSamples(RenderSettings settings, const FramePlan& plan, double samples, bool choosesPositions);
+
 // Returns the number of samples of a frame whose error cannot be estimated before it is complete, such as a frame in
 // tiles. The number is computed as in firstSamples(), but for points at most 3.5 (draft), 2 (good) or 1.4 px (fine)
 // apart.
