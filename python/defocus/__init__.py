@@ -98,6 +98,7 @@ class Statistics(NamedTuple):
     """Time, memory and triangle counts of a frame; times are wall-clock times."""
 
     samples: int
+    positions: int  # pixel positions of each lens sample: 1 or 4
     load_milliseconds: float
     pyramid_milliseconds: float
     setup_milliseconds: float

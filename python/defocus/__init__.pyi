@@ -48,7 +48,7 @@ class Keywords(TypedDict, total=False):
     size: Optional[Union[Tuple[int, int], str]]  # px
     preset: Optional[Literal["jeong2011", "tzeng2012", "scheuermann2004", "garcia2018", "lee2010", "munkberg2012"]]
     samples: Optional[Union[int, Literal["auto"]]]
-    positions: Optional[Literal["auto", "1", "4"]]
+    positions: Optional[Union[int, Literal["auto"]]]
     quality: Optional[Literal["draft", "good", "fine"]]
     target_error: Optional[float]
     time_limit: Optional[Union[float, str]]  # s

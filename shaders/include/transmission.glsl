@@ -21,7 +21,8 @@ vec4 seenBehind(vec3 offset, float roughness) {
         mat3 worldFromView = mat3(frame.worldFromView);
         at += 0.5 * (ndcThroughLens((surface.position + offset) * worldFromView) - ndcThroughLens(surface.position * worldFromView));
     }
-    float level = roughness * log2(float(size.x));
+    float level = roughness * log2(float(size.x / positionsPerAxis));
+    if (roughness > 0.0) level += log2(float(positionsPerAxis));
     uint turn = uint(surface.sampleNumber) * 2654435769u;   // 2³² / golden ratio
     at += (exp2(level) - 1.0) * (vec2(fractionOf(turn + (1u << 31)), fractionOf(17u * turn + (1u << 31))) - 0.5) / vec2(size);
     return textureLod(backdrop, vec3(at, gl_Layer), level);

@@ -55,8 +55,8 @@ StopSettings stopSettings(const Request& request) {
     const bool exact = opens && shutterSettings(request).exactMotion();
     if (!request.samples && !stop.given() && !exact && chosenMethod(request).method->sumsBlocks)
         stop.automatic = request.quality;
-    stop.choosesPositions =
-        stop.automatic && !request.positions && request.layers.empty() && request.method == automaticMethod;
+    stop.choosesPositions = stop.automatic && !request.positions && request.layers.empty() &&
+                            chosenMethod(request).method->name == automaticMethod;
     return stop;
 }
 

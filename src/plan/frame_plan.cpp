@@ -288,8 +288,8 @@ void leaveOutSamples(FramePlan& plan) {
     if (plan.usesLens) return;
     const bool stochastic = std::ranges::any_of(plan.blendOrder, &BlendRun::stochastic);
     const bool still = plan.moments.empty() && plan.shadows.maps.empty() && !stochastic;
-    const std::uint32_t enough = antialiasingSamples / plan.settings.positions;
-    const std::uint32_t kept = still ? std::min(plan.settings.sampleCount, enough) : plan.settings.sampleCount;
+    const std::uint32_t kept =
+        still ? std::min(plan.settings.sampleCount, antialiasingSamples) : plan.settings.sampleCount;
     plan.leftOut.push_back(
         {"lens samples",
          fmt::format("no blur reaches half a pixel (maximum {:.2g} px); {} {} samples remain", plan.largestBlur, kept,

@@ -174,7 +174,7 @@ struct FramePlan {
     std::uint64_t trianglesAtFullDetail = 0;  // triangles in level 0 of the drawn objects, without culling
 };
 
-// Number of pixel positions for antialiasing if nothing is blurred.
+// Number of samples for antialiasing if nothing is blurred.
 inline constexpr std::uint32_t antialiasingSamples = 16;
 // A frame is drawn with a pinhole if all CoC diameters are below this value, unless RenderSettings::keepAll is set.
 inline constexpr double minBlur = 0.5;  // px

@@ -14,6 +14,13 @@
 
 namespace defocus::engine {
 
+namespace {
+
+// Min pixel positions of a trial whose error is estimated. Half the image of fewer positions says too little.
+constexpr std::uint32_t minAssessed = 32;
+
+}  // namespace
+
 void checkStop(const StopSettings& stop, const Method& method, const ShutterSettings& shutter) {
     if (!stop.given()) return;
     const char* what = stop.targetError ? "a target error" : "a time limit";
@@ -53,12 +60,12 @@ void FrameRun::startAutomatic(const RenderSettings& settings, const StopSettings
     startAbout(firstSamples(plan_, automatic_->quality));
 }
 
-// Starts a frame with the quality of about `samples` samples of automatic_.settings: as a trial if this is less than a
+// Starts a frame with the quality of about `samples` samples of one position: as a trial if this is less than a
 // block, else in blocks. plan_ must be a plan of the frame with any number of samples.
 void FrameRun::startAbout(double samples) {
     const RenderSettings settings = withSamples(automatic_->settings, plan_, samples, automatic_->choosesPositions);
     if (settings.sampleCount >= blockSamples) {
-        const double expected = samples * automatic_->settings.positions / settings.positions;
+        const double expected = samples / settings.positions;
         schedule_ = BlockSchedule::automatic(settings, automatic_->quality, expected);
         plan_ = {};
         return startBlock(true);
@@ -126,7 +133,9 @@ bool FrameRun::advanceRenderer() {
 bool FrameRun::advance() {
     if (schedule_ && schedule_->stopped()) return false;
     if (advanceRenderer()) {
-        if (trial_ && 2 * samples() == plan_.samples.size()) trial_->add(renderer_->image(), samples());
+        const bool isHalf = 2 * samples() == plan_.samples.size();
+        if (trial_ && isHalf && positionCount(plan_.settings) >= minAssessed)
+            trial_->add(renderer_->image(), samples());
         if (schedule_ && schedule_->wantsImage(samples())) schedule_->addImage(renderer_->image(), samples());
         if (!timed_ || !schedule_->outOfTime(millisecondsSince(begin_) / 1000)) return true;
         schedule_->endWithinBlock(renderer_->samples() - schedule_->samples());
@@ -154,8 +163,7 @@ bool FrameRun::endTrial() {
     if (!(excess > 1) || blursBeyondSamples(plan_)) return false;  // the comparison is false for NaN, too
     keepStats();
     trial_.reset();
-    const double drawn = static_cast<double>(samples()) * plan_.settings.positions / automatic_->settings.positions;
-    startAbout(drawn * std::pow(excess, 1 / lensSampleExponent));
+    startAbout(positionCount(plan_.settings) * std::pow(excess, 1 / lensSampleExponent));
     return true;
 }
 

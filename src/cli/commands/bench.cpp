@@ -121,7 +121,7 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
     // Leave out settings that the bench varies itself, the cache (the results include the build time of the pyramids)
     // and exposure (images are compared at EV 0).
     addSettings(*command, arguments->request,
-                settingsOf(frameGroups, {"samples", "quality", "targetError", "timeLimit", "lod", "method",
+                settingsOf(frameGroups, {"samples", "positions", "quality", "targetError", "timeLimit", "lod", "method",
                                          "cacheFolder", "noCache", "exposureTime", "iso"}));
     addDeveloperSettings(*command, arguments->request, {"memory", "threads"});
     command->footer(

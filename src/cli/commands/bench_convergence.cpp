@@ -350,7 +350,7 @@ void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global) {
         "convergence", "Measure the error over run time of methods and settings against a reference");
     // Leave out settings that the bench varies itself, and exposure, because images are compared at EV 0.
     addSettings(*command, arguments->request,
-                settingsOf(frameGroups, {"preset", "samples", "quality", "targetError", "timeLimit", "lod",
+                settingsOf(frameGroups, {"preset", "samples", "positions", "quality", "targetError", "timeLimit", "lod",
                                          "blurThreshold", "sizeThreshold", "lightThreshold", "method", "cacheFolder",
                                          "noCache", "exposureTime", "iso"}));
     addMeasurement(*command, *arguments);

@@ -99,8 +99,8 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
                                              "pull, dolly, turntable and animation");
     // Leave out settings that the bench varies itself, and exposure, because images are compared at EV 0.
     addSettings(*command, arguments->request,
-                settingsOf(frameGroups,
-                           {"samples", "quality", "targetError", "timeLimit", "lod", "method", "exposureTime", "iso"}));
+                settingsOf(frameGroups, {"samples", "positions", "quality", "targetError", "timeLimit", "lod", "method",
+                                         "exposureTime", "iso"}));
     const char* group = "Measurement";
     PoppingOptions& options = arguments->options;
     addIntegers(*command, "--counts", options.sampleCounts, 1, 4096, "Numbers of lens samples to measure")

@@ -242,6 +242,8 @@ FrameDriver::Fit FrameDriver::fitOf(const FrameOrder& order) {
     return {order.view.width,
             order.view.height,
             order.settings.shadows,
+            order.settings.positions,
+            order.stop.choosesPositions,
             order.stop.given(),
             order.samples.has_value(),
             static_cast<bool>(order.takeRows),
@@ -271,14 +273,13 @@ void FrameDriver::fit(const FrameOrder& order) {
     }
     const Shadows shadows = order.settings.shadows;
     const bool mapsPossible = shadows == Shadows::on || (shadows == Shadows::automatic && hasGround(*world_->scene));
-    const int axis = positionsPerAxis(order.settings);
+    const int axis = order.stop.choosesPositions ? 2 : positionsPerAxis(order.settings);
     const int width = order.view.width * axis;
     const int height = order.view.height * axis;
     if (!order.rows && surelyFits(width, height, mapsPossible, limits, limit_)) {
         if (!renderer_) makeRenderer();
-        return renderer_->setWave(
-            {.perWave = shortWave(order),
-             .threads = threadsWithin(width, height, limit_, wantedThreads(limits, method))});
+        return renderer_->setWave({.perWave = shortWave(order),
+                                   .threads = threadsWithin(width, height, limit_, wantedThreads(limits, method))});
     }
 
     // Free the memory of the previous frame before the remaining memory is measured.

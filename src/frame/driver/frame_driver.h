@@ -107,6 +107,8 @@ private:
         int width = 0;
         int height = 0;
         Shadows shadows = Shadows::automatic;
+        std::uint32_t positions = 1;
+        bool choosesPositions = false;
         bool stops = false;
         bool sums = false;
         bool hasSink = false;

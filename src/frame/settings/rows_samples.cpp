@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/error.h"
 #include "frame/settings/conditions.h"
 #include "frame/settings/presets.h"
 #include "frame/settings/rows.h"
@@ -64,6 +65,24 @@ Row samplesRow() {
             });
 }
 
+Row positionsRow() {
+    return rows::integer("positions", "--positions", 1, 4, MEMBER(positions),
+                         "Number of pixel positions that each lens sample draws: 1, or 4 in a grid of 2 x 2, which "
+                         "smooths edges as 2 to 4 samples do. auto: 4 for a still image with --samples auto and "
+                         "--method auto that has many triangles and little blur, else 1")
+        .metavar("1|4|auto")
+        .choices({"auto"})
+        .values(
+            [](Request& request, const std::string& text) {
+                if (text != "auto" && text != "1" && text != "4") fail("'{}' is not 1 or 4", text);
+                request.positions =
+                    text == "auto" ? std::nullopt : std::optional(static_cast<std::uint32_t>(text.front() - '0'));
+            },
+            [](const Request& request) -> std::optional<std::string> {
+                return request.positions ? fmt::format("{}", *request.positions) : "auto";
+            });
+}
+
 }  // namespace
 
 Rows sampleRows() {
@@ -75,13 +94,7 @@ Rows sampleRows() {
     return {
         presetRow().inShot("/preset"),
         samplesRow().everyday().example("64").inShot("/samples").unused(methodWithoutSamples),
-        rows::choice<std::optional<std::uint32_t>>(
-            "positions", "--positions", {{"auto", std::nullopt}, {"1", 1u}, {"4", 4u}}, MEMBER(positions),
-            "Pixel positions that each lens sample draws: 1, or 4 in a grid of 2 x 2. Where little is blurred, a "
-            "quarter of the samples with 4 positions gives the same image, and draws the triangles a quarter as often. "
-            "auto: 4 for --method auto with --samples auto where no blur exceeds a few pixels, else 1")
-            .inShot("/positions")
-            .unused(methodWithoutPositions),
+        positionsRow().inShot("/positions").unused(methodWithoutPositions),
         rows::choice<Quality>("quality", "--quality",
                               {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
                               MEMBER(quality),

@@ -82,6 +82,7 @@ double meteredExposure(World& world, const View& view, const RenderSettings& set
     small.lens.dofEnabled = false;
     RenderSettings few = settings;
     few.sampleCount = meterSamples;
+    few.positions = 1;
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;
     options.shaderFolder = shaderFolder;

@@ -11,8 +11,11 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double gapOfPositions = 1.25;  // as QualityLimits::gap, for samples with four positions
-constexpr int maxDoubledSide = 8192;     // max image side in px; layers with four positions are twice as large
+constexpr double gapOfPositions = 1.25;   // as QualityLimits::gap, for samples with four positions
+constexpr double payingTriangles = 0.25;  // min triangles per pixel and sample for which four positions save time
+// Max image size in px with four positions, whose layers are twice as wide and high.
+constexpr int maxDoubledSide = 4096;
+constexpr double maxDoubledPixels = 4 << 20;
 constexpr std::uint32_t minSpread = 64;  // min samples for smooth penumbrae and motion
 
 struct QualityLimits {
@@ -86,19 +89,19 @@ std::uint32_t firstSamples(double blur, Quality quality) {
 }
 
 bool fourPositionsSuffice(const FramePlan& plan, double samples) {
-    const bool onlyLens =
-        plan.shadows.maps.empty() && plan.moments.empty() && !plan.usesTransmission && plan.coc.chromatic == 0;
-    const bool fits = std::max(plan.view.width, plan.view.height) <= maxDoubledSide;
+    const bool onlyLens = plan.usesLens && plan.shadows.maps.empty() && plan.moments.empty() &&
+                          !plan.usesTransmission && plan.coc.chromatic == 0 &&
+                          std::ranges::none_of(plan.blendOrder, &BlendRun::stochastic);
+    const double pixels = static_cast<double>(plan.view.width) * plan.view.height;
+    const bool fits = std::max(plan.view.width, plan.view.height) <= maxDoubledSide && pixels <= maxDoubledPixels;
+    const double triangles = static_cast<double>(plan.trianglesDrawn) / static_cast<double>(plan.samples.size());
     const double gap = plan.largestBlur * std::sqrt(std::numbers::pi / samples);  // of samples / 4
-    return onlyLens && fits && gap <= gapOfPositions;
+    return onlyLens && fits && triangles >= payingTriangles * pixels && gap <= gapOfPositions;
 }
 
 RenderSettings withSamples(RenderSettings settings, const FramePlan& plan, double samples, bool choosesPositions) {
-    if (choosesPositions && fourPositionsSuffice(plan, samples)) {
-        settings.positions = 4;
-        samples /= 4;
-    }
-    const auto count = static_cast<std::uint32_t>(std::ceil(samples));
+    if (choosesPositions && fourPositionsSuffice(plan, samples)) settings.positions = 4;
+    const auto count = static_cast<std::uint32_t>(std::ceil(samples / settings.positions));
     settings.sampleCount =
         count <= blockSamples ? std::bit_ceil(count) : (count + blockSamples - 1) / blockSamples * blockSamples;
     return settings;

@@ -22,14 +22,17 @@ std::uint32_t firstSamples(const FramePlan& plan, Quality quality);
 // Returns the same for a largest blur diameter of `blur` px, without shadow maps or motion.
 std::uint32_t firstSamples(double blur, Quality quality);
 
-// Returns whether `samples` / 4 lens samples with four pixel positions each can replace `samples` with one position.
-// They can if the images of a blurred point in neighbouring lens samples are then at most 1.25 px apart, and if nothing
-// else differs between samples: shadows, motion, wavelengths and refraction need the larger number of samples.
+// Returns whether `samples` / 4 lens samples with four pixel positions each can replace `samples` with one position,
+// and save time. They can if the images of a blurred point in neighbouring lens samples are then at most 1.25 px apart,
+// and if nothing else differs between samples: shadows, motion, wavelengths, refraction and stochastic transparency
+// need the larger number of samples. They save time if a sample draws at least one triangle per four pixels. Images
+// above 4,096 px a side or 4 megapixels have one position, because the layers would take too much memory.
 bool fourPositionsSuffice(const FramePlan& plan, double samples);
 
 // Returns the settings of a frame with the quality of about `samples` samples of `settings`: a power of two up to 64,
-// or complete blocks of 64. With `choosesPositions`, a quarter of them with four positions each if
-// fourPositionsSuffice(). `plan` is a plan of the frame with any number of samples.
+// or complete blocks of 64. A quarter of them if the settings have four positions, or if `choosesPositions` is set and
+// fourPositionsSuffice(); the error of the image must then decide whether it suffices. `plan` is a plan of the frame
+// with any number of samples.
 RenderSettings withSamples(RenderSettings settings, const FramePlan& plan, double samples, bool choosesPositions);
 
 // Returns the number of samples of a frame whose error cannot be estimated before it is complete, such as a frame in

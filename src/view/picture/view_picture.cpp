@@ -65,6 +65,7 @@ View resized(const View& view, double resolution) {
 
 RenderSettings settingsOf(const RenderSettings& settings, const PictureSide& side) {
     RenderSettings result = settings;
+    if (!parseMethodUse(side.method).method->drawsPositions) result.positions = 1;
     result.lod = side.lod;
     result.firstSample = side.firstSample;
     return result;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace defocus::engine {
 namespace {
@@ -62,30 +63,65 @@ TEST(SamplesForBlur, followTheQuality) {
     }
 }
 
+// Returns a plan of one object with a blur of up to `blur` px, whose samples draw half a triangle per pixel.
+FramePlan detailedPlanOf(double blur) {
+    FramePlan plan = planOf(blur);
+    plan.largestBlur = blur;
+    plan.view.width = 640;
+    plan.view.height = 480;
+    plan.samples.resize(10);
+    plan.trianglesDrawn = 10 * 640 * 480 / 2;
+    return plan;
+}
+
 // A quarter of the samples has images of a blurred point that are twice as far apart.
 TEST(FourPositions, sufficeWhereAQuarterOfTheSamplesHasNoGaps) {
     for (const std::uint32_t samples : {16u, 32u, 64u})
-        for (double blur = 0.5; blur < 200; blur *= 1.1) {
-            FramePlan plan = planOf(blur);
-            plan.largestBlur = blur;
-            EXPECT_EQ(fourPositionsSuffice(plan, samples), gapOf(blur, samples / 4) <= 1.25) << blur;
-        }
+        for (double blur = 0.5; blur < 200; blur *= 1.1)
+            EXPECT_EQ(fourPositionsSuffice(detailedPlanOf(blur), samples), gapOf(blur, samples / 4) <= 1.25) << blur;
+    EXPECT_FALSE(fourPositionsSuffice(detailedPlanOf(std::numeric_limits<double>::infinity()), 32));
 }
 
 TEST(FourPositions, doNotReplaceSamplesThatOtherEffectsNeed) {
-    FramePlan plan = planOf(1);
+    const FramePlan plan = detailedPlanOf(1);
     ASSERT_TRUE(fourPositionsSuffice(plan, 32));
-    FramePlan refracting = plan;
-    refracting.usesTransmission = true;
-    EXPECT_FALSE(fourPositionsSuffice(refracting, 32));
-    FramePlan shadowed = plan;
-    shadowed.shadows.maps.emplace_back();
-    EXPECT_FALSE(fourPositionsSuffice(shadowed, 32));
-    FramePlan moving = plan;
-    moving.moments.emplace_back();
-    EXPECT_FALSE(fourPositionsSuffice(moving, 32));
-    plan.largestBlur = std::numeric_limits<double>::infinity();
-    EXPECT_FALSE(fourPositionsSuffice(plan, 32));
+    const auto sufficeWith = [&](auto change) {
+        FramePlan changed = plan;
+        change(changed);
+        return fourPositionsSuffice(changed, 32);
+    };
+    EXPECT_FALSE(sufficeWith([](FramePlan& changed) { changed.usesTransmission = true; }));
+    EXPECT_FALSE(sufficeWith([](FramePlan& changed) { changed.shadows.maps.emplace_back(); }));
+    EXPECT_FALSE(sufficeWith([](FramePlan& changed) { changed.moments.emplace_back(); }));
+    EXPECT_FALSE(sufficeWith([](FramePlan& changed) { changed.coc.chromatic = 0.1; }));
+    EXPECT_FALSE(sufficeWith([](FramePlan& changed) { changed.blendOrder.emplace_back().stochastic = true; }));
+    EXPECT_FALSE(sufficeWith([](FramePlan& changed) { changed.usesLens = false; }));
+}
+
+TEST(FourPositions, areForManyTrianglesAndImagesOfModerateSize) {
+    FramePlan few = detailedPlanOf(1);
+    few.trianglesDrawn /= 3;
+    EXPECT_FALSE(fourPositionsSuffice(few, 32));
+    FramePlan large = detailedPlanOf(1);
+    large.view.width = 8192;
+    large.view.height = 16;
+    EXPECT_FALSE(fourPositionsSuffice(large, 32));
+}
+
+TEST(FourPositions, needAQuarterOfTheSamples) {
+    const FramePlan plan = detailedPlanOf(1);
+    const auto countOf = [&](double samples, std::uint32_t positions, bool chooses) {
+        RenderSettings settings;
+        settings.positions = positions;
+        settings = withSamples(settings, plan, samples, chooses);
+        return std::pair(settings.sampleCount, settings.positions);
+    };
+    EXPECT_EQ(countOf(32, 1, false), std::pair(32u, 1u));
+    EXPECT_EQ(countOf(33, 1, false), std::pair(64u, 1u));
+    EXPECT_EQ(countOf(130, 1, false), std::pair(192u, 1u));
+    EXPECT_EQ(countOf(32, 1, true), std::pair(8u, 4u));
+    EXPECT_EQ(countOf(33, 1, true), std::pair(16u, 4u));
+    EXPECT_EQ(countOf(32, 4, false), std::pair(8u, 4u));
 }
 
 TEST(SamplesForBlur, leaveOutWhatHasNoBound) {
