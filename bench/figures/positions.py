@@ -53,8 +53,9 @@ def main(words):
         folder = pathlib.Path(name)
         lines = [facts(arguments.program, folder, arguments.output),
                  "Processor time of drawing all samples; RMSE and FLIP against a reference. Other programs may run at the same time.", "",
-                 f"$ scripts/figures positions {' '.join(scene.name for scene in arguments.scenes)} --size {arguments.size} --runs "
-                 f"{arguments.runs}" + (f" --options '{arguments.options}'" if arguments.options else ""),
+                 f"$ scripts/figures positions {' '.join(scene.name for scene in arguments.scenes)} --size {arguments.size} "
+                 f"--runs {arguments.runs} --reference-samples {arguments.reference_samples}"
+                 + (f" --options '{arguments.options}'" if arguments.options else ""),
                  f"{'samples x positions':>20}{'seconds':>10}{'RMSE':>9}{'FLIP':>9}"]
         print(*lines, sep="\n", flush=True)
         for scene in arguments.scenes:

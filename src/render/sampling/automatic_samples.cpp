@@ -11,8 +11,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double gapOfPositions = 1.25;   // as QualityLimits::gap, for samples with four positions
-constexpr double payingTriangles = 0.25;  // min triangles per pixel and sample for which four positions save time
+constexpr double gapOfPositions = 1.25;  // as QualityLimits::gap, for samples with four positions
+constexpr double payingTriangles = 0.1;  // min triangles per pixel and sample for which four positions save time
 // Max image size in px with four positions, whose layers are twice as wide and high.
 constexpr int maxDoubledSide = 4096;
 constexpr double maxDoubledPixels = 4 << 20;

@@ -25,7 +25,7 @@ std::uint32_t firstSamples(double blur, Quality quality);
 // Returns whether `samples` / 4 lens samples with four pixel positions each can replace `samples` with one position,
 // and save time. They can if the images of a blurred point in neighbouring lens samples are then at most 1.25 px apart,
 // and if nothing else differs between samples: shadows, motion, wavelengths, refraction and stochastic transparency
-// need the larger number of samples. They save time if a sample draws at least one triangle per four pixels. Images
+// need the larger number of samples. They save time if a sample draws at least one triangle per ten pixels. Images
 // above 4,096 px a side or 4 megapixels have one position, because the layers would take too much memory.
 bool fourPositionsSuffice(const FramePlan& plan, double samples);
 

@@ -100,7 +100,7 @@ TEST(FourPositions, doNotReplaceSamplesThatOtherEffectsNeed) {
 
 TEST(FourPositions, areForManyTrianglesAndImagesOfModerateSize) {
     FramePlan few = detailedPlanOf(1);
-    few.trianglesDrawn /= 3;
+    few.trianglesDrawn /= 6;
     EXPECT_FALSE(fourPositionsSuffice(few, 32));
     FramePlan large = detailedPlanOf(1);
     large.view.width = 8192;
