@@ -26,7 +26,7 @@ struct FilmFrame {
     std::vector<std::filesystem::path> files;  // image files, one per file name pattern
     WriteOptions write;                        // encoding of PNG, JPEG and video
     bool finished = false;                     // whether all files exist with the requested settings
-    std::filesystem::path other;               // with `resume`: image with other settings, to be replaced; empty: none
+    std::filesystem::path other;               // with `resume`: first existing file to be replaced; empty: none
 };
 
 struct FilmOptions {

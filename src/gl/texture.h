@@ -51,7 +51,7 @@ public:
     void clearLayer(std::uint32_t layer);
     // Copies a rectangle of layer `layer` to the same position in layer `toLayer` of `to`, which has the same format.
     void copyLayer(std::uint32_t layer, const TexelRectangle& area, const GlTexture& to, std::uint32_t toLayer) const;
-    // Copies layers [0, count), or the image of a 2D texture, to the same layers of array texture `to`. Formats and
+    // Copies layers [0, count), or the only image of a 2D texture, to the same layers of array texture `to`. Formats and
     // sizes must match.
     void copyLayers(const GlTexture& to, std::uint32_t count) const;
     void attach(GLuint unit) const { glBindTextureUnit(unit, handle_.name()); }

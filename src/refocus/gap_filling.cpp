@@ -14,7 +14,7 @@ constexpr std::size_t channels = 5;  // red, green, blue, alpha and weight
 // Standard deviation of a cell's blur, as a fraction of c/√N. A disk has 1/4. Cells around the points of a sequence
 // differ in size and shape; twice the blur of a disk has the smallest error (docs/refocus.md).
 constexpr double cellBlur = 0.5;
-constexpr double minVariance = 0.01;  // variance in px², subtracted from every variance; invisible within a pixel
+constexpr double minVariance = 0.01;  // px²; subtracted from every variance, as a smaller blur is invisible
 
 // Returns the blur variance in px² of class k, a group of pixels with similar blur.
 double classVariance(std::size_t k) {

@@ -44,10 +44,10 @@ inline constexpr double shownWhite = 4;
 double squaredError(const Pyramid& pyramid, std::size_t level, double side, Surround surround = Surround::black);
 double squaredContrast(const Pyramid& pyramid, double side, Surround surround = Surround::black);
 
-// Returns the λ at which the error E of the level equals measuredLimit(light, edge) · V on one background and is at
-// most as large on the other. E and V are RMS over patches of the given sides (object units). `edge` is the level's
-// mean edge in px, projected with `pixelsPerUnit` (> 0) px per object unit. λ is continuous in all arguments. Returns 0
-// if no errors were measured.
+// Returns the level λ at which the ratio E/V equals measuredLimit(light, edge), on the background where the ratio is
+// larger; the coarsest level if the ratio stays below the limit. E and V are RMS over patches of the given sides
+// (object units). `edge` is the level's mean edge in px, projected with `pixelsPerUnit` (> 0) px per object unit. λ is
+// continuous in all arguments. Returns 0 if no errors were measured.
 double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides, double pixelsPerUnit, double light);
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
 // Sources: Niemitalo 2010, Circularly symmetric convolution and lens blur; Garcia 2018, Circular Separable Convolution
-// Depth of Field (with brackets in the appendix).
+// Depth of Field (its appendix describes brackets; see struct Bracket).
 
 #include "render/circular/complex_blur.h"
 

@@ -7,8 +7,8 @@ namespace defocus::engine {
 
 class Backdrop {
 public:
-    // Copies layers [0, count) of `colors`, or the image of a 2D texture. If `blurred`, also generates mipmaps for
-    // rough transmission. Does not change the bound framebuffer.
+    // Copies layers [0, count) of `colors`, or its only image if it is a 2D texture. If `blurred`, also generates
+    // mipmaps for rough transmission. Does not change the bound framebuffer.
     void take(const GlTexture& colors, std::uint32_t count, bool blurred);
     void attach(GLuint unit) const { copy_.attach(unit); }
     [[nodiscard]] std::size_t bytes() const { return copy_.bytes(); }
