@@ -94,7 +94,7 @@ struct Plan {
     // of confusion. 0 if the images cannot be blurred; lensCellReason then says why.
     double lensCellBlur = 0;
     std::string lensCellReason;
-    std::string accumulationReason;  // why method "auto" uses accumulation; empty: it uses multirate
+    std::string accumulationReason;      // why method "auto" uses accumulation; empty: it uses multirate
     std::vector<PlannedObject> objects;  // sorted from front to back
     std::vector<LeftOutPart> leftOut;
     // Numbers of triangles, summed over all samples. Triangles that face away or are outside the image are culled.

@@ -89,7 +89,7 @@ struct Request {
     // Pixel positions of each lens sample, 1 or 4. Default: 4 for method "auto" with an automatic number of samples if
     // little is blurred, else 1.
     std::optional<std::uint32_t> positions;
-    Quality quality = Quality::good;       // used if samples, targetError and timeLimit are unset
+    Quality quality = Quality::good;  // used if samples, targetError and timeLimit are unset
     // Target RMSE of the display-encoded image at EV 0, 1e-6 … 1. Blocks of 64 samples are added until the estimated
     // error is below the target. `samples` is the max number of samples.
     std::optional<double> targetError;

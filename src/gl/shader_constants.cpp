@@ -21,7 +21,7 @@ struct ShaderConstant {
 // Shaders branch on these constants with `if`, and compilers drop the branches that are never taken.
 constexpr ShaderConstant constants[] = {
     // Frame
-    {"int", "blockSamples", "64"},  // lens samples per block of the accumulated sum
+    {"int", "blockSamples", "64"},     // lens samples per block of the accumulated sum
     {"int", "positionsPerAxis", "1"},  // positions in a pixel of the image, i.e. pixels of a layer, along each axis
     {"int", "environmentType", "0"},
     {"int", "backgroundType", "0"},

@@ -24,8 +24,8 @@ struct TextureInfo {
     TextureFormat format = TextureFormat::rgba32f;
     int width = 1;
     int height = 1;
-    int layers = 0;  // 0: 2D texture; ≥ 1: 2D array
-    int levels = 1;  // number of mip levels
+    int layers = 0;   // 0: 2D texture; ≥ 1: 2D array
+    int levels = 1;   // number of mip levels
     int samples = 1;  // samples per pixel; above 1: a multisampled 2D texture, without layers, levels and filtering
 };
 
@@ -51,8 +51,8 @@ public:
     void clearLayer(std::uint32_t layer);
     // Copies a rectangle of layer `layer` to the same position in layer `toLayer` of `to`, which has the same format.
     void copyLayer(std::uint32_t layer, const TexelRectangle& area, const GlTexture& to, std::uint32_t toLayer) const;
-    // Copies layers [0, count), or the only image of a 2D texture, to the same layers of array texture `to`. Formats and
-    // sizes must match.
+    // Copies layers [0, count), or the only image of a 2D texture, to the same layers of array texture `to`. Formats
+    // and sizes must match.
     void copyLayers(const GlTexture& to, std::uint32_t count) const;
     void attach(GLuint unit) const { glBindTextureUnit(unit, handle_.name()); }
 

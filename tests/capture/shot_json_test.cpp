@@ -53,7 +53,8 @@ TEST(ShotJson, shotsOfVersion01StillLoad) {
     EXPECT_EQ(request.lod, LodMode::continuous);
     EXPECT_EQ(request.levelVertices, LevelVertices::surviving);
     EXPECT_EQ(request.method, "multirate");
-    for (const char* name : {"shots/fish-pull.json", "shots/orrery.json", "shots/swimmers.json"}) EXPECT_NO_THROW(loadShot(source / name));
+    for (const char* name : {"shots/fish-pull.json", "shots/orrery.json", "shots/swimmers.json"})
+        EXPECT_NO_THROW(loadShot(source / name));
 }
 
 // Settings beside a preset override the preset's values regardless of their order, because members of a JSON object are

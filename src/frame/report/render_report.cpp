@@ -201,7 +201,8 @@ std::string summary(const RenderReport& report) {
     if (report.plan.trianglesAtFullDetail > stats.trianglesDrawn)
         triangles += fmt::format(" (full detail: {})", inMillions(report.plan.trianglesAtFullDetail));
     std::string samples = fmt::format("{} samples", stats.samples);
-    if (report.plan.settings.positions > 1) samples += fmt::format(" with {} positions", report.plan.settings.positions);
+    if (report.plan.settings.positions > 1)
+        samples += fmt::format(" with {} positions", report.plan.settings.positions);
     if (stopSettings(report.options).given())
         samples += fmt::format(" ({}; {})", errorText(stats), stopReasonText(stats.stopped));
     else if (stopSettings(report.options).automatic)

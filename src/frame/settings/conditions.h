@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 using Condition = std::string (*)(const SettingContext&);
 
-std::string methodWithoutSamples(const SettingContext& context);     // the method draws no lens samples
+std::string methodWithoutSamples(const SettingContext& context);  // the method draws no lens samples
 std::string methodWithoutPositions(const SettingContext& context);
 std::string methodWithoutShapes(const SettingContext& context);      // the method supports only round or oval apertures
 std::string methodWithoutLensPoints(const SettingContext& context);  // same lens for all colours and pixels

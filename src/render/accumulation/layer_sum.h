@@ -34,7 +34,8 @@ class LayerSum {
 public:
     explicit LayerSum(const LayerSumInfo& info);
 
-    // Clears all sums. `first` is the pixel of the layers that belongs to pixel (0, 0) of the sums, from the bottom left.
+    // Clears all sums. `first` is the pixel of the layers that belongs to pixel (0, 0) of the sums, from the bottom
+    // left.
     void reset(const glm::ivec2& first = {0, 0});
     // Turns the blur of lens cells on for all further blocks. Call it only when all samples so far form complete
     // blocks. reset() turns the blur off.

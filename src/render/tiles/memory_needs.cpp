@@ -126,8 +126,8 @@ std::uint64_t memoryLimit(const DrawLimits& limits) {
 
 std::uint32_t wantedThreads(const DrawLimits& limits, const Method& method) {
     if (!method.usesThreads || !drawsInThreads(currentDevice(), currentDriver())) return 1;
-    // The rasterizer threads of llvmpipe share the cores with the drawing threads. On two cores, two drawing threads are
-    // slower than one.
+    // The rasterizer threads of llvmpipe share the cores with the drawing threads. On two cores, two drawing threads
+    // are slower than one.
     const std::uint32_t balanced = currentIsSoftware() ? std::max(1u, availableCores() / 2) : 1;
     return limits.threads.value_or(balanced);
 }

@@ -77,7 +77,8 @@ TEST_P(PostProcesses, aConstantSceneStaysConstant) {
                               glm::vec3(color));
     const Image image = postProcessed(*small, GetParam());
     small->view.lens.dofEnabled = false;  // the reference is the constant rounded to half floats
-    EXPECT_LT(largestDifferenceInColumns(image, postProcessed(*small, GetParam())), inTenBits(GetParam()) ? 6e-3 : 1e-3);
+    EXPECT_LT(largestDifferenceInColumns(image, postProcessed(*small, GetParam())),
+              inTenBits(GetParam()) ? 6e-3 : 1e-3);
 }
 
 TEST_P(PostProcesses, aHighlightKeepsItsEnergyWhereTheBlurIsTheSame) {
