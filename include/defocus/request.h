@@ -86,8 +86,8 @@ struct Request {
 
     // Samples and levels of detail.
     std::optional<std::uint32_t> samples;  // lens samples, 1 … maxSamples. Default: automatic, for `quality`
-    // Pixel positions of each lens sample, 1 or 4. Default: 4 for method "auto" with an automatic number of samples if
-    // little is blurred, else 1.
+    // Pixel positions of each lens sample, 1 or 4; other values throw Error. Default: 4 for a still image of method
+    // "auto" with an automatic number of samples, many triangles and little blur, else 1. `layers` need 1.
     std::optional<std::uint32_t> positions;
     Quality quality = Quality::good;  // used if samples, targetError and timeLimit are unset
     // Target RMSE of the display-encoded image at EV 0, 1e-6 … 1. Blocks of 64 samples are added until the estimated

@@ -49,7 +49,7 @@ Row presetRow() {
 
 Row samplesRow() {
     return rows::integer("samples", "--samples", 1, maxSamples, MEMBER(samples),
-                         fmt::format("Number of lens samples. auto: the number that --quality needs, from 16 to {}. "
+                         fmt::format("Number of lens samples. auto: the number that --quality needs, at most {}. "
                                      "With --target-error or --time-limit: the maximum number, {} by default",
                                      maxAutomaticSamples, maxSamples))
         .metavar("N|auto")
