@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double unlimitedBlur = 1e9;  // blur in image widths; finite, so that 0 times unlimitedBlur is 0
+constexpr double unlimitedBlur = 1e9;  // in image widths; finite instead of infinite, so that its product with 0 is 0
 constexpr std::size_t maxConstantLights = 4;
 
 // Limits of the uniform blocks in shaders/include/frame.glsl and lighting.glsl.

@@ -17,7 +17,7 @@ inline constexpr std::uint32_t blockSamples = 64;  // lens samples per block of 
 // Lens sample as per-instance vertex attributes.
 struct GpuSample {
     glm::vec4 lensAndJitter;  // xy: lens point (u, k·v), k = image width / height; zw: subpixel jitter (NDC)
-    glm::vec4 eyeAndSample;   // xy: lens point in m; z: index in the frame; w: layer
+    glm::vec4 eyeAndSample;   // xy: lens point in m; z: index of the sample in the frame; w: its layer
 };
 
 class FrameUniforms {
@@ -28,8 +28,8 @@ public:
 
     // Returns the defines that shaders/include/frame.glsl and environment.glsl need for this frame.
     [[nodiscard]] const ShaderDefines& defines() const { return defines_; }
-    // Binds the uniform blocks and the environment map for samples from `firstSample` to the end of its block of the
-    // sum.
+    // Binds the uniform blocks and the environment map for samples from `firstSample` to the end of its block of 64
+    // samples.
     void bind(std::uint32_t firstSample) const;
     // Binds only the uniforms that differ between waves, for the wave that contains `sample`.
     void bindWave(std::uint32_t sample) const;
@@ -42,9 +42,9 @@ public:
     // Returns whether the weight of a sample differs between pixels. If so, the sum's alpha counts the samples of a
     // pixel.
     [[nodiscard]] bool countsInAlpha() const { return countsInAlpha_; }
-    // Returns whether surfaces have blur modifiers.
+    // Returns whether surfaces have blur modifiers (factor and offset of their blur).
     [[nodiscard]] bool usesOwnBlur() const { return usesOwnBlur_; }
-    [[nodiscard]] std::uint32_t layerCount() const { return layerCount_; }  // samples per wave K
+    [[nodiscard]] std::uint32_t layerCount() const { return layerCount_; }  // number of samples per wave
     [[nodiscard]] std::size_t bytes() const;
 
 private:

@@ -14,7 +14,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t largestSharing = std::size_t{1} << 16;  // max bytes; larger meshes have buffers of their own
-constexpr std::size_t sharedBytes = std::size_t{1} << 20;     // max bytes; fuller shared buffers accept no further mesh
+constexpr std::size_t sharedBytes = std::size_t{1} << 20;     // max bytes; larger shared buffers accept no further mesh
 
 // A mesh is far from its origin on an axis if its centre's coordinate is at least this multiple of half its largest
 // side.
@@ -62,8 +62,8 @@ std::vector<glm::vec3> relative(const std::vector<glm::vec3>& positions, const g
 
 // Numbers of vertices and indices of meshes.
 struct Extent {
-    std::size_t ofLevels = 0;  // vertices, counted once per level
-    std::size_t ofMeshes = 0;  // vertices, counted once for all levels
+    std::size_t ofLevels = 0;  // number of vertices in per-level buffers
+    std::size_t ofMeshes = 0;  // number of vertices in buffers that all levels share
     std::size_t indices = 0;
 };
 
@@ -102,7 +102,7 @@ AttributeSet attributesOf(const Pyramid& pyramid, const std::vector<bool>& level
     return set;
 }
 
-// Returns the mesh with its levels placed after the meshes of `extent`, which it extends.
+// Returns a mesh whose data follow `extent` vertices and indices in shared buffers. Adds the mesh's data to `extent`.
 GpuMesh placed(const Pyramid& pyramid, const std::vector<bool>& levels, Extent& extent) {
     GpuMesh mesh;
     mesh.origin = meshOrigin(pyramid.bounds);
@@ -133,7 +133,7 @@ void append(BufferWriter& writer, const std::vector<T>& items) {
     writer.append(std::span(items));
 }
 
-// Appends the values of an attribute that each level has of its own.
+// Appends a level's values of a per-level attribute.
 void appendLevel(BufferWriter& writer, AttributeLocation location, const Pyramid& pyramid, std::size_t level,
                  const GpuMesh& mesh) {
     const PyramidLevel& source = pyramid.levels[level];

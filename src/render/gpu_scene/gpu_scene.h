@@ -19,7 +19,7 @@ namespace defocus::engine {
 struct GpuMaterialTextures {
     std::array<const GlTexture*, materialTextureCount> slots{};
     auto operator<=>(const GpuMaterialTextures&) const = default;
-    // Returns the index of a slot's texture among the material's textures.
+    // Returns the index of a slot's texture among the material's used textures.
     [[nodiscard]] int unit(std::size_t slot) const;
     [[nodiscard]] int count() const { return unit(materialTextureCount); }
     // Binds the textures to the units that shaders/include/material_textures.glsl reads.

@@ -19,7 +19,7 @@ std::size_t mapsPerSample(const FramePlan& plan) {
     return plan.shadows.maps.size() * plan.shadows.points;
 }
 
-// Returns whether some caster transmits light in another colour.
+// Returns whether a shadow caster tints the light that it transmits.
 bool tintsLight(const Scene& scene, const FramePlan& plan) {
     const auto isGrey = [](const glm::vec3& color) { return color.r == color.g && color.g == color.b; };
     return std::ranges::any_of(plan.shadows.casters, [&](const ObjectPlan& caster) {
@@ -34,7 +34,8 @@ bool tintsLight(const Scene& scene, const FramePlan& plan) {
     });
 }
 
-// Returns defines with the index of the first map and the number of maps for each light, and last for the environment.
+// Returns defines with the first shadow map and the number of maps of each light; the environment's entries are the
+// last.
 ShaderDefines mapDefines(const FramePlan& plan, std::size_t lights) {
     std::vector<int> first(lights + 1, -1);
     std::vector<int> faces(lights + 1, 0);

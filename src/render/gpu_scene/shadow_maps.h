@@ -36,7 +36,7 @@ private:
     const FrameUniforms* frame_ = nullptr;
     EnvironmentDirections directions_;
     const Image* directionsOf_ = nullptr;  // environment map of directions_; null if none
-    FramePlan plan_;                       // plan of the casters only
+    FramePlan plan_;                       // plan with only the shadow casters
     ShaderDefines defines_;
     TexelBuffer projections_;
     GlTexture maps_;

@@ -39,7 +39,7 @@ std::vector<IndexRun> indexRuns(const World& world, const ObjectPlan& object, co
 
 enum class SurfaceLook {
     flat,         // no lighting, and no textures except for the alpha test
-    caster,       // like `flat`, and transmitting surfaces output the fraction of light that passes
+    caster,       // like `flat`, but transmitting surfaces output the fraction of light that passes
     lit,          // full shading; transmitting surfaces are opaque
     seenThrough,  // like `lit`, but the background is visible through transmitting surfaces
 };

@@ -22,7 +22,7 @@ struct SampleSpan {
     [[nodiscard]] std::uint32_t size() const { return empty() ? 0 : end - begin; }
 };
 
-// Returns the subrange of samples [first, first + count) in which `drawn` is drawn.
+// Returns the samples of [first, first + count) for which `drawn` is drawn.
 SampleSpan samplesOf(const auto& drawn, std::uint32_t first, std::uint32_t count) {
     return {std::max(first, drawn.firstSample), std::min(first + count, drawn.firstSample + drawn.sampleCount)};
 }
@@ -43,7 +43,7 @@ void drawIndices(GLenum mode, const IndexRun& run, const SampleSpan& samples) {
                                         static_cast<GLsizei>(samples.size()), samples.begin);
 }
 
-// Draws as drawIndices does, in calls with at most as many triangles as the pacer allows.
+// Same as drawIndices(), but divided into calls with at most as many triangles as the pacer allows.
 void submit(SubmissionPacer& pacer, GLenum mode, const IndexRun& run, const SampleSpan& samples) {
     const std::uint64_t max = pacer.maxTriangles();
     if (max == 0) return drawIndices(mode, run, samples);
@@ -111,7 +111,8 @@ void SurfacePass::addDraws(const FramePlan& plan) {
     }
 }
 
-// Adds the draws of a primitive, or of some triangles of one of its levels, whose indices it appends to `partIndices`.
+// Adds the draws of a primitive. If `run` lists triangles of one level, adds only these, and appends their indices to
+// `partIndices`.
 void SurfacePass::addPrimitive(const FramePlan& plan, const BlendRun& run, std::vector<std::uint32_t>& partIndices) {
     const ObjectPlan& object = plan.objects[run.object];
     const Mesh& mesh = scene_->world().scene->meshes[static_cast<std::size_t>(object.mesh)];
@@ -179,7 +180,7 @@ ShaderDefines SurfacePass::passDefines(bool vertexShaderLayers) const {
     return defines;
 }
 
-// Returns whether a geometry shader cuts the triangles or selects their layer.
+// Returns whether the draw needs a geometry shader, to split triangles or to select their layer.
 bool SurfacePass::needsGeometryShader(const Draw& draw) const {
     if (draw.refinement == Refinement::none) return !info_.vertexShaderLayers;
     return draw.refinement == Refinement::split || draw.cuts || !info_.vertexShaderLayers ||
@@ -408,7 +409,7 @@ void SurfacePass::drawSurfaces(std::uint32_t first, std::uint32_t count) {
 void SurfacePass::drawCasters(std::uint32_t first, std::uint32_t count, int slot, bool tinted) {
     shadowSlot_ = slot;
     if (!tinted) return drawSurfaces(first, count);
-    // The nearest of several surfaces that hide a channel has the largest reversed depth.
+    // Keep the max depth per colour channel: depth is reversed, so this is the nearest surface that hides the channel.
     bindSolid(GL_GREATER);
     glEnable(GL_BLEND);
     glBlendEquation(GL_MAX);

@@ -23,7 +23,7 @@ struct SurfacePassInfo {
     std::string fragmentShader;  // path under shaders/
     ShaderDefines defines;       // defines of the pass, such as the layer format
     SurfaceLook look = SurfaceLook::seenThrough;
-    bool stochasticAlpha = false;    // draws BlendRun::stochastic; false: all blended surfaces are sorted
+    bool stochasticAlpha = false;    // BlendRun::stochastic uses stochastic alpha; false: blended surfaces are sorted
     bool readsOwnBlur = false;       // the fragment shader reads the blur modifiers of surfaces
     bool readsPosition = false;      // the fragment shader reads the positions of surfaces even without shadows
     bool vertexShaderLayers = true;  // false: geometry shaders select the layer
@@ -119,7 +119,7 @@ private:
         std::optional<std::size_t> materialSlot;
     };
 
-    // Programs by the defines of their draws. The defines of a pass are the same for all draws of a frame.
+    // Programs of a pass, keyed by the defines of their draws. All draws of a frame have the same defines of the pass.
     using Programs = std::map<std::string, Program>;
 
     void uploadMaterials();
