@@ -16,7 +16,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Min pixel positions of a trial whose error is estimated. Half the image of fewer positions says too little.
+// Min total of pixel positions, over all samples, at which the error of a trial (a frame of less than one block) is
+// estimated. With fewer positions, the image of half the samples is too rough for an estimate.
 constexpr std::uint32_t minAssessed = 32;
 
 }  // namespace
@@ -60,8 +61,8 @@ void FrameRun::startAutomatic(const RenderSettings& settings, const StopSettings
     startAbout(firstSamples(plan_, automatic_->quality));
 }
 
-// Starts a frame with the quality of about `samples` samples of one position: as a trial if this is less than a
-// block, else in blocks. plan_ must be a plan of the frame with any number of samples.
+// Starts a frame as good as about `samples` samples with one pixel position each. Draws fewer than 64 samples as a
+// trial, more in blocks. plan_ must be a plan of the frame, with any number of samples.
 void FrameRun::startAbout(double samples) {
     const RenderSettings settings = withSamples(automatic_->settings, plan_, samples, automatic_->choosesPositions);
     if (settings.sampleCount >= blockSamples) {

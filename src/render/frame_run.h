@@ -1,9 +1,9 @@
 #pragma once
 // Renders the image of a view, with a fixed number of lens samples or until stop conditions are met:
 //   FrameRun run(world, renderer); run.start(view, settings, stop); while (run.advance()) {} renderer.image();
-// Without stop conditions, a frame is one plan and one Renderer::start. With StopSettings, blocks of samples are added
-// to one sum until the error or time limit is reached. Each block is planned for the expected final number of samples.
-// An automatic number of samples begins with the number that the plan's blur suggests.
+// Without stop conditions, a frame has one plan and one call of Renderer::start. With StopSettings, blocks of 64
+// samples are added to one sum until the error or time limit is reached. Each block is planned for the expected final
+// number of samples. An automatic number of samples is first predicted from the blur in the plan.
 
 #include <chrono>
 #include <optional>
@@ -14,8 +14,8 @@
 
 namespace defocus::engine {
 
-// Throws UsageError if the stop settings are not possible. The method must sum blocks (Method::sumsBlocks). Motion must
-// not need one pose per sample, because the number of samples is not known in advance.
+// Throws UsageError for a target error or time limit if `method` does not sum blocks (Method::sumsBlocks), or if motion
+// needs one pose per sample, because the number of samples is not known in advance.
 void checkStop(const StopSettings& stop, const Method& method, const ShutterSettings& shutter);
 
 class FrameRun {
@@ -34,8 +34,8 @@ public:
     // Returns the final number of samples of the frame. With StopSettings, this is an estimate that is updated after
     // each block.
     [[nodiscard]] std::uint32_t sampleTotal() const;
-    // Returns the finished fraction of the work, 0 … 1. While no estimate has confirmed an automatic number of samples,
-    // the fraction stays below one half.
+    // Returns the finished fraction of the work, 0 … 1. While an automatic number of samples is not yet confirmed by an
+    // error estimate, the fraction is at most one half.
     [[nodiscard]] double share() const;
     // Returns the plan of the frame. With StopSettings, it is the plan of the latest block, which has the finest
     // levels, but its triangle counts are sums over all blocks.
@@ -71,7 +71,7 @@ private:
     std::optional<ErrorEstimate> trial_;
     FramePlan plan_;
     double planMilliseconds_ = 0;
-    RenderStats before_;  // sums over all blocks before the latest
+    RenderStats before_;  // sums over all blocks before the latest one
     bool timed_ = false;  // the frame has a time limit
     std::chrono::steady_clock::time_point blockBegin_;
     std::chrono::steady_clock::time_point begin_;

@@ -35,7 +35,7 @@ using MethodSettings = std::map<std::string, std::string>;
 
 struct RendererOptions {
     LayerFormat layerFormat = LayerFormat::automatic;
-    std::uint32_t wave = 0;                  // lens samples per wave K; 0: as many as fit into waveBytes
+    std::uint32_t wave = 0;                  // lens samples drawn together (a wave); 0: as many as fit into waveBytes
     std::uint64_t waveBytes = 160ull << 20;  // max memory of the layers of all waves that are drawn at once
     std::uint32_t threads = 1;               // threads that draw (Method::usesThreads), each with a context of its own
     std::uint64_t pendingBytes = SubmissionPacer::defaultBytes;  // max memory of pending triangles of a software driver
@@ -54,11 +54,11 @@ struct Method {
     bool usesLensSamples = true;  // false: ignores the plan's lens samples (post-process methods)
     bool shadesAsLit = true;      // false: images match other methods only for unlit, opaque surfaces
     bool showsThrough = true;     // false: draws transmitting surfaces as opaque
-    bool blursCells = false;      // true: blurs each sample's image by its lens cell (plan/lens_cells/)
+    bool blursCells = false;      // true: blurs each sample's image to fill gaps between samples (plan/lens_cells/)
     bool sumsBlocks = false;      // true: Renderer::continueWith adds samples to the sum
     bool drawsTiles = false;      // true: draws only FramePlan::tile; false: always the full image
-    bool drawsLayers = false;     // true: draws RenderSettings::layers
-    bool drawsPositions = false;  // true: draws RenderSettings::positions; false: needs one position per sample
+    bool drawsLayers = false;     // true: draws data layers (RenderSettings::layers)
+    bool drawsPositions = false;  // true: may draw several pixel positions per sample (RenderSettings::positions)
     bool usesThreads = false;     // true: draws in RendererOptions::threads threads
     bool drawsShadows = true;     // false: no shadows
     bool drawsMotion = true;      // false: draws moving objects at a single time within the exposure

@@ -60,7 +60,7 @@ struct WaveLimit {
     std::uint32_t samples = 0;  // max samples in memory, of all waves that are drawn at once; 0: RendererOptions::wave
     std::uint32_t perWave = 0;  // max samples per wave, so that a wave takes little time; 0: no limit
     std::uint32_t threads = 0;  // max threads that draw; 0: RendererOptions::threads
-    // Returns the max samples of a method that draws one wave at a time; `otherwise` is RendererOptions::wave.
+    // Returns the max samples per wave for methods that draw one wave at a time. `otherwise`: max if `samples` is 0.
     [[nodiscard]] std::uint32_t withDefault(std::uint32_t otherwise) const {
         const std::uint32_t max = samples > 0 ? samples : otherwise;
         return perWave > 0 && (max == 0 || max > perWave) ? perWave : max;
@@ -87,8 +87,8 @@ public:
     // Returns the depth in m of the first sample of the latest wave, +∞ where no surface writes depth; nullopt for
     // methods that do not sum lens samples. Not available for plans with a tile.
     [[nodiscard]] virtual std::optional<Image> sampleDepth() { return {}; }
-    // Returns the layers RenderSettings::layers of all samples so far; nullopt without layers, and for methods that
-    // draw none (Method::drawsLayers).
+    // Returns the data layers (RenderSettings::layers) of all samples so far; nullopt without layers, and for methods
+    // that draw none (Method::drawsLayers).
     [[nodiscard]] virtual std::optional<LayerImages> layerImages() { return {}; }
     [[nodiscard]] virtual RenderStats stats() const = 0;
 
@@ -96,7 +96,7 @@ public:
     // plans must have been drawn and form complete blocks of 64. Methods that do not sum blocks (Method::sumsBlocks)
     // start a new frame. Afterwards, times in stats() cover only `plan`; triangles and samples are totals.
     virtual void continueWith(const FramePlan& plan) { start(plan); }
-    // Limits the samples per wave K from the next start() on. K does not change the image.
+    // Limits the number of samples per wave from the next start() on. The image is the same for any limit.
     virtual void setWave(const WaveLimit& /*limit*/) {}
     // Returns image() as a texture with row 0 at the bottom, valid until the next call of a member; nullptr for methods
     // without OpenGL.

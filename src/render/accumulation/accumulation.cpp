@@ -56,7 +56,8 @@ WaveShape chosenShape(const FramePlan& plan, const RendererOptions& options, con
                       std::uint64_t layers) {
     const std::uint64_t samples = std::max<std::uint64_t>(1, plan.samples.size());
     std::uint64_t longest = limit.perWave > 0 ? limit.perWave : maxWave;
-    // The error of a frame of few samples is estimated from half of them.
+    // With several pixel positions, a frame may have few samples. Its error is estimated after half of them, so no wave
+    // may be longer than that.
     if (plan.settings.positions > 1) longest = std::min(longest, std::max<std::uint64_t>(1, samples / 2));
     if (currentIsSoftware()) {
         const std::uint64_t triangles = std::max<std::uint64_t>(1, plan.trianglesDrawn);
@@ -76,7 +77,7 @@ WaveShape chosenShape(const FramePlan& plan, const RendererOptions& options, con
     return shape;
 }
 
-// Returns the image of the first position of each pixel, at the top left. `axis`: positions along each axis.
+// Returns an image with only the top left position of each pixel. `axis`: number of positions along each axis.
 Image ofFirstPositions(Image drawn, int axis) {
     if (axis == 1) return drawn;
     Image result(drawn.width / axis, drawn.height / axis, 1);
@@ -85,8 +86,8 @@ Image ofFirstPositions(Image drawn, int axis) {
     return result;
 }
 
-// Whether each sample's image is blurred by its lens cell. `automatic` decides by the blur in the image
-// (automatic_cells.h).
+// Whether each sample's image is blurred to fill gaps between samples (lens cells). `automatic` decides by the size of
+// the blur in the frame (automatic_cells.h).
 enum class CellUse { never, always, automatic };
 
 class AccumulationRenderer final : public Renderer {
@@ -207,7 +208,7 @@ private:
 
     [[nodiscard]] bool blursCells() const { return cells_.classes() > 0; }
 
-    // Chooses the shape of waves, and reallocates the sums if their size or format has changed.
+    // Divides the samples into waves, and reallocates the sums if their size or format has changed.
     void prepareSums() {
         const LayerFormat format = chosenLayerFormat(scene_.world(), options_.layerFormat);
         shape_ =

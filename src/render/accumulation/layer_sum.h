@@ -34,11 +34,9 @@ class LayerSum {
 public:
     explicit LayerSum(const LayerSumInfo& info);
 
-    // Clears all sums. `first` is the pixel of the layers that belongs to pixel (0, 0) of the sums, from the bottom
-    // left.
+    // Clears all sums. `first` is the pixel of the layers that corresponds to the lower left pixel of the sums.
     void reset(const glm::ivec2& first = {0, 0});
-    // Turns the blur of lens cells on for all further blocks. Call it only when all samples so far form complete
-    // blocks. reset() turns the blur off.
+    // Blurs all further blocks by lens cells. All samples so far must form complete blocks. reset() turns the blur off.
     void blurCells(const LensCells& cells);
     // Composites layers [0, count) over the environment and adds them to the sum. The layers contain samples [first,
     // first + count) of `frame`, which must belong to the same block.
@@ -70,8 +68,8 @@ private:
         Target target[2];
         int current = 0;  // index of the copy with the latest values
     };
-    // Returns the index of the copy of block_ with the block's sum. If `asAdded`, the copy contains the sum that is
-    // added to the frame's sum. With lens cells, this sum is blurred, and is first drawn into the other copy.
+    // Returns the index of the copy of block_ that holds the block's sum. If `asAdded` is true and lens cells are used,
+    // draws the blurred sum, which is added to the frame's sum, into the other copy and returns that copy's index.
     int latestBlock(bool asAdded);
     void addBlockTo(Sum& frame, int block, bool startsFrame);
     // Writes copy `latest` of a sum to mean_, divided by `divisor`; 0 divides by the pixel's alpha.
@@ -86,9 +84,9 @@ private:
     Target meanTarget_;
     // Programs that add layers to the sum, keyed by their defines, which may change from frame to frame.
     std::map<ShaderDefines, Program> addLayers_;
-    // key: number of blur classes in front of and behind the focus plane
+    // Programs for lens cells, keyed by the numbers of blur classes in front of and behind the focus plane.
     std::map<std::pair<int, int>, CellPasses> cellPasses_;
-    // Kept after the latest block with lens cells, because the next frame often has the same classes.
+    // Kept after the latest block with lens cells, because the next frame often has the same blur classes.
     std::optional<CellSums> cells_;
     bool blursCells_ = false;
     double cellBlur_ = 0;

@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int tableEntries = 16;  // max objects or materials that a pixel counts
+constexpr int tableEntries = 16;  // max number of objects or materials that are counted in a pixel
 
 bool has(const std::vector<Layer>& layers, Layer layer) {
     return std::ranges::find(layers, layer) != layers.end();
@@ -42,7 +42,8 @@ std::vector<Slot> slotsOf(const std::vector<Layer>& layers, bool countsSamples) 
         if (wanted) slots.push_back({name, format});
     };
     const bool coc = has(layers, Layer::coc);
-    // The coverage is the mean alpha of a slot. NUMBER_SLOT has none, so layers of numbers alone also need DEPTH_SLOT.
+    // The coverage is the mean alpha of a slot. NUMBER_SLOT has no alpha, so object and material layers alone also need
+    // DEPTH_SLOT.
     const auto isNumber = [](Layer layer) { return layer == Layer::objects || layer == Layer::materials; };
     const bool onlyNumbers = !layers.empty() && std::ranges::all_of(layers, isNumber);
     add(countsSamples || onlyNumbers || coc || has(layers, Layer::depth), "DEPTH_SLOT",

@@ -64,7 +64,7 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    // Sum of a slot of shaders/accumulation/layers.frag.
+    // Sum of one output (slot) of shaders/accumulation/layers.frag.
     struct SlotSum {
         GlTexture sum;
         GlTexture compensation;
@@ -76,7 +76,7 @@ private:
     };
 
     const Program& program(const char* fragment, ShaderDefines defines);
-    // Returns the slot whose sum has the coverage; all slots but the numbers have the same alpha.
+    // Returns the output (slot) whose sum has the coverage; all slots except NUMBER_SLOT have the same alpha.
     [[nodiscard]] const std::string& coverageSlot() const;
     void addSlot(const std::string& slot, const GlTexture& layers, const FrameUniforms& frame, std::uint32_t first,
                  std::uint32_t count);

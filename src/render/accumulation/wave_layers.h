@@ -13,7 +13,7 @@ namespace defocus::engine {
 struct WaveLayersInfo {
     int width = 1;  // px
     int height = 1;
-    std::uint32_t count = 1;                    // number of layers K, 1 … 64
+    std::uint32_t count = 1;                    // number of layers, 1 … 64
     LayerFormat format = LayerFormat::rgba16f;  // not LayerFormat::automatic
     bool operator==(const WaveLayersInfo&) const = default;
 };

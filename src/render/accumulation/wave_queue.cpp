@@ -5,7 +5,7 @@
 
 namespace defocus::engine {
 
-// A drawer and the thread of its context; without a thread, tasks run at once in the caller's context.
+// A WaveDrawer and the thread that owns its context. Without a thread, tasks run at once in the caller's context.
 class WaveQueue::Lane {
 public:
     Lane(std::unique_ptr<ContextThread> thread, const GpuScene& scene, const Occlusion& occlusion,
@@ -56,7 +56,8 @@ WaveQueue::~WaveQueue() {
     stop();
 }
 
-// Makes at least `threads` lanes, or one lane in the caller's context if it cannot share objects with other contexts.
+// Ensures at least `threads` lanes, each with a thread and a context of its own. Makes only one lane, in the caller's
+// context, if `threads` is 1 or contexts cannot share objects.
 void WaveQueue::makeLanes(std::uint32_t threads) {
     const bool several = threads > 1;
     if (several != severalContexts_) lanes_.clear();
@@ -135,7 +136,8 @@ void WaveQueue::draw(std::uint32_t wave) {
         });
 }
 
-// Returns the visibility for the wave that begins with `firstSample`. Call it in the order of waves.
+// Returns the wave's access to its block's classification of hidden triangles. `firstSample`: first sample of the wave.
+// Must be called in the order of waves.
 WaveVisibility WaveQueue::visibilityFor(std::uint32_t firstSample) {
     if (firstSample % blockSamples != 0) return {{}, blockVisibility_};
     std::promise<WaveVisibility::Value> made;

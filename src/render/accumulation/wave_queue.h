@@ -19,7 +19,7 @@ namespace defocus::engine {
 struct WaveShape {
     std::uint32_t threads = 1;  // threads that draw; 1: the caller's thread
     std::uint32_t targets = 1;  // waves in memory per thread: 2, so that a thread does not wait for a wave's sum
-    std::uint32_t samples = 1;  // samples per wave K, a power of two, at most blockSamples
+    std::uint32_t samples = 1;  // samples per wave, a power of two, at most blockSamples
     [[nodiscard]] std::uint32_t waves() const { return threads * targets; }
 };
 
@@ -52,7 +52,7 @@ public:
     void resetTimes();
     [[nodiscard]] std::size_t bytes() const { return bytes_; }       // bytes of all threads after prepare()
     [[nodiscard]] std::uint32_t threads() const { return active_; }  // threads that draw the frame
-    [[nodiscard]] std::uint32_t layers() const { return active_ * shape_.targets * shape_.samples; }  // layers held
+    [[nodiscard]] std::uint32_t layers() const { return active_ * shape_.targets * shape_.samples; }  // layers in use
 
 private:
     class Lane;
@@ -63,7 +63,7 @@ private:
     // A wave in memory. Wave number w of a frame uses place w mod places_.size().
     struct Place {
         std::future<Drawn> drawn;
-        Fence summed;  // complete when the layers may be drawn again
+        Fence summed;  // complete when the layers may be overwritten
     };
 
     void makeLanes(std::uint32_t threads);
@@ -75,8 +75,8 @@ private:
     RendererOptions options_;
     Occlusion occlusion_;
     std::vector<std::unique_ptr<Lane>> lanes_;
-    std::uint32_t active_ = 0;      // the frame uses the first `active_` lanes
-    bool severalContexts_ = false;  // lanes_ have contexts of their own
+    std::uint32_t active_ = 0;      // number of elements of lanes_ that the frame uses
+    bool severalContexts_ = false;  // true: each lane has a thread and a context of its own
     WaveFrame frame_;
     WaveShape shape_;
     std::vector<Place> places_;

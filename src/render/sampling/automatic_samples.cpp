@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double gapOfPositions = 1.25;  // as QualityLimits::gap, for samples with four positions
+constexpr double gapOfPositions = 1.25;  // like QualityLimits::gap, in px, for samples with four positions
 constexpr double payingTriangles = 0.1;  // min triangles per pixel and sample for which four positions save time
 // Max image size in px with four positions, whose layers are twice as wide and high.
 constexpr int maxDoubledSide = 4096;
@@ -21,8 +21,8 @@ constexpr std::uint32_t minSpread = 64;  // min samples for smooth penumbrae and
 struct QualityLimits {
     double flip;        // target error
     double firstGap;    // max distance in px between a blurred point's images in neighbouring samples
-    double gap;         // same distance in px for frames whose error is not estimated while they are drawn
-    std::uint32_t min;  // samples
+    double gap;         // like firstGap, for frames whose error is not estimated while they are drawn
+    std::uint32_t min;  // min number of samples
 };
 
 QualityLimits limitsOf(Quality quality) {
@@ -37,7 +37,8 @@ QualityLimits limitsOf(Quality quality) {
     return {};
 }
 
-// Returns the samples for a blur of `blur` px whose neighbouring images are at most `gap` px apart, but at least `min`.
+// Returns the number of samples, at least `min`, at which the images of a point blurred over `blur` px are at most
+// `gap` px apart.
 std::uint32_t samplesForGap(double blur, double gap, std::uint32_t min) {
     const double filling = std::numbers::pi / 4 * blur * blur / (gap * gap);
     if (!(filling > min)) return min;

@@ -19,7 +19,7 @@ double flipOf(Quality quality);
 // this distance is at most 8 (draft), 4.5 (good) or 3 px (fine). With shadow maps or motion, N is at least 64. Objects
 // that extend to the near plane have unbounded blur and are ignored, as is blur above largestSampledBlur().
 std::uint32_t firstSamples(const FramePlan& plan, Quality quality);
-// Returns the same for a largest blur diameter of `blur` px, without shadow maps or motion.
+// Returns the number of samples to begin with for a largest blur diameter of `blur` px, without shadow maps or motion.
 std::uint32_t firstSamples(double blur, Quality quality);
 
 // Returns whether `samples` / 4 lens samples with four pixel positions each can replace `samples` with one position,
@@ -29,10 +29,10 @@ std::uint32_t firstSamples(double blur, Quality quality);
 // above 4,096 px a side or 4 megapixels have one position, because the layers would take too much memory.
 bool fourPositionsSuffice(const FramePlan& plan, double samples);
 
-// Returns the settings of a frame with the quality of about `samples` samples of `settings`: a power of two up to 64,
-// or complete blocks of 64. A quarter of them if the settings have four positions, or if `choosesPositions` is set and
-// fourPositionsSuffice(); the error of the image must then decide whether it suffices. `plan` is a plan of the frame
-// with any number of samples.
+// Returns `settings` with a number of samples, a power of two up to 64 or complete blocks of 64, for the quality of
+// about `samples` samples with one pixel position each. With four positions, the number is a quarter. Four positions
+// are set if `choosesPositions` and fourPositionsSuffice(); an error estimate must then show whether the samples
+// suffice. `plan` is a plan of the frame with any number of samples.
 RenderSettings withSamples(RenderSettings settings, const FramePlan& plan, double samples, bool choosesPositions);
 
 // Returns the number of samples of a frame whose error cannot be estimated before it is complete, such as a frame in
@@ -49,7 +49,7 @@ double largestSampledBlur(const FramePlan& plan);
 bool blursBeyondSamples(const FramePlan& plan);
 
 // Returns the largest blur diameter in px of the plan's objects with bounded blur; 0 without such objects. Blur above
-// largestSampledBlur() is ignored, because even maxSamples lens samples do not resolve it.
+// largestSampledBlur() is ignored, because even maxAutomaticSamples lens samples do not resolve it.
 double largestBoundedBlur(const FramePlan& plan);
 
 }  // namespace defocus::engine

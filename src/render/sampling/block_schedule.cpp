@@ -13,14 +13,15 @@ namespace {
 // Max level error relative to the intended error. The total error is then at most √(1 + 0.5²) = 1.12 times the intended
 // error.
 constexpr double levelShare = 0.5;
-constexpr double withoutLevelError = 4;  // factor on the expected samples, if the level error is unknown
-constexpr double blockTolerance = 0.7;   // s
+constexpr double withoutLevelError = 4;  // factor on the expected number of samples if the level error is unknown
+constexpr double blockTolerance = 0.7;   // s after the time limit at which an unfinished block is stopped
 constexpr double maxThresholdSamples = 1e8;
 constexpr double maxLevelPower = 1.4;
 // Sample count of the first error estimate, which needs two blocks.
 constexpr std::uint32_t firstEstimate = 2 * blockSamples;
-// An estimate from the halves of a block is too large by this factor, because the first half draws more coarse levels
-// than the second half, and its lens cells are not centred on the lens. Measured: 1.3 (school of fish) and 2.0 (bokeh).
+// An estimate from the halves of a block is too large by this factor. The first half draws more coarse levels than the
+// second half, and the lens cells of the first half are not centred on the lens. Measured: 1.3 (school of fish) and 2.0
+// (bokeh).
 constexpr double excessWithinBlock = 1.3;
 
 // Returns `samples` rounded up to complete blocks.
@@ -122,8 +123,8 @@ void BlockSchedule::predict() {
         if (const double flip = estimatedFlip().value_or(0); flip > 0)
             expected_ = samples_ * std::pow(flip / *targetFlip_, 1 / lensSampleExponent);
     } else if (const double error = estimate_.error().value_or(0); stop_.targetError && error > 0) {
-        // The squares of sampling error and level error sum to the square of the target. The sampling error may be at
-        // least 44 % of the target.
+        // The squares of sampling error and level error sum to the square of the target. The sampling error is allowed
+        // to be at least 44 % of the target.
         const double levels = std::min(withLevels(0), 0.9 * *stop_.targetError);
         const double aim = std::sqrt(*stop_.targetError * *stop_.targetError - levels * levels);
         expected_ = samples_ * std::pow(error / aim, 1 / lensSampleExponent);

@@ -67,7 +67,7 @@ public:
     // Returns the predicted final sample count, which is refined after each block.
     [[nodiscard]] std::uint32_t expectedSamples() const;
     [[nodiscard]] std::optional<StopReason> stopped() const { return stopped_; }
-    // Returns whether an automatic number of samples is only a prediction from the blur.
+    // Returns whether an automatic number of samples is only predicted from the blur, without an error estimate yet.
     [[nodiscard]] bool unconfirmed() const { return targetFlip_ && !estimate_.flip(); }
     // Returns the latest error estimate, extrapolated to the current number of samples with lensSampleExponent. A
     // complete frame needs no extrapolation.

@@ -63,7 +63,7 @@ private:
 
     int width_ = 0;
     int height_ = 0;
-    std::vector<Kept> kept_;  // in ascending order, from about a quarter of the latest sample count
+    std::vector<Kept> kept_;  // by ascending sample count, from about a quarter of the latest count
     std::optional<double> error_;
     std::optional<double> flip_;
 };

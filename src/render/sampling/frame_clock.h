@@ -21,7 +21,7 @@ public:
     // Waits for the GPU; ends the frame.
     void endFrame();
 
-    // Sets times, device and driver of `stats`. Times that have not ended are 0.
+    // Sets times, device and driver of `stats`. Times of unfinished intervals are 0.
     void fill(RenderStats& stats);
 
 private:

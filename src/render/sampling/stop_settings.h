@@ -15,12 +15,12 @@ struct StopSettings {
     // blocks.
     std::optional<double> targetError = {};
     // Seconds from the start of the frame, 0.001 … 1e6. A block is not started if its predicted end is after the limit.
-    // A block that takes longer than predicted ends 0.7 s after the limit; at least one sample is drawn.
+    // A block that takes longer than predicted is stopped 0.7 s after the limit; at least one sample is drawn.
     std::optional<double> timeLimit = {};
     std::uint32_t sampleLimit = maxSamples;
     // If set, the number of samples is chosen automatically; see automatic_samples.h.
     std::optional<Quality> automatic = {};
-    // If true, RenderSettings::positions is chosen automatically, too.
+    // If true, the number of pixel positions per sample (RenderSettings::positions) is also chosen automatically.
     bool choosesPositions = false;
 
     // Returns whether a target error or a time limit is set.
