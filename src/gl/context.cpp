@@ -181,7 +181,7 @@ private:
         context_ = eglCreateContext(display_, config, shared, attributes);
     }
 
-    // Reads the facts about the driver from the current context, which uses the same driver.
+    // Reads the device and driver names from the current context, which uses the same driver.
     void readDriver() {
         device_ = currentDevice();
         driver_ = currentDriver();

@@ -8,7 +8,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t openBatches = 2;            // batches that may be pending while the next batch is submitted
-constexpr GLuint64 longestWait = 10'000'000'000;  // max wait in ns; a timeout only costs memory
+constexpr GLuint64 longestWait = 10'000'000'000;  // max wait in ns; after a timeout, drawing continues
 
 bool softwareDriver() {
     const auto* text = reinterpret_cast<const char*>(glGetString(GL_RENDERER));

@@ -20,9 +20,9 @@ struct ShaderConstant {
 
 // Shaders branch on these constants with `if`, and compilers drop the branches that are never taken.
 constexpr ShaderConstant constants[] = {
-    // Frame
+    // Constants of a frame
     {"int", "blockSamples", "64"},     // lens samples per block of the accumulated sum
-    {"int", "positionsPerAxis", "1"},  // positions in a pixel of the image, i.e. pixels of a layer, along each axis
+    {"int", "positionsPerAxis", "1"},  // pixels of a layer per pixel of the image, along each axis
     {"int", "environmentType", "0"},
     {"int", "backgroundType", "0"},
     {"float", "environmentLevels", "0.0"},    // coarsest mip level of the environment map
@@ -40,9 +40,9 @@ constexpr ShaderConstant constants[] = {
     {"bool", "keepsNearest", "false"},  // depth layer: also keep the nearest depth
     {"bool", "sumsAlpha", "false"},     // data layer: also add alpha, the coverage
     {"int", "waveSamples", "1"},        // samples that the pass adds; drivers unroll the loop over a constant number
-    {"int", "tableEntries", "1"},       // max objects or materials that a pixel counts separately
+    {"int", "tableEntries", "1"},       // max number of objects or materials counted separately in a pixel
 
-    // Surfaces
+    // Constants of surfaces
     {"bool", "lit", "false", "LIT"},
     {"bool", "coarseLevel", "false", "COARSE_LEVEL"},
     {"bool", "transmissive", "false", "TRANSMISSIVE"},
@@ -71,7 +71,7 @@ constexpr ShaderConstant constants[] = {
     {"bool", "coarseShare", "false"},                       // blend of two levels: draws the coarser level's pixels
     {"bool", "fineShare", "false"},                         // blend of two levels: draws the finer level's pixels
 
-    // Poses
+    // Constants of poses
     {"bool", "moving", "false", "MOVING"},
     {"int", "lastPose", "0"},  // index of the pose at the shutter's closing
     {"bool", "cameraMoves", "false"},
@@ -83,7 +83,7 @@ constexpr ShaderConstant constants[] = {
     {"bool", "vertexBlurs", "false"},
     {"bool", "blurMoves", "false"},
 
-    // Shadows
+    // Constants of shadow maps
     {"bool", "shadowed", "false", "SHADOWED"},
     {"bool", "tintedShadows", "false", "TINTED_SHADOWS"},  // shadow maps have one depth per colour channel
     {"int", "shadowMapCount", "0"},
@@ -93,18 +93,18 @@ constexpr ShaderConstant constants[] = {
     {"int[]", "shadowFirst", "int[](-1)"},
     {"int[]", "shadowFaces", "int[](0)"},
 
-    // Lens cells
+    // Constants of lens cells
     {"int", "cellsInFront", "0"},
     {"int", "cellsBehind", "0"},
     {"float", "minCellVariance", "0.0"},
     {"bool", "nearestClass", "false"},
 
-    // Layered
+    // Constants of the layered method
     {"bool", "blendedLayers", "false"},
     {"bool", "finestExtents", "false"},
     {"int", "extentLevels", "1"},
 
-    // Lens space
+    // Constants of the lens-space methods
     {"int", "tileSize", "1"},  // tile side in px; also used by the circular method
     {"int", "maxRays", "1"},   // max lens samples drawn in one pass
     {"uint", "rayVariants", "1u"},
@@ -116,7 +116,7 @@ constexpr ShaderConstant constants[] = {
     {"bool", "lightsVertices", "false", "LIGHTS_VERTICES"},
     {"int", "maxShadingPoints", "1"},
 
-    // Circular
+    // Constants of the circular method
     {"int", "kernelSize", "1"},
     {"int", "components", "1"},  // number of kernel components that a pass filters
     {"vec2", "kernelAxes", "vec2(1.0)"},
@@ -130,7 +130,7 @@ constexpr ShaderConstant constants[] = {
     {"bool", "nearPremultiplied", "false"},
     {"bool", "biasByLuminance", "false"},
 
-    // Scheuermann
+    // Constants of the Scheuermann method
     {"int", "pinholeSamples", "1", "MULTISAMPLED"},  // samples per pixel of the pinhole image
     {"bool", "thinLens", "false"},
     {"bool", "encodedColor", "false"},
@@ -139,7 +139,7 @@ constexpr ShaderConstant constants[] = {
     {"float", "smallPixel", "1.0"},
     {"float", "smallRadiusScale", "1.0"},
 
-    // Display
+    // Constants of the display pass
     {"bool", "compares", "false"},
     {"bool", "overlays", "false"},
     {"bool", "marks", "false"},
