@@ -18,7 +18,7 @@ namespace {
 
 // Sizes in field pixels: pixels of the blurred near and far fields, which may have a lower resolution than the image.
 constexpr int tileSize = 16;
-constexpr int publishedLargest = 17;  // max blur diameter: eight taps on each side and the centre
+constexpr int publishedLargest = 17;  // max blur diameter in field pixels: eight taps on each side and the centre
 
 struct CircularOptions {
     int nearComponents = 2;

@@ -94,8 +94,8 @@ Bracket bracketOfSum(const std::vector<double>& taps) {
     return {offset, std::reduce(taps.begin(), taps.end()) / static_cast<double>(taps.size()) - offset};
 }
 
-// Returns the Bracket for taps whose number and positions depend on the radius: their weights only lie between the min
-// and the max of `taps`.
+// Returns the Bracket for taps whose number and positions depend on the radius. Only the range of their weights is
+// known, from the min to the max of `taps`.
 Bracket bracketOfRange(const std::vector<double>& taps) {
     const auto [min, greatest] = std::ranges::minmax(taps);
     return {min, greatest - min};

@@ -25,8 +25,8 @@ int borderOf(const FramePlan& plan) {
     return plan.usesLens ? static_cast<int>(std::min<double>(std::ceil(largest / 2) + 1, max)) : 0;
 }
 
-// Returns the samples per wave K: `asked`, or, if `asked` is 0, as many as fit into RendererOptions::waveBytes, at most
-// `run`, the number of consecutive samples with the same pinhole. K is a power of two, so that it divides `run`.
+// Returns the number of samples per wave: `asked`, or, if `asked` is 0, as many as fit into RendererOptions::waveBytes.
+// At most `run`, the number of consecutive samples with the same pinhole, and a power of two, so that it divides `run`.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked, LayerFormat format,
                          std::uint32_t run) {
     const std::uint64_t pixels =
@@ -197,7 +197,7 @@ private:
     }
 
     RendererOptions options_;
-    std::uint32_t wave_;  // requested samples per wave K; 0: as many as fit into waveBytes
+    std::uint32_t wave_;  // requested samples per wave; 0: as many as fit into waveBytes
     GpuScene scene_;
     FramePlan plan_;      // positions in the pixel are relative to the layers of the sample's pinhole
     FramePlan pinholes_;  // one sample per pinhole; image widened by the border

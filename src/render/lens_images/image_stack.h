@@ -1,5 +1,5 @@
 #pragma once
-// Images of equal size, as half floats, and the mean of some of them, each moved by whole pixels (src/refocus).
+// Stores images of equal size as half floats and computes means of some of them, shifted by whole pixels (src/refocus).
 //
 // The images are the layers of a texture. Where OpenGL runs on the CPU, they are in the program's memory, and the
 // program computes the mean in less time than a shader needs there.
@@ -20,10 +20,10 @@ class ImageStack {
 public:
     static constexpr std::size_t maxImages = 64;
 
-    // An image in a mean.
+    // Image that contributes to a mean.
     struct Part {
         std::uint32_t image = 0;
-        glm::ivec2 corner{0};  // position (x, y) in the image of the mean's lower left pixel
+        glm::ivec2 corner{0};  // pixel of the image that coincides with the mean's lower left pixel
     };
 
     // `software`: OpenGL runs on the CPU.

@@ -152,7 +152,8 @@ void LensFront::addLevel(std::uint32_t objectIndex, const LevelDraw& level, doub
     vertexCount_ += vertices.count;
 }
 
-// Assigns the vertices and triangles of divisions, after the vertices of all levels and the undivided triangles.
+// Assigns ranges of vertices and triangles to the divided triangles. Their vertices follow the vertices of all levels,
+// and their triangles follow the undivided triangles.
 void LensFront::addDivisions() {
     std::uint32_t bases = 0;
     std::uint32_t triangles = 0;
@@ -307,8 +308,8 @@ void LensFront::countTiles() {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     tileCounts_.read(0, tileCounts_.bytes(), counts.data());
 
-    // Compute the offsets of the tiles' lists. A new band begins when the list of the next tile would exceed the memory
-    // limit.
+    // Compute the offsets of the tiles' lists. A new band of tiles begins when the next tile's list would exceed the
+    // memory limit.
     bands_.clear();
     statistics_ = {};
     statistics_.tiles = tiles;

@@ -46,8 +46,8 @@ struct BinStatistics {
 struct LensFrontOptions {
     std::uint32_t tileSize = 0;   // px
     bool lightsVertices = false;  // lighting is computed per vertex (RecordShading)
-    bool divides = true;          // divides triangles in which C bends; otherwise C is linear in each, as published
-    // Max memory for the lists: if all lists need more, the tiles are processed in several bands.
+    bool divides = true;          // divides triangles in which C is not linear; false: makes C linear, as published
+    // Max bytes of the lists. If all lists need more, the tiles are processed in several bands.
     std::uint64_t entryBytes = 0;
     std::filesystem::path shaderFolder;
 };
@@ -60,8 +60,8 @@ public:
     // object or feature in its message, for a plan that the lens-space methods cannot draw; `method` is the method's
     // name.
     void prepare(const FramePlan& plan, const FrameUniforms& frame, const std::string& method);
-    // Computes the vertices and the list sizes for part `part` of the exposure, from shutter time `part` to the next
-    // shutter time. If nothing moves, there is only part 0.
+    // Computes the vertices and the list sizes for part `part` of the exposure, from shutter time number `part` to the
+    // next one. If nothing moves, there is only part 0.
     void pose(std::uint32_t part);
     // Fills the lists of a band and sorts them front to back, unless this band is already filled.
     void fill(const TileBand& band);
@@ -108,12 +108,12 @@ private:
         std::uint32_t seeThrough = 0;
     };
 
-    // Adds the triangles of a level, which become at most `maxSmall` small ones if C bends inside them.
+    // Adds the triangles of a level, divided into at most `maxSmall` triangles if C is not linear inside them.
     void addLevel(std::uint32_t object, const LevelDraw& level, double maxSmall, std::vector<GpuDraw>& draws);
     void addDivisions();
     std::uint32_t groupOf(int mesh, int material, std::uint32_t level);
     void makeTriangles();
-    // Converts the index ranges of the divided objects, or of the undivided objects, to triangles in `target`.
+    // Converts the index ranges of the divided (if `divided`) or undivided objects to triangles in `target`.
     void convertRuns(const Buffer& target, bool divided);
     void makeVertices(const Buffer& target, std::size_t vertexBytes, bool attributes, std::uint32_t moment,
                       float fraction);

@@ -122,8 +122,8 @@ private:
         sum_->reset();
     }
 
-    // Returns the rays per pixel and wave K: the requested K, or as many as fit into RendererOptions::waveBytes, at
-    // most 64.
+    // Returns the number of rays per pixel and wave: the requested number, or as many as fit into
+    // RendererOptions::waveBytes, at most 64.
     [[nodiscard]] std::uint32_t wavesRays() const {
         const std::uint64_t pixels =
             std::uint64_t{static_cast<std::uint32_t>(plan_.view.width)} * static_cast<std::uint32_t>(plan_.view.height);
@@ -146,7 +146,7 @@ private:
     }
 
     RendererOptions options_;
-    std::uint32_t wave_;  // requested rays per wave K; 0: as many as fit into waveBytes
+    std::uint32_t wave_;  // requested rays per pixel and wave; 0: as many as fit into waveBytes
     std::unique_ptr<VisibilityKernel> kernel_;
     GpuScene scene_;
     FramePlan plan_;
@@ -154,7 +154,7 @@ private:
     std::optional<LensFront> front_;
     std::optional<RecordShading> shading_;
     std::optional<SeeThrough> seeThrough_;
-    std::uint64_t searches_ = 0;  // rays that went on behind a hit, over all waves so far
+    std::uint64_t searches_ = 0;  // number of rays that continued behind a hit, over all waves so far
     std::uint64_t records_ = 0;
     std::optional<RaySum> sum_;
     glm::ivec2 sumSize_{0};

@@ -3,8 +3,8 @@
 // surface stops there or goes on, depending on alpha at the hit (shaders/lens_space/let_through.comp). Rays that go on
 // find their next hit (behind.comp), until all rays have stopped.
 //
-// Behind such a surface, a line sample continues as point samples, one from each shading point on the surface. Tzeng et
-// al. 2012 draw only opaque surfaces, so this approximation is ours.
+// Behind such a surface, a line sample continues as point samples, one from each shading point on the surface. This
+// approximation is not published: Tzeng et al. 2012 draw only opaque surfaces.
 
 #include "render/lens_space/lens_front.h"
 #include "render/lens_space/record_shading.h"

@@ -17,16 +17,16 @@ namespace {
 
 constexpr std::uint32_t lineTile = 8;  // px
 constexpr std::size_t rangeBytes = 2 * sizeof(std::uint32_t);
-constexpr std::size_t jobRanges = 2;  // size of a deferred job, in elements of `ranges` in kernel.glsl
+constexpr std::size_t jobRanges = 2;  // elements of `ranges` (kernel.glsl) per deferred job, which is a tile and a line
 // Mesa's llvmpipe ends the loops of a shader invocation after a total of 65,535 iterations. Kernels may do up to twice
 // softwareRounds iterations before they defer the rest to the next dispatch.
 constexpr std::uint32_t softwareRounds = 30'000;
-constexpr std::size_t stateBytes = 32u << 20;   // approximate memory for states of jobs that take several dispatches
+constexpr std::size_t stateBytes = 32u << 20;   // approximate bytes for the states of jobs that take several dispatches
 constexpr std::uint64_t expectedRecords = 6;    // records per line; the buffer grows if a wave needs more
 constexpr std::uint32_t maxShadingPoints = 16;  // max shading points per visible interval of a line
 constexpr std::uint32_t firstCapacity = 48;     // initial max number of intervals per line, for the exact kernel
 constexpr std::uint32_t maxCapacity = 1536;
-constexpr std::uint32_t sharedBytes = 24;  // max shared memory per segment of a line
+constexpr std::uint32_t sharedBytes = 24;  // max bytes of shared memory per segment of a line
 constexpr float lightUnit = 1.0f / 1024;   // unit of Counters::droppedLight
 
 // Element of the uniform block BoundBlock in shaders/line/kernel.glsl (std140).
@@ -198,8 +198,8 @@ private:
 
     // Finds the visible intervals on the lines of `wave` in all tiles.
     Counters draw(LensFront& front, const RayWave& wave) {
-        // Allocate one element of `ranges` per line. If jobs may be deferred, also allocate all jobs, and states for as
-        // many of them as fit into stateBytes.
+        // Allocate one element of `ranges` per line. If jobs may be deferred, also allocate space for all jobs, and for
+        // as many saved states as fit into stateBytes.
         const std::uint64_t rays = std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} *
                                    static_cast<std::uint32_t>(imageSize_.y) * wave.count;
         const std::size_t jobs = maxRounds_ > 0 ? std::size_t{front.statistics().tiles} * wave.count : 0;

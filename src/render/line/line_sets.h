@@ -7,7 +7,7 @@
 // focus are antialiased by the positions alone.
 //
 // Angles are spaced so that equal amounts of the aperture's light pass between them. Thus all lines have equal weight
-// for any aperture without an image.
+// for any aperture that is not given by an image.
 
 #include "lens/aperture.h"
 #include "render/lens_space/ray_sets.h"

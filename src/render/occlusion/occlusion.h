@@ -45,13 +45,13 @@ struct RemainingDraw {
     std::uint32_t indexCount = 0;
 };
 
-// Draws that omit hidden pieces, in the order of the original draws; sample by sample if samples need different pieces.
+// Draws without hidden pieces, in the order of the original draws; sample by sample if samples need different pieces.
 struct RemainingDraws {
     std::vector<RemainingDraw> draws;
     std::vector<std::uint32_t> indices;
 };
 
-// Classification of all pieces as visible or hidden in the first sample of a block.
+// Classification of all pieces (groups of neighbouring triangles) as visible or hidden in a block's first sample.
 struct PieceVisibility {
     std::vector<std::vector<bool>> shown;  // per draw of Occlusion::prepare: whether each piece is visible
     RemainingDraws draws;                  // draws of the visible pieces, and of objects that cannot be tested

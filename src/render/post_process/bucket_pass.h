@@ -30,7 +30,7 @@ public:
 private:
     const PinholeImage* opaque_;
     PinholeImage image_;
-    GlTexture surfaceDepth_, surfaceOwnBlur_;  // depth and own blur of the bucket's nearest surfaces
+    GlTexture surfaceDepth_, surfaceOwnBlur_;  // depth and blur controls of the bucket's nearest surfaces
     GlTexture known_;                          // both surface textures with mip levels, for extrapolation
     Target colorTarget_, surfaceTarget_, knownTarget_, imageTarget_;
     Program know_, fill_;

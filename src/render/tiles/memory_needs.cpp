@@ -98,8 +98,8 @@ void reserve(TilingNeeds& needs, std::uint64_t bytes) {
     needs.hostMemory = needs.deviceMemory = remainder(needs.hostMemory, bytes);
 }
 
-// Returns how many of `wanted` threads can draw: one, which needs none of `bytes`, and as many more as fit into half of
-// `bytes`. `layer`: bytes of a layer.
+// Returns how many of `wanted` threads can draw. The first thread needs none of `bytes`; the others must fit into half
+// of `bytes`. `layer`: bytes of a layer.
 std::uint32_t threadsIn(std::uint64_t bytes, std::uint64_t layer, std::uint32_t wanted) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, 1 + bytes / 2 / (contextBytes + 2 * layer)));
 }

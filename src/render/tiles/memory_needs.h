@@ -14,7 +14,7 @@ namespace defocus::engine {
 // A request's limits on memory and layers.
 struct DrawLimits {
     std::optional<std::uint64_t> memory;  // max bytes of the process; nullopt: 3/4 of the free memory
-    std::uint32_t wave = 0;               // lens samples per wave K; 0: as many as fit into memory
+    std::uint32_t wave = 0;               // lens samples per wave; 0: as many as fit into memory
     LayerFormat layerFormat = LayerFormat::automatic;
     std::optional<std::uint32_t> threads = {};  // threads that draw; see wantedThreads()
 };
@@ -33,7 +33,7 @@ std::uint64_t waveBytesWithin(std::uint64_t limit, std::uint32_t threads);
 // Returns how many of `wanted` threads fit into half of the memory that a frame of one thread leaves. The context and
 // layers of each further thread take memory.
 std::uint32_t threadsWithin(const TilingNeeds& needs, std::uint32_t wanted);
-// Returns the same for a frame for which surelyFits() is true.
+// Returns the number of threads that fit, for a frame for which surelyFits() is true.
 std::uint32_t threadsWithin(int width, int height, std::uint64_t limit, std::uint32_t wanted);
 
 // Subtracts the memory of the contexts of `threads` threads from the available memory.

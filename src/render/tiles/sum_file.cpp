@@ -163,7 +163,7 @@ MergedFrame mergeParts(const std::vector<fs::path>& paths) {
             seconds += std::get<double>(own->second);
         for (const BlockSum& block : readPart(named.path).blocks) merge.add(block);
     }
-    // no date; otherwise, OpenImageIO would write the current time
+    // Set an empty date; otherwise, OpenImageIO would write the current time.
     merged.metadata.try_emplace("capDate", std::string());
     if (merged.metadata.contains(secondsAttribute)) merged.metadata[secondsAttribute] = seconds;
     merged.image = merge.image();

@@ -16,13 +16,13 @@ struct TilingNeeds {
     std::uint64_t layerPixel = 12;   // bytes per pixel of a layer: colour, depth and backdrop
     std::uint64_t layerMaps = 0;     // bytes of shadow maps per layer
     std::uint64_t waveBytes = 0;     // max bytes of all layers
-    std::uint32_t askedWave = 0;     // requested layers K; 0: as many as fit into waveBytes
+    std::uint32_t askedWave = 0;     // requested layers per wave; 0: as many as fit into waveBytes
     std::uint64_t deviceMemory = 0;  // free bytes for layers and sums
     std::uint64_t hostMemory = 0;    // free bytes for rows that are read back and written
     bool shared = true;              // true: device and host memory are the same
     std::uint64_t elsewhere = 0;     // bytes of the process without layers and sums; 0: unknown
-    std::uint64_t keptBytes = 0;     // images kept in main memory while drawing
-    bool mayUseCells = true;         // false: the full image must be one cell
+    std::uint64_t keptBytes = 0;     // bytes of images kept in main memory while drawing
+    bool mayUseCells = true;         // false: the image must not be divided into cells (plan/visible/tiles.h)
 };
 
 // Rows of the image over its full width, and the tiles that cover them, from left to right.
@@ -33,7 +33,7 @@ struct Band {
 };
 
 struct Tiling {
-    std::uint32_t wave = 1;   // layers per wave K
+    std::uint32_t wave = 1;   // number of layers per wave
     std::vector<Band> bands;  // bands from top to bottom
 };
 
@@ -48,7 +48,7 @@ inline constexpr std::uint64_t wholePixelBytes = 16 + 16 + 16;
 bool fitsInOnePiece(const TilingNeeds& needs);
 
 // Returns bands that fit into memory, of equal height except for the last band in a row of cells. Throws Error, with
-// the required memory in its message, if not even bands of a few rows fit.
+// the required memory in its message, if even bands of a few rows do not fit.
 Tiling chosenTiling(const TilingNeeds& needs);
 
 }  // namespace defocus::engine
