@@ -82,7 +82,7 @@ private:
     std::vector<Place> places_;
     std::uint32_t started_ = 0;                                  // waves of the frame that were given to a thread
     std::uint32_t returned_ = 0;                                 // waves of the frame that next() has returned
-    std::shared_future<WaveVisibility::Value> blockVisibility_;  // for the block of the latest started wave
+    std::shared_future<WaveVisibility::Value> blockVisibility_;  // visible triangles, for the block of the latest wave
     std::shared_ptr<std::atomic<bool>> abandoned_;               // set when the frame's remaining waves are not needed
     std::size_t bytes_ = 0;
 };

@@ -56,8 +56,7 @@ public:
         run_ = std::bit_floor(std::min(total / pinholeCount_, blockSamples));
         const int border = borderOf(plan);
         pinholes_ = pinholePlan(scene_.world(), plan, pinholeCount_);
-        // Make the positions of samples in the pixel relative to the layers of their pinhole, which have a subpixel
-        // offset.
+        // Make each sample's position in the pixel relative to the subpixel offset of its pinhole's layers.
         plan_ = plan;
         plan_.moments.clear();
         for (std::uint32_t i = 0; i < total; ++i) plan_.samples[i].pixel += pinholes_.samples[pinholeOf(i)].pixel;

@@ -22,7 +22,7 @@ constexpr std::size_t jobRanges = 2;  // elements of `ranges` (kernel.glsl) per 
 // softwareRounds iterations before they defer the rest to the next dispatch.
 constexpr std::uint32_t softwareRounds = 30'000;
 constexpr std::size_t stateBytes = 32u << 20;   // approximate bytes for the states of jobs that take several dispatches
-constexpr std::uint64_t expectedRecords = 6;    // records per line; the buffer grows if a wave needs more
+constexpr std::uint64_t expectedRecords = 6;    // records (ray hits) per line; the buffer grows if needed
 constexpr std::uint32_t maxShadingPoints = 16;  // max shading points per visible interval of a line
 constexpr std::uint32_t firstCapacity = 48;     // initial max number of intervals per line, for the exact kernel
 constexpr std::uint32_t maxCapacity = 1536;

@@ -1,5 +1,5 @@
 #pragma once
-// Divides a frame into tiles that fit into memory, with K layers per wave and as many rows per band as fit.
+// Divides a frame into tiles that fit into memory: chooses the layers per wave and the rows per band of tiles.
 
 #include <cstdint>
 #include <vector>
