@@ -16,8 +16,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Min and max number of cells along the longer side of an aperture image. The min keeps the rim of the disk round; the
-// max limits the cost.
+// Min and max number of grid cells along the longer side of an aperture image. The min keeps the rim of the disk round;
+// the max limits the cost.
 constexpr int fewestCells = 256;
 constexpr int maxCells = 1024;
 

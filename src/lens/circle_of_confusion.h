@@ -72,8 +72,8 @@ struct CocRange {
     double largest = 0;   // max |CoC|, px
 };
 
-// Bounds of the blur modifiers of surfaces: a factor on the lens's blur and an added blur. The added blur is a fraction
-// of the image's width.
+// Bounds of the blur modifiers of surfaces: a factor that multiplies the lens's blur, and an added blur. The added blur
+// is a fraction of the image's width.
 struct OwnBlur {
     double factorMin = 1;
     double factorMax = 1;

@@ -159,7 +159,7 @@ double scrambledSobol(std::uint32_t index, std::size_t dimension, std::uint32_t 
 
 // Steps of additive recurrences (Roberts 2018). The real root of x^(d + 1) = x + 1 gives the steps x⁻¹ … x⁻ᵈ of d
 // dimensions. The lens uses d = 2. The pixel uses the last two of d = 4, so that its points are independent of the lens
-// points. Time uses the golden ratio, the band √2, and the lights the last two of d = 6.
+// points. Time uses the golden ratio, the chromatic band √2, and the lights the last two of d = 6.
 constexpr double plastic2 = 1.32471795724474602596;
 constexpr double plastic4 = 1.16730397826141868426;
 constexpr double plastic6 = 1.11277568427870547063;
