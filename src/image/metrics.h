@@ -26,9 +26,8 @@ namespace defocus::engine {
 struct CompareOptions {
     std::optional<HdrFlipOptions> hdrFlip;  // if set: HDR-FLIP over these exposures instead of LDR-FLIP
     const Image* mask = nullptr;            // mask with 1 channel; only pixels with a value > 0 are compared
-    Image* flipMap = nullptr;  // if set: output image for FLIP per pixel, regardless of the mask; 1 channel
-    std::function<void(const ImageView& rows)> takeFlip =
-        {};  // if set: called with FLIP in strips of rows from the top
+    Image* flipMap = nullptr;               // if set: receives FLIP per pixel (1 channel), regardless of the mask
+    std::function<void(const ImageView& rows)> takeFlip = {};  // if set: called with strips of FLIP rows, from the top
 };
 
 // Image that is read in strips of rows, from the top. rows(first, count) returns linear rows, which are valid until the
