@@ -17,7 +17,7 @@ namespace defocus::engine {
 // mm on the sensor (> 0 behind the focus). It changes linearly from `opening` to `closing` during the exposure. Source:
 // linear C(t) of Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization.
 struct VertexBlur {
-    float factor = 1;   // factor on the lens's blur, ≥ 0; 0: only the added blur
+    float factor = 1;   // multiplies the lens's blur, ≥ 0; 0: only the added blur
     float opening = 0;  // added blur in mm when the shutter opens
     float closing = 0;  // added blur in mm when the shutter closes
     bool operator==(const VertexBlur&) const = default;
