@@ -115,7 +115,7 @@ struct Request {
     std::map<std::string, std::string> methodSettings;  // name → value; missing settings have their defaults
     LayerFormat layerFormat = LayerFormat::automatic;
 
-    // Data layers to add to EXR files. They need a method that sums lens samples; with layers, method "auto" uses
+    // Data layers to add to EXR files. Layers need a method that sums lens samples; with layers, method "auto" uses
     // accumulation.
     std::vector<Layer> layers;
     ExrNames exrNames = ExrNames::nuke;

@@ -1,6 +1,6 @@
 #pragma once
 // Posing of vertices on the CPU: morph targets, then the skin or the object's matrix (glTF 2.0, 3.7.2.2 and 3.7.3). The
-// renderer's GPU code computes the same and is tested against it.
+// renderer's GPU code performs the same computation and is tested against this code.
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
