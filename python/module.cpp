@@ -95,8 +95,8 @@ struct OpenScene {
     defocus::SceneInfo info = scene.info();
 };
 
-// Object of the library that several Python threads may use; a mutex serializes their calls. `noun` names it in
-// messages.
+// Object of the library that several Python threads may use; a mutex serializes their calls. `noun` is the object's
+// name in error messages.
 template <typename Object>
 class Shared {
 public:
@@ -529,7 +529,7 @@ void defineRenderer(py::module_& package) {
     });
 }
 
-// Returns the choices of a request that are possible after rendering.
+// Returns those settings of a request that can be chosen after rendering.
 defocus::RefocusSettings refocusing(const defocus::Request& request, bool fillGaps = true) {
     return {request.focus, request.lens, fillGaps};
 }

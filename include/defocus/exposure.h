@@ -12,7 +12,7 @@ struct DefaultExposure {
 };
 
 struct ExposureValue {
-    double ev = 0;  // exposure in EV, [−60, 60]; + 1 doubles the brightness
+    double ev = 0;  // exposure in EV, [−60, 60]; adding 1 doubles the brightness
     bool operator==(const ExposureValue&) const = default;
 };
 

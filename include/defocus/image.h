@@ -98,8 +98,8 @@ enum class ToneMap {
 };
 
 struct WriteOptions {
-    ToneMap toneMap = ToneMap::none;  // PNG and JPEG only
-    double exposure = 0;              // exposure in EV; PNG and JPEG only
+    ToneMap toneMap = ToneMap::none;  // used only for PNG and JPEG
+    double exposure = 0;              // exposure in EV; used only for PNG and JPEG
 };
 
 // Reads a PNG, JPEG, OpenEXR, Radiance HDR or TIFF file as linear float with 1, 3 or 4 channels. The content, not the
@@ -128,7 +128,7 @@ struct Difference {
     double maxError = 0;           // max absolute difference of a colour channel
     Pixel maxErrorPixel;           // first pixel with maxError, in row-major order
     std::uint64_t pixelCount = 0;  // number of compared pixels
-    std::uint64_t nonFinite = 0;   // compared pixels that are NaN or infinite in at least one image
+    std::uint64_t nonFinite = 0;   // number of compared pixels that are NaN or infinite in at least one image
 };
 
 // Returns the difference of two linear images of the same size. RGBA is composited over black; grey is expanded to RGB.

@@ -1,7 +1,7 @@
 #pragma once
 // Layers: images of data, such as depth or normals, that are rendered together with the colours of a picture. Each
-// layer is the mean over the picture's lens samples, with the picture's pixel filter, premultiplied by the coverage of
-// the surfaces.
+// layer is the mean over the picture's lens samples, filtered with the picture's pixel filter and premultiplied by the
+// coverage of the surfaces.
 
 #include <cstdint>
 #include <string>
@@ -15,7 +15,7 @@ enum class Layer {
     normal,     // shading normal in world space
     albedo,     // base colour
     emission,   // emitted radiance
-    motion,     // movement from the shutter's opening to its closing, px: x right, y up
+    motion,     // motion vector from the shutter's opening to its closing, px: x right, y up
     coc,        // signed diameter of the circle of confusion, px; > 0 behind the focus plane
     objects,    // Cryptomatte of the objects
     materials,  // Cryptomatte of the materials

@@ -13,10 +13,10 @@ struct LensSettings {
     std::optional<double> focalLength;         // focal length in mm; sets the field of view. Default: from the camera
     std::optional<double> fStop;               // f-number N, > 0: aperture diameter = focalLength / N. Default: 2.8
     std::optional<double> horizontalAperture;  // sensor width in mm. Default: 36
-    std::optional<bool> dofEnabled;            // false: pinhole camera, for any f-number
-    std::optional<double> blurScale;           // factor on the blur diameter, ≥ 0. Default: 1 (physically correct)
+    std::optional<bool> dofEnabled;            // false: pinhole camera, regardless of the f-number
+    std::optional<double> blurScale;           // multiplies the blur diameter, ≥ 0. Default: 1 (physically correct)
     std::optional<bool> focusBreathing;        // true: the field of view narrows for near focus, as for a thin lens
-    std::optional<double> exposureTime;        // time in s; with f-number and ISO, exposes 8-bit images; 0: unused
+    std::optional<double> exposureTime;        // exposure time in s, for the brightness of 8-bit images; 0: unused
     std::optional<double> iso;                 // sensitivity, 1 … 1e7. Default: 100
 
     // Aperture.
@@ -26,7 +26,7 @@ struct LensSettings {
     std::optional<double> anamorphicRatio;           // aperture height / width; > 1: tall ovals
     std::optional<double> obstruction;               // mirror lens: inner / outer diameter, [0, 1)
     std::optional<double> sphericalAberration;       // [−1, 1]; > 0: bokeh has a brighter rim; < 0: brighter centre
-    std::optional<double> catEye;                    // fraction of the aperture radius hidden in the corners, [0, 1]
+    std::optional<double> catEye;                    // fraction of the aperture radius clipped at image corners, [0, 1]
     std::optional<double> axialChromaticAberration;  // focus shift in dioptres; > 0: red focuses farther away than blue
     std::optional<double> astigmatism;               // radial streak length in mm on the sensor at the edges
     std::optional<double> coma;                      // comet tail length in mm on the sensor at edges; > 0: outwards
@@ -35,15 +35,15 @@ struct LensSettings {
     // Artistic blur controls (Munkberg, Toth and Akenine-Möller 2012).
     std::optional<double> foregroundLimit;    // max blur diameter in px in front of the focus plane
     std::optional<double> backgroundLimit;    // max blur diameter in px behind the focus plane
-    std::optional<double> focusRangeFront;    // depth in m of the sharp range in front of the focus distance
-    std::optional<double> focusRangeBehind;   // depth in m of the sharp range behind the focus distance
-    std::optional<bool> focusRangeRefocuses;  // true: blur behind the range as if the lens were focused at its far end
+    std::optional<double> focusRangeFront;    // extent in m of the sharp range in front of the focus distance
+    std::optional<double> focusRangeBehind;   // extent in m of the sharp range behind the focus distance
+    std::optional<bool> focusRangeRefocuses;  // true: behind the range, blur as for a focus at the range's far end
     std::optional<double> focusTilt;          // degrees about the horizontal axis; > 0: focus plane's top is nearer
     std::optional<double> focusSwing;         // degrees about the vertical axis; > 0: focus plane's right is nearer
     // κ of the curved focus surface with depth s/(1 + κr²), where s is the focus distance. r is the distance from the
     // image's centre; r = 1 at the left and right edges.
     std::optional<double> fieldCurvature;
-    std::optional<double> radialBlurGain;  // g of the factor 1 + g·r² on the blur; r = 1 at left and right edges
+    std::optional<double> radialBlurGain;  // g of the blur factor 1 + g·r²; r = 1 at the left and right edges
 
     bool operator==(const LensSettings&) const = default;
 };

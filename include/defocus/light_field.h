@@ -29,7 +29,7 @@ namespace defocus {
 struct RefocusSettings {
     Focus focus = {};        // FocusDistance or FocusPixel; CameraFocus: focus as rendered
     LensSettings lens = {};  // f-number and shape of the aperture; unset values: as rendered
-    bool fillGaps = true;    // true: fills gaps between the lens images by blurring each over its part of the lens
+    bool fillGaps = true;    // true: blurs each lens image to fill the gaps between the copies of a blurred surface
 };
 
 // Description of the lens images of a file.
@@ -41,7 +41,7 @@ struct LightFieldInfo {
     double focalLength = 0;         // focal length in mm; 0: unknown
     double horizontalAperture = 0;  // sensor width in mm; 0: unknown
     FocusRange focusRange;          // focus distances that can be chosen
-    bool fullDisk = true;           // whether f-number and aperture shape can be chosen
+    bool fullDisk = true;           // true if f-number and aperture shape can be chosen
     // For a focus at s, the image of lens point (u, v) moves by pixelsPerDioptre · (1/s − 1/focusDistance) · (u, v) px.
     double pixelsPerDioptre = 0;
     // Lens point (u, v) of each image in the unit disk; u points right, v up.
@@ -60,11 +60,11 @@ public:
     // Opens a file of lens images. Throws Error if the file cannot be read, contains no lens images, or lacks one of
     // its images.
     explicit LightField(const std::filesystem::path& path);
-    // Render the lens images of a request to a file with the extension .exr, and open it. `range`: focus distances that
-    // can be chosen later, in addition to the request's own distance; nullopt: from the nearest to the farthest visible
-    // surface. Throw UsageError if the request's method, samples or target error don't suit lens images. Throw Error if
-    // a change of focus would do more to the images of this lens than shift them, and under the conditions of
-    // SceneRenderer. A failure leaves no file.
+    // Render the lens images of a request to a file with the extension .exr, and open the file. `range`: focus
+    // distances that can be chosen later, in addition to the request's own distance; nullopt: from the nearest to the
+    // farthest visible surface. Throw UsageError if the request's method, samples or target error don't suit lens
+    // images. Throw Error under the conditions of SceneRenderer, and for a lens whose images a change of focus does not
+    // merely shift, such as one with a tilted focus plane. A failure leaves no file.
     static LightField render(const Request& request, const std::filesystem::path& path,
                              std::optional<FocusRange> range = {}, const Progress& progress = {});
     static LightField render(const Scene& scene, const Request& request, const std::filesystem::path& path,
@@ -74,7 +74,7 @@ public:
     LightField& operator=(LightField&&) noexcept;
 
     [[nodiscard]] LightFieldInfo info() const;
-    // Returns warnings about the scene and the request, one line each; empty if the file was opened.
+    // Returns warnings about the scene and the request, one line each; empty if the lens images were read from a file.
     [[nodiscard]] std::vector<std::string> warnings() const;
 
     // Returns a picture: linear, premultiplied RGBA. Throws Error if the focus distance or the f-number is outside the

@@ -18,7 +18,7 @@ namespace defocus {
 // A level of detail of an object, and the range of lens samples that draw this level.
 struct PlannedDraw {
     std::uint32_t level = 0;
-    std::uint32_t triangles = 0;    // drawn per sample; triangles that no lens point sees are culled
+    std::uint32_t triangles = 0;    // number drawn per sample; triangles that no lens point sees are culled
     std::uint32_t firstSample = 0;  // index into the frame's samples
     std::uint32_t sampleCount = 0;
 };
@@ -34,14 +34,14 @@ struct PlannedObject {
     double farthestCoc = 0;
     double smallestCoc = 0;
     double largestCoc = 0;
-    double projectedEdge = 0;        // mean edge length of level 0 at the nearest depth, px
-    double lambda = 0;               // fractional level of detail λ (Jeong, Kim and Lee 2011)
-    double pixelRate = 1;            // resolution per axis relative to the image; < 1: blurred lens cells
-    bool blended = false;            // true if the object has alpha-blended materials
-    bool transmits = false;          // true if the object has transmitting materials
-    bool moves = false;              // true if the object moves during the exposure
+    double projectedEdge = 0;  // mean edge length of level 0 at the nearest depth, px
+    double lambda = 0;         // fractional level of detail λ (Jeong, Kim and Lee 2011)
+    double pixelRate = 1;      // resolution per axis relative to the image; < 1 for strong blur (method "multirate")
+    bool blended = false;      // true if the object has alpha-blended materials
+    bool transmits = false;    // true if the object has transmitting materials
+    bool moves = false;        // true if the object moves during the exposure
     std::vector<PlannedDraw> draws;  // one or two, the coarser level first
-    // If a sample mixes both levels (LodMode::continuous): fraction of its pixels that draw the coarser level.
+    // For a sample that mixes both levels (LodMode::continuous): fraction of its pixels that draw the coarser level.
     std::optional<double> boundaryShare;
 };
 
@@ -69,10 +69,10 @@ struct Plan {
     bool hasApertureImage = false;
     double focusDistance = 0;     // focus distance in m; +∞ for focus at infinity
     double apertureDiameter = 0;  // m
-    bool usesLens = true;         // false: all blurs are smaller than half a pixel
+    bool usesLens = true;         // false: no blur reaches half a pixel, so a pinhole is drawn
     // Samples.
     std::uint32_t samples = 0;
-    std::uint32_t positions = 1;  // pixel positions of each lens sample
+    std::uint32_t positions = 1;  // number of subpixel positions of each lens sample
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;
     double cocTolerance = 0;          // tolerance in px; see Request::cocTolerance
@@ -85,16 +85,17 @@ struct Plan {
     LevelVertices levelVertices = LevelVertices::fitted;
     double blurThreshold = 0;   // target edge length relative to the blur diameter
     double sizeThreshold = 0;   // min target edge length, px
-    double lightThreshold = 0;  // limit in px; see LodMetric::measured
+    double lightThreshold = 0;  // limit in px; see Request::lightThreshold
     // Shadows.
     std::vector<PlannedShadowMap> shadowMaps;  // shadow maps; empty: no shadows
     int shadowMapSize = 0;                     // side of each shadow map, px
     std::uint32_t shadowPoints = 0;            // sample points on each light per lens sample
-    // Method "multirate": standard deviation of the blur of each sample's image, relative to the diameter of the circle
-    // of confusion. 0 if the images cannot be blurred; lensCellReason then says why.
+    // Method "multirate" blurs the image of each lens sample to fill the gaps between the samples. Standard deviation
+    // of this blur, relative to the diameter of the circle of confusion. 0 if the images cannot be blurred;
+    // lensCellReason then says why.
     double lensCellBlur = 0;
     std::string lensCellReason;
-    std::string accumulationReason;      // why method "auto" uses accumulation; empty: it uses multirate
+    std::string accumulationReason;      // why method "auto" uses accumulation; empty: "auto" uses multirate
     std::vector<PlannedObject> objects;  // sorted from front to back
     std::vector<LeftOutPart> leftOut;
     // Numbers of triangles, summed over all samples. Triangles that face away or are outside the image are culled.

@@ -24,7 +24,7 @@ struct Pyramid {
     std::uint64_t mesh = 0;            // index of the mesh in the file
     double diagonal = 0;               // diagonal of the mesh's bounding box, in mesh units
     std::uint32_t repairs = 0;         // number of repaired faces
-    std::string end;                   // why the last level is the last: "minTriangles", "topology" …
+    std::string end;                   // why there is no coarser level: "minTriangles", "topology" …
     std::vector<PyramidLevel> levels;  // level 0 is the full mesh
 };
 

@@ -25,13 +25,13 @@ namespace defocus {
 // Cost of a frame. Times are wall-clock milliseconds.
 struct RenderStatistics {
     std::uint32_t samples = 0;                // lens samples drawn
-    std::uint32_t positions = 1;              // pixel positions of each lens sample: 1 or 4
+    std::uint32_t positions = 1;              // subpixel positions of each lens sample: 1 or 4
     double loadMilliseconds = 0;              // reading the scene and posing it
     double pyramidMilliseconds = 0;           // building pyramids, or reading them from the cache
     double setupMilliseconds = 0;             // uploads and shader compilation
     double renderMilliseconds = 0;            // drawing all samples
     std::uint64_t trianglesDrawn = 0;         // sum over all samples
-    std::uint64_t trianglesAtFullDetail = 0;  // trianglesDrawn if all objects were drawn at full detail
+    std::uint64_t trianglesAtFullDetail = 0;  // value of trianglesDrawn if all objects were drawn at full detail
     std::uint64_t gpuBytes = 0;               // peak size of the renderer's GPU resources
     std::string device;
     StopReason stopped = StopReason::sampleCount;  // why the frame ended
@@ -64,8 +64,7 @@ public:
     void start();
     void start(const Request& request);
     // Draws further samples. Returns false once the frame is complete. A frame that exceeds Request::memory is drawn in
-    // tiles, tile by tile from top to bottom, with a bit-identical result; start() throws Error if this is not
-    // possible.
+    // tiles from top to bottom, with a bit-identical result; start() throws Error if tiles are not possible.
     bool advance();
     // Return the number of lens samples in the image so far, and in the complete frame. With tiles, samples() is the
     // mean over the image's rows, rounded down.

@@ -46,7 +46,7 @@ struct Request {
     // Scene and lights.
     std::filesystem::path scene;    // .gltf or .glb; empty: the built-in school of fish
     bool strict = false;            // true: missing or damaged parts of the file, such as textures, throw Error
-    std::string variant;            // name of a variant of the file's materials; empty: the default materials
+    std::string variant;            // name of a material variant of the file; empty: the default materials
     int fishCount = 20;             // number of fish in the school, 1 … 10,000
     int trianglesPerFish = 90'000;  // approximate number of triangles of each fish
     std::optional<double> units;    // metres per scene unit. Default: from the file, or guessed by scene size
@@ -58,7 +58,7 @@ struct Request {
     ShutterPosition shutterPosition = ShutterPosition::centre;
     MotionSegments motionSegments = 1u;
     std::filesystem::path environment;  // "studio", "overcast", "sunset", or an equirectangular .hdr or .exr file
-    double environmentRotation = 0;     // about the vertical axis, counter-clockwise as seen from above
+    double environmentRotation = 0;     // degrees about the vertical axis, counter-clockwise as seen from above
     Background background;
     bool ground = false;            // adds a neutral ground plane that receives shadows
     std::vector<std::string> hide;  // names or indices of nodes to hide, with their descendants
@@ -81,13 +81,13 @@ struct Request {
     // Lens.
     LensSettings lens;
     Focus focus;
-    std::map<std::string, double>
-        nodeBlur;  // node name or index → factor ≥ 0 on the blur of the node and its descendants
+    std::map<std::string, double> nodeBlur;  // node name or index → blur factor ≥ 0 of the node and its descendants
 
     // Samples and levels of detail.
-    std::optional<std::uint32_t> samples;  // lens samples, 1 … maxSamples. Default: automatic, for `quality`
-    // Pixel positions of each lens sample, 1 or 4; other values throw Error. Default: 4 for a still image of method
-    // "auto" with an automatic number of samples, many triangles and little blur, else 1. `layers` need 1.
+    std::optional<std::uint32_t> samples;  // number of lens samples, 1 … maxSamples. Default: automatic, from `quality`
+    // Number of subpixel positions at which each lens sample is drawn, 1 or 4; other values throw Error. Default: 4 for
+    // a still image of method "auto" with an automatic number of samples, many triangles and little blur, else 1.
+    // `layers` require 1.
     std::optional<std::uint32_t> positions;
     Quality quality = Quality::good;  // used if samples, targetError and timeLimit are unset
     // Target RMSE of the display-encoded image at EV 0, 1e-6 … 1. Blocks of 64 samples are added until the estimated
@@ -98,22 +98,24 @@ struct Request {
     std::optional<double> timeLimit;
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;  // each seed gives a different set of sample points
-    // Default: fractional. With an automatic number of samples and no other value for levels, a still image is drawn at
-    // full detail if building the levels would take longer than they save.
+    // Default: fractional. A still image with an automatic number of samples and default level settings is drawn at
+    // full detail if building the levels would take more time than they save.
     std::optional<LodMode> lod;
     // Target length of triangle edges relative to the blur diameter. Default: depends on the number of samples.
     std::optional<double> blurThreshold;
-    std::optional<double> sizeThreshold;   // min target edge length in px. Default: depends on the number of samples
-    std::optional<double> lightThreshold;  // in px; see LodMetric::measured. Default: depends on the number of samples
-    std::filesystem::path cacheFolder;     // pyramid cache; empty: $XDG_CACHE_HOME/defocus or ~/.cache/defocus
-    bool noCache = false;                  // true: pyramids are built without reading or writing the cache
+    std::optional<double> sizeThreshold;  // min target edge length in px. Default: depends on the number of samples
+    // For LodMetric::measured: max product of a level's projected edge length in px and its relative shading error.
+    // Default: depends on the number of samples.
+    std::optional<double> lightThreshold;
+    std::filesystem::path cacheFolder;  // cache of mesh pyramids; empty: $XDG_CACHE_HOME/defocus or ~/.cache/defocus
+    bool noCache = false;               // true: pyramids are built without reading or writing the cache
 
     // Method.
     std::string method = "auto";
     std::map<std::string, std::string> methodSettings;  // name → value; missing settings have their defaults
     LayerFormat layerFormat = LayerFormat::automatic;
 
-    // Data layers to add to EXR files. They need a method that sums lens samples; with layers, method "auto" uses
+    // Data layers to add to EXR files. Layers need a method that sums lens samples; with layers, method "auto" uses
     // accumulation.
     std::vector<Layer> layers;
     ExrNames exrNames = ExrNames::nuke;
@@ -128,7 +130,7 @@ struct Request {
     LodCoc lodCoc = LodCoc::smallest;
     // Max error in px, > 0, of linear interpolation of the circle of confusion within a triangle.
     double cocTolerance = 0.5;
-    bool keepAll = false;                 // true: disables culling, and keeps the lens even if no blur is visible
+    bool keepAll = false;                 // true: disables culling, and draws even blur below half a pixel
     std::optional<std::uint64_t> memory;  // memory limit in bytes. Default: 3/4 of the free memory
     // Number of lens samples drawn at once, 1 … 64; does not change the image. Default: as many as fit into memory.
     std::optional<std::uint32_t> wave;

@@ -24,7 +24,7 @@ struct SceneInfo {
     std::vector<std::string> cameras;  // names of cameras; an empty string for an unnamed camera
     std::vector<std::string> nodes;
     std::vector<std::string> clips;     // names of animations
-    std::vector<std::string> variants;  // names of the variants of materials
+    std::vector<std::string> variants;  // names of the material variants
     std::uint64_t triangles = 0;        // sum over all meshes, independent of the number of instances
     std::vector<std::string> ignored;   // parts of the file that are not drawn, and the reason; one line each
 };
@@ -33,7 +33,7 @@ struct SceneInfo {
 class DEFOCUS_API Scene {
 public:
     // Reads a glTF 2.0 file (.gltf or .glb). Throws Error, with the path in its message, if the file is invalid.
-    // `variant`: name of a variant of its materials (KHR_materials_variants); empty: the default materials.
+    // `variant`: name of a material variant of the file (KHR_materials_variants); empty: the default materials.
     static Scene load(const std::filesystem::path& path, const Progress& progress = {},
                       const std::string& variant = {});
     // Returns the built-in school of `fishCount` fish (1 … 10,000) with approximately `trianglesPerFish` triangles each

@@ -38,7 +38,8 @@ DEFOCUS_API Matrix4 lookAt(const Vector3& position, const Vector3& target, const
 struct MeshData {
     std::string name = {};
     std::span<const std::array<float, 3>> positions = {};
-    // Any length > 0; a zero normal is replaced by the average of the adjacent faces. Default: flat shading.
+    // Normals of any length > 0; a zero normal is replaced by a smooth normal of the adjacent faces. Default: flat
+    // shading.
     std::span<const std::array<float, 3>> normals = {};
     std::span<const std::array<float, 2>> uvs = {};  // (0, 0) is the texture's top left corner, (1, 1) its bottom right
     std::span<const std::array<float, 4>> colors = {};  // RGBA in [0, 1], straight alpha; multiplies the base colour
@@ -62,7 +63,7 @@ struct TextureData {
     ImageView image = {};
     TextureContent content = TextureContent::color;
     // True: the alpha of `image` is straight, not premultiplied. Transparent pixels then keep their colour, which
-    // matters at the edges of cut-outs. Data always has straight alpha.
+    // matters at the edges of cut-outs. Textures with TextureContent::data always have straight alpha.
     bool straightAlpha = false;
     TextureWrap wrapU = TextureWrap::repeat;
     TextureWrap wrapV = TextureWrap::repeat;
@@ -86,8 +87,8 @@ struct MaterialData {
     float metallic = 1;                             // [0, 1]
     float roughness = 1;                            // [0, 1]
     int metallicRoughnessTexture = -1;              // data texture: roughness in G, metalness in B
-    int normalTexture = -1;                         // data texture: (n + 1)/2 of a normal n in tangent space, +y up
-    float normalScale = 1;                          // factor on the x and y of normalTexture
+    int normalTexture = -1;                         // data texture: (n + 1)/2 for the normal n in tangent space, +y up
+    float normalScale = 1;                          // multiplies the x and y of the normals in normalTexture
     int occlusionTexture = -1;                      // data texture with occlusion in channel R
     float occlusionStrength = 1;                    // [0, 1]
     std::array<float, 3> emission = {0, 0, 0};      // emitted radiance, ≥ 0
@@ -130,12 +131,12 @@ struct LightData {
     LightType type = LightType::directional;
     Matrix4 transform = identityMatrix;      // placement of the light; its scale has no effect
     std::array<float, 3> color = {1, 1, 1};  // ≥ 0
-    float intensity = 1;                     // illuminance in lux (directional) or candela (point, spot), ≥ 0
-    float range = 0;                         // maximum distance of lit surfaces (point, spot); 0: unlimited
-    float innerConeAngle = 0;                // spot light: angles from the axis, 0 ≤ inner < outer ≤ π/2
+    float intensity = 1;       // illuminance in lux (directional) or intensity in candela (point, spot), ≥ 0
+    float range = 0;           // maximum distance of lit surfaces (point, spot); 0: unlimited
+    float innerConeAngle = 0;  // spot light: angles from the axis, 0 ≤ inner < outer ≤ π/2
     float outerConeAngle = 0.785398163f;
     float angularDiameter = 0.00925f;  // angle of a directional light, [0, π]; softens shadows
-    float radius = 0.03f;              // point or spot light: m, ≥ 0; softens shadows
+    float radius = 0.03f;              // radius of a point or spot light in m, ≥ 0; softens shadows
 };
 
 struct SceneData {

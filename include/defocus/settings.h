@@ -51,7 +51,7 @@ enum class LodMetric {
 // Circle of confusion that determines an object's level.
 enum class LodCoc {
     smallest,  // smallest blur within the object's bounding box
-    centre,    // at the bounding box's centre (Jeong, Kim and Lee 2011)
+    centre,    // blur at the bounding box's centre (Jeong, Kim and Lee 2011)
 };
 
 // Source of the vertices of coarser levels.
@@ -79,11 +79,11 @@ struct ExactMotion {
 // Number of straight segments in a vertex's path during the exposure, 1 … 64, or ExactMotion.
 using MotionSegments = std::variant<std::uint32_t, ExactMotion>;
 
-// Pixel format of the layers, which hold the image of one lens sample each.
+// Pixel format of the texture layers, each of which holds the image of one lens sample.
 enum class LayerFormat {
     automatic,  // rgba16f, or rgba32f if the scene's radiance may exceed 6e4
     rgba16f,    // half floats: relative rounding error 2⁻¹¹ per sample
-    rgba32f,    // floats, for reference images
+    rgba32f,    // 32-bit floats, for reference images
 };
 
 // Reason why no further samples were added to a frame.

@@ -73,7 +73,7 @@ class Setting(NamedTuple):
 
 
 class Difference(NamedTuple):
-    """Difference between two images, on display-encoded values in [0, 1] at EV 0 (sRGB, clipped)."""
+    """Difference between two images, computed from display-encoded values in [0, 1] at EV 0 (sRGB, clipped)."""
 
     mae: float  # mean absolute error
     rmse: float  # root mean squared error
@@ -83,7 +83,7 @@ class Difference(NamedTuple):
     max_error: float  # max absolute difference of a colour channel
     max_error_pixel: Tuple[int, int]  # (column, row) of the first pixel with max_error, in row-major order
     pixel_count: int
-    non_finite: int  # pixels that are NaN or infinite in at least one image
+    non_finite: int  # number of pixels that are NaN or infinite in at least one image
 
 
 class Aovs(NamedTuple):
@@ -98,7 +98,7 @@ class Statistics(NamedTuple):
     """Time, memory and triangle counts of a frame; times are wall-clock times."""
 
     samples: int
-    positions: int  # pixel positions of each lens sample: 1 or 4
+    positions: int  # subpixel positions of each lens sample: 1 or 4
     load_milliseconds: float
     pyramid_milliseconds: float
     setup_milliseconds: float
@@ -121,14 +121,14 @@ class LightFieldInfo(NamedTuple):
     focal_length: float  # mm
     horizontal_aperture: float  # sensor width, mm
     focus_range: Tuple[float, float]  # focus distances in m that can be chosen
-    full_disk: bool  # whether f-number and aperture shape can be chosen
-    # For a focus at s, the image of lens point (u, v) moves by pixels_per_dioptre · (1/s − 1/focus_distance) · (u, v) px.
+    full_disk: bool  # True if f-number and aperture shape can be chosen
+    # For focus at s, the image of lens point (u, v) moves by pixels_per_dioptre · (1/s − 1/focus_distance) · (u, v) px.
     pixels_per_dioptre: float
     lens_points: List[List[float]]  # [u, v] of each image in the unit disk; u points right, v up
 
 
 class FocalStack(NamedTuple):
-    """Pictures with focus distances over the rendered range, evenly in 1/distance, from the nearest to the farthest."""
+    """Pictures whose focus distances divide the rendered range evenly in 1/distance, from nearest to farthest."""
 
     focus_distances: List[float]  # m
     pictures: List[numpy.ndarray]  # H×W×4 each
@@ -289,8 +289,8 @@ class LightField:
     @_takes_refocus_settings
     def refocus(self, *, fill_gaps: bool = True, progress: Optional[Progress] = None,
                 **settings: Any) -> numpy.ndarray:
-        """Returns a picture: H×W×4, linear. Keywords that are not given have the rendered values. `fill_gaps` fills the
-        gaps between few lens images."""
+        """Returns a picture: H×W×4, linear. Keywords that are not given keep their values from rendering. `fill_gaps`
+        blurs the lens images to fill the gaps between them."""
         return self._native.refocus(_refocus_request_of(settings), fill_gaps, _listener(progress))
 
     @_takes_refocus_settings
@@ -310,8 +310,8 @@ class LightField:
 
     @_takes_refocus_settings
     def coc(self, **settings: Any) -> numpy.ndarray:
-        """Returns the signed diameters in px of the circles of confusion of these surfaces: H×W; > 0 behind the focus
-        plane."""
+        """Returns the signed diameters in px of the circles of confusion of the surfaces that the lens's centre sees:
+        H×W; > 0 behind the focus plane."""
         return self._native.coc(_refocus_request_of(settings))
 
     def close(self) -> None:

@@ -25,9 +25,9 @@ class Texture:
     image: Any
     content: str = "color"  # "color": linear Rec.709 with premultiplied alpha; "data": linear values, such as normals
     straight_alpha: bool = False  # True: the alpha of the colours is straight, not premultiplied
-    wrap_u: str = "repeat"  # or "clamp_to_edge", "mirrored_repeat"
+    wrap_u: str = "repeat"  # "repeat", "clamp_to_edge" or "mirrored_repeat"
     wrap_v: str = "repeat"
-    magnification: str = "linear"  # or "nearest"
+    magnification: str = "linear"  # "linear" or "nearest"
     minification: str = "linear"
     mipmaps: bool = True
     name: str = ""
@@ -43,13 +43,13 @@ class Material:
     metallic: float = 1
     roughness: float = 1
     metallic_roughness_texture: Optional[Texture] = None  # roughness in G, metalness in B
-    normal_texture: Optional[Texture] = None  # (n + 1)/2 of a normal n in tangent space, +y up
+    normal_texture: Optional[Texture] = None  # (n + 1)/2 for the normal n in tangent space, +y up
     normal_scale: float = 1
     occlusion_texture: Optional[Texture] = None  # texture with occlusion in R
     occlusion_strength: float = 1
     emission: Color = (0, 0, 0)  # emitted radiance, ≥ 0
     emission_texture: Optional[Texture] = None
-    alpha_mode: str = "opaque"  # or "mask", "blend"
+    alpha_mode: str = "opaque"  # "opaque", "mask" or "blend"
     alpha_cutoff: float = 0.5
     double_sided: bool = False
     unlit: bool = False  # True: the base colour is shown without lighting
@@ -100,7 +100,7 @@ class Camera:
 class Light:
     """A light of KHR_lights_punctual that shines along the −z axis of its transform; see look_at."""
 
-    type: str = "directional"  # or "point", "spot"
+    type: str = "directional"  # "directional", "point" or "spot"
     transform: Any = None  # 4×4. Default: the identity
     color: Color = (1, 1, 1)
     intensity: float = 1  # illuminance in lux (directional) or intensity in candela (point, spot)
@@ -108,7 +108,7 @@ class Light:
     inner_cone_angle: float = 0  # angle of a spot light from the axis, radians
     outer_cone_angle: float = math.pi / 4
     angular_diameter: float = 0.00925  # angular diameter of a directional light in radians; softens shadows
-    radius: float = 0.03  # point or spot light: m; softens shadows
+    radius: float = 0.03  # radius of a point or spot light in m; softens shadows
     name: str = ""
 
 

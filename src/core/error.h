@@ -1,7 +1,8 @@
 #pragma once
-// Error is the only exception type of defocus, for runtime failures of files, user input, shaders and drivers. Its
-// message is one line: the action, the file or name, and the remedy. Broken invariants are assertions instead;
-// functions that may find nothing return std::optional. Only `main` catches exceptions.
+// Error is the base class of the exceptions that defocus throws for runtime failures of files, user input, shaders and
+// drivers. Its message is one line: the action, the file or name, and the remedy. Broken invariants are assertions
+// instead; functions that may find nothing return std::optional. Catch an Error only to add context, to skip an
+// optional part, or to show the message.
 
 #include <fmt/format.h>
 

@@ -19,7 +19,7 @@ namespace defocus::engine {
 std::vector<std::byte> readFile(const std::filesystem::path& path);
 
 // Returns the bytes of a file at a path that the program chose, such as a cache entry. Returns nullopt if the file is
-// missing or isn't a regular file: links are not followed, and a pipe is never waited for. Throws Error if the file is
+// missing or isn't a regular file: links are not followed, and a pipe does not block. Throws Error if the file is
 // unreadable.
 std::optional<std::vector<std::byte>> readOwnFile(const std::filesystem::path& path);
 
@@ -31,7 +31,7 @@ void createOwnFolder(const std::filesystem::path& folder);
 // is absolute, leaves the folder, or is a device, pipe or directory. A missing file is not an error.
 std::filesystem::path fileWithin(const std::filesystem::path& folder, const std::filesystem::path& relative);
 
-// The chooser of a file's path: the user or the program. The program never creates links, pipes or devices. A link,
+// Says who chose a file's path: the user or the program. The program never creates links, pipes or devices. A link,
 // pipe or device at a path that the program chose is therefore replaced by the file and never written through.
 enum class NamedBy { user, program };
 

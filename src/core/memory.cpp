@@ -32,9 +32,9 @@ void giveBackFreedMemory() {
 }
 
 // Turns off mmap() for large allocations, so that all blocks come from the heap. Then allocates one large block,
-// requests huge pages for it, and frees it, so that later allocations use its pages. The fence, a small block behind
-// it, keeps free() from returning these pages to the system. Unused pages take no memory but address space, so nothing
-// is allocated if the address space is limited.
+// requests huge pages for it, and frees it, so that later allocations use its pages. `fence`, a small block behind the
+// large one, keeps free() from returning these pages to the system. Unused pages take address space but no memory, so
+// nothing is allocated if the address space is limited.
 void keepFreedMemory() {
 #if defined(__GLIBC__) && defined(MADV_HUGEPAGE)
     mallopt(M_TRIM_THRESHOLD, 128 << 20);
@@ -44,7 +44,7 @@ void keepFreedMemory() {
     rlimit addresses{};
     if (fence != nullptr || getrlimit(RLIMIT_AS, &addresses) != 0 || addresses.rlim_cur != RLIM_INFINITY) return;
     void* const block = std::malloc(room);
-    fence = std::malloc(room / 8);  // too large for a gap in front of the block
+    fence = std::malloc(room / 8);  // so large that it lies behind the block, not in a gap before it
     if (fence != nullptr) fence = std::realloc(fence, sizeof(void*));
     const std::size_t before = bytesTo(block, hugePage);
     if (block != nullptr) madvise(static_cast<std::byte*>(block) + before, room - before, MADV_HUGEPAGE);

@@ -20,7 +20,7 @@ void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body
 // Tasks that run on other threads while the caller adds more tasks.
 class Tasks {
 public:
-    explicit Tasks(std::size_t workers);  // max threads, clamped to the cores; 0: add() itself runs tasks
+    explicit Tasks(std::size_t workers);  // max threads, at most one per core; 0: add() runs each task itself
     ~Tasks();                             // cancels tasks that have not started
     Tasks(const Tasks&) = delete;
     Tasks& operator=(const Tasks&) = delete;

@@ -1,5 +1,5 @@
 #pragma once
-// Reproducible files: https://reproducible-builds.org/specs/source-date-epoch/
+// Date in files for reproducible output. Source: https://reproducible-builds.org/specs/source-date-epoch/
 
 #include <ctime>
 #include <optional>

@@ -28,7 +28,7 @@ struct HalfImage {
 inline float fromHalf(std::uint16_t half) {
     const std::uint32_t magnitude = (half & 0x7fffu) << 13;
     const auto finite = std::bit_cast<std::uint32_t>(std::bit_cast<float>(magnitude) * 0x1p112f);
-    const std::uint32_t value = magnitude >= 0x0f800000u ? magnitude | 0x7f800000u : finite;  // infinity and NaN
+    const std::uint32_t value = magnitude >= 0x0f800000u ? magnitude | 0x7f800000u : finite;  // keeps infinity and NaN
     return std::bit_cast<float>(value | (half & 0x8000u) << 16);
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 const std::vector<std::string> channelNames = {"R", "G", "B", "A", "Z"};
 constexpr int depthChannel = 4;
-constexpr std::uint64_t maxPixels = 1ull << 28;          // pixels of one part
+constexpr std::uint64_t maxPixels = 1ull << 28;          // max pixels of one part
 constexpr std::size_t headBytes = std::size_t{8} << 20;  // enough for the headers of 1024 parts
 
 OIIO::ImageSpec partSpec(const PartSize& size, const Metadata& metadata, std::size_t part) {

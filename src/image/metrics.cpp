@@ -54,7 +54,7 @@ struct Strip {
 
 // Divides the image into strips that fit into memory together with all intermediate planes.
 std::vector<Strip> stripsOf(int width, int height, std::uint64_t maxBytes) {
-    constexpr double bytesPerPixel = 160;  // measured with HDR-FLIP, which needs the most
+    constexpr double bytesPerPixel = 160;  // measured with HDR-FLIP, which needs the most memory
     const int margin = std::max(windowRadius, flipRadius());
     const double fitting = static_cast<double>(maxBytes) / (bytesPerPixel * width);
     const int rows = std::max(static_cast<int>(std::min(fitting, 1e9)) - 2 * margin, margin);

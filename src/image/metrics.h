@@ -11,8 +11,8 @@
 // FLIP: see flip.h; 67 pixels per degree.
 //
 // Non-finite values: a pixel that is NaN or infinite in only one image counts as the maximum difference (1 per channel,
-// SSIM 0, FLIP 1). If it is non-finite in both images, it counts as equal. Such pixels do not affect the windows of
-// their neighbours. Their number is reported.
+// SSIM 0, FLIP 1). A pixel that is non-finite in both images counts as equal. Such pixels do not affect the windows of
+// their neighbours. Difference::nonFinite is their number.
 
 #include <cstdint>
 #include <functional>
@@ -25,9 +25,9 @@ namespace defocus::engine {
 
 struct CompareOptions {
     std::optional<HdrFlipOptions> hdrFlip;  // if set: HDR-FLIP over these exposures instead of LDR-FLIP
-    const Image* mask = nullptr;            // 1 channel; only pixels where the mask is > 0 are compared
-    Image* flipMap = nullptr;               // if set: receives FLIP per pixel, regardless of the mask; 1 channel
-    std::function<void(const ImageView& rows)> takeFlip = {};  // if set: receives FLIP in strips of rows from the top
+    const Image* mask = nullptr;            // mask with 1 channel; only pixels with a value > 0 are compared
+    Image* flipMap = nullptr;               // if set: receives FLIP per pixel (1 channel), regardless of the mask
+    std::function<void(const ImageView& rows)> takeFlip = {};  // if set: called with strips of FLIP rows, from the top
 };
 
 // Image that is read in strips of rows, from the top. rows(first, count) returns linear rows, which are valid until the

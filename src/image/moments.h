@@ -2,7 +2,7 @@
 // Moments of an image: the centroid and the variance of its intensity, for measuring the blur of a point.
 //
 // The variance along an axis is R²/4 for a uniform disk of radius R, and R²/12·(2 + cos(2π/n)) for a regular n-gon with
-// circumradius R. If the blurred object is a square of w px, it adds w²/12. The pixel's box filter adds 1/12 px²
+// circumradius R. A blurred square of w px has an additional variance of w²/12. The pixel's box filter adds 1/12 px²
 // (Sheppard's correction).
 
 #include <glm/vec2.hpp>

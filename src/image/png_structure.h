@@ -15,7 +15,7 @@ namespace defocus::engine {
 std::vector<unsigned char> checkedPng(std::span<const std::byte> encoded, const std::string& name);
 
 // Decompresses the pixels of a file that checkedPng() returned, row by row. Throws Error, with `name` in its message,
-// if they are damaged or incomplete.
+// if the pixels are damaged or incomplete.
 void checkPngPixels(std::span<const unsigned char> checked, const std::string& name);
 
 }  // namespace defocus::engine

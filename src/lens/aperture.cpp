@@ -16,8 +16,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Min and max number of cells along the longer side of an aperture image. The min keeps the rim of the disk round; the
-// max limits the cost.
+// Min and max number of grid cells along the longer side of an aperture image. The min keeps the rim of the disk round;
+// the max limits the cost.
 constexpr int fewestCells = 256;
 constexpr int maxCells = 1024;
 
@@ -40,7 +40,7 @@ double sectorArea(const Blade& blade, double angle) {
            blade.curvature * blade.curvature * angle;
 }
 
-// Returns the signed angle from the blade's middle up to which the sector covers the fraction `share` ∈ [−1, 1] of half
+// Returns the signed angle from the blade's middle at which the sector's area is the fraction `share` ∈ [−1, 1] of half
 // the blade's area. Newton's method starts from the straight blade's angle. It converges in three or four steps,
 // because the integrand varies by at most a factor of 4 (three straight blades).
 double angleOfShare(const Blade& blade, double share) {

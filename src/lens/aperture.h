@@ -2,9 +2,9 @@
 // Aperture shape and light distribution, as a map from the unit square to the lens. The map is continuous except at the
 // seams of a ring or an image. Well-distributed points on the square are therefore well distributed on the lens.
 //
-// Lens samples have equal weight. For every shape, a blurred point keeps its energy and an image its exposure. Let t ∈
-// [0, 1] be the fraction of the area that lies nearer to the centre than a point. The light density over a disk,
-// polygon or ring is
+// Lens samples have equal weight, so the shape changes neither the energy of a blurred point nor the exposure of the
+// image. Let t ∈ [0, 1] be the fraction of the area that lies nearer to the centre than a point. The light density over
+// a disk, polygon or ring is
 //   1 + k·(2t − 1)                                                              (k: Lens::sphericalAberration)
 // and over an aperture image it is the image's value. For n blades of curvature q, the edge at angle φ from a blade's
 // middle has the radius (1 − q)·cos(π/n)/cos φ + q. The edge is a chord for q = 0 and an arc of the circle for q = 1.

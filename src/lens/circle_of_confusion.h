@@ -72,8 +72,8 @@ struct CocRange {
     double largest = 0;   // max |CoC|, px
 };
 
-// Bounds of the blur modifiers of surfaces: a factor on the lens's blur and an added blur. The added blur is a fraction
-// of the image's width.
+// Bounds of the blur modifiers of surfaces: a factor that multiplies the lens's blur, and an added blur. The added blur
+// is a fraction of the image's width.
 struct OwnBlur {
     double factorMin = 1;
     double factorMax = 1;
@@ -109,7 +109,7 @@ double largestCocAtInfinity(const ClipCircleOfConfusion& coc, int width);
 
 // Upper bounds, in px, on the CoC error if C is interpolated linearly inside a triangle.
 struct CocDeviation {
-    double kinks = 0;   // error where the slope of C jumps; cutting triangles there removes it
+    double kinks = 0;   // error where the slope of C jumps; cutting triangles there removes the error
     double curved = 0;  // error from the curvature of C and from vertex blur; only smaller triangles reduce it
 };
 

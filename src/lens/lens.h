@@ -21,8 +21,8 @@ struct Lens {
     double fStop = 2.8;              // f-number, > 0
     double focusDistance = 2.5;      // distance in m from the camera along the view axis, > 0 (infinity is allowed)
     double horizontalAperture = 36;  // sensor width in mm
-    bool dofEnabled = true;          // false: a pinhole camera for any f-number
-    double blurScale = 1;            // factor on the blur, ≥ 0; 1 is physically correct
+    bool dofEnabled = true;          // false: a pinhole camera, regardless of the f-number
+    double blurScale = 1;            // multiplies the blur, ≥ 0; 1 is physically correct
     bool focusBreathing = false;     // true: thin lens whose field of view narrows as the focus comes nearer
     double exposureTime = 0;         // exposure time in s (photographic_exposure.h); 0: no effect on the exposure
     double iso = 100;                // sensitivity, > 0
@@ -34,29 +34,29 @@ struct Lens {
     double anamorphicRatio = 1;           // values > 1 narrow the aperture horizontally (tall ovals)
     double obstruction = 0;               // mirror lens: inner over outer diameter, [0, 1)
     double sphericalAberration = 0;       // [−1, 1]; > 0: blur disks with a bright rim, < 0: with a bright centre
-    double catEye = 0;                    // fraction of the aperture's radius hidden in the corners, [0, 1]
+    double catEye = 0;                    // fraction of the aperture's radius clipped at image corners, [0, 1]
     double axialChromaticAberration = 0;  // dioptres between the focus of red and blue; > 0: red focuses farther
     double astigmatism = 0;               // radial streak length in mm on the sensor at the edges; see aberrations.h
-    double coma = 0;                      // length in mm on the sensor; > 0: tails point outwards
+    double coma = 0;                      // comet tail length in mm on the sensor at the edges; > 0: outwards
     std::shared_ptr<const Image> apertureImage;  // grey values are transmission; null: shape from the fields above
 
     // Artistic controls of the blur; see circle_of_confusion.h.
     double foregroundLimit = std::numeric_limits<double>::infinity();  // max CoC in front of the focus, px
     double backgroundLimit = std::numeric_limits<double>::infinity();  // max CoC behind the focus, px
-    double focusRangeFront = 0;        // depth in m of the sharp range in front of the focus, [0, focusDistance)
-    double focusRangeBehind = 0;       // depth in m of the sharp range behind the focus, ≥ 0
-    bool focusRangeRefocuses = false;  // true: blur behind the range as if focused at its far end
+    double focusRangeFront = 0;        // extent in m of the sharp range in front of the focus, [0, focusDistance)
+    double focusRangeBehind = 0;       // extent in m of the sharp range behind the focus, ≥ 0
+    bool focusRangeRefocuses = false;  // true: behind the range, blur as for a focus at the range's far end
     double focusTilt = 0;              // radians about the horizontal axis; > 0: the focus plane's top comes nearer
     double focusSwing = 0;      // radians about the vertical axis; > 0: the focus plane's right side comes nearer
     double fieldCurvature = 0;  // κ of the curved focus surface w = s/(1 + κ·r²); r is 1 at the left and right edges
-    double radialBlurGain = 0;  // g of the blur's gain 1 + g·r²; r is 1 at the left and right edges
+    double radialBlurGain = 0;  // g of the blur factor 1 + g·r²; r is 1 at the left and right edges
 };
 
 // Throws Error, with the name of the invalid value in its message, if the lens is impossible. Examples: NaN, fStop ≤ 0,
 // 1 or 2 blades, or a focus distance below the focal length with focus breathing.
 void checkLens(const Lens& lens);
 
-double tanHalfHorizontalFov(const Lens& lens);  // tan(θx/2); depends on the focus if focusBreathing
+double tanHalfHorizontalFov(const Lens& lens);  // tan(θx/2); with focusBreathing, depends on focusDistance
 double apertureDiameter(const Lens& lens);      // diameter in m, including blurScale; 0 without depth of field
 double focalLengthFromFov(double tanHalfHorizontal, double horizontalAperture);  // mm; inverse of tanHalfHorizontalFov
 

@@ -40,7 +40,7 @@ struct LensField {
     std::variant<double Lens::*, int Lens::*, bool Lens::*> member;
     std::variant<std::monostate, std::optional<double> LensSettings::*, std::optional<int> LensSettings::*,
                  std::optional<bool> LensSettings::*>
-        given;                // member of the request, in `unit`; none: set by Request::focus
+        given;                // same value in a request, in `unit`; none: Request::focus sets the value
     const char* description;  // help text of the option
     const char* example;      // typical value as text
     LensFeature feature = LensFeature::blur;
@@ -74,8 +74,8 @@ void giveLensValue(LensSettings& given, const LensField& field, std::optional<do
 using LensValues = std::map<std::string, double, std::less<>>;
 LensValues givenLensValues(const LensSettings& given);
 
-// Sets the fields of a lens that `values` names. Unknown names and values out of range are ignored. Returns one message
-// per value out of range.
+// Sets those fields of a lens that `values` contains. Unknown names and values out of range are ignored. Returns one
+// message per value out of range.
 std::vector<std::string> setLensFields(Lens& lens, const LensValues& values);
 
 }  // namespace defocus::engine

@@ -142,9 +142,9 @@ std::uint32_t sobol(std::uint32_t index, std::size_t dimension) {
     return result;
 }
 
-// Scramble for seed 0, the best of 3,000 candidates. A half plane cuts off a part of the lens; the fraction of points
-// in this part approximates the part's area. The scramble minimises the error of this approximation for the first 8 to
-// 256 points, and for prefixes and suffixes of 64 points.
+// Scrambling constant for seed 0, the best of 3,000 candidates. A half plane cuts off a part of the lens; the fraction
+// of points in this part approximates the part's area. The constant minimises the error of this approximation for the
+// first 8 to 256 points, and for prefixes and suffixes of 64 points.
 constexpr std::uint32_t chosenScramble = 935;
 
 // Returns a coordinate of a scrambled Sobol point. With seed 0, the same bits are flipped in all points, so that the
@@ -159,7 +159,7 @@ double scrambledSobol(std::uint32_t index, std::size_t dimension, std::uint32_t 
 
 // Steps of additive recurrences (Roberts 2018). The real root of x^(d + 1) = x + 1 gives the steps x⁻¹ … x⁻ᵈ of d
 // dimensions. The lens uses d = 2. The pixel uses the last two of d = 4, so that its points are independent of the lens
-// points. Time uses the golden ratio, the band √2, and the lights the last two of d = 6.
+// points. Time uses the golden ratio, the chromatic band √2, and the lights the last two of d = 6.
 constexpr double plastic2 = 1.32471795724474602596;
 constexpr double plastic4 = 1.16730397826141868426;
 constexpr double plastic6 = 1.11277568427870547063;

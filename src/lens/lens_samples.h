@@ -3,9 +3,9 @@
 // functions of the sample index.
 //
 // The points come from sequences that fill a unit cube evenly for any number of points. Prefixes and suffixes are both
-// well distributed, so that samples can be split between two levels. With seed 0 the first point is 1/2 in every
-// dimension. A single sample therefore gives the pinhole image at the middle of the exposure. Other seeds give other
-// points. With `sobol` and `scrambledHalton`, each point is uniformly distributed over the seeds.
+// well distributed, so that samples can be split between two levels of detail. With seed 0 the first point is 1/2 in
+// every dimension. A single sample therefore gives the pinhole image at the middle of the exposure. Other seeds give
+// other points. With `sobol` and `scrambledHalton`, each point is uniformly distributed over the seeds.
 
 #include <array>
 #include <cstdint>

@@ -15,7 +15,7 @@ struct PlacedCamera {
     Camera camera;
     glm::dmat4 worldFromCamera{1.0};  // without scale
     int node = -1;                    // index of the node that holds the camera; −1: none
-    bool tracked = false;  // true: Pose::tracked; otherwise, a camera without a node is the default framing camera
+    bool tracked = false;  // true: camera of Pose::tracked; if false and node is −1: the default framing camera
 };
 
 // Returns the camera that `choice` selects. NamedCamera is the name of a camera or of its node. FirstCamera is the
@@ -51,9 +51,9 @@ std::span<const StudioLight> studioLights();
 std::vector<PlacedLight> lightsOrDefault(const Scene& scene, const Pose& pose, const PlacedCamera& camera);
 Environment environmentOrDefault(const Scene& scene);
 
-// Returns the factor (≥ 1) on the default sky's radiance that balances the sky with the lights of the pose. With this
-// factor, the sky gives the scene's centre a seventh of the lights' illuminance, as a clear sky does relative to the
-// sun.
+// Returns the factor (≥ 1) by which the default sky's radiance is multiplied to balance the sky with the lights of the
+// pose. With this factor, the sky gives the scene's centre a seventh of the lights' illuminance, as a clear sky does
+// relative to the sun.
 double skyScale(const Pose& pose);
 
 }  // namespace defocus::engine

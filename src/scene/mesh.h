@@ -17,7 +17,7 @@ namespace defocus::engine {
 // mm on the sensor (> 0 behind the focus). It changes linearly from `opening` to `closing` during the exposure. Source:
 // linear C(t) of Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization.
 struct VertexBlur {
-    float factor = 1;   // factor on the lens's blur, ≥ 0; 0: only the added blur
+    float factor = 1;   // multiplies the lens's blur, ≥ 0; 0: only the added blur
     float opening = 0;  // added blur in mm when the shutter opens
     float closing = 0;  // added blur in mm when the shutter closes
     bool operator==(const VertexBlur&) const = default;
@@ -38,14 +38,14 @@ struct VertexBlurBounds {
 struct Vertices {
     std::vector<glm::vec3> positions;  // object units
     std::vector<glm::vec3> normals;    // unit length
-    std::vector<glm::vec4> tangents;   // xyz unit length, w = ±1 handedness (glTF)
+    std::vector<glm::vec4> tangents;   // xyz: unit vector; w: handedness ±1 (glTF)
     std::vector<glm::vec2> uv0;
     std::vector<glm::vec2> uv1;
     std::vector<glm::vec4> colors;     // linear, straight alpha; in [0, 1] if read from a file
-    std::vector<glm::u16vec4> joints;  // influences one to four: indices into the skin's joints
+    std::vector<glm::u16vec4> joints;  // joint influences one to four: indices into the skin's joints
     std::vector<glm::vec4> weights;    // sum to 1 together with weights1
     std::vector<VertexBlur> blurs;
-    std::vector<glm::u16vec4> joints1;  // influences five to eight; empty if no vertex has more than four
+    std::vector<glm::u16vec4> joints1;  // joint influences five to eight; empty if no vertex has more than four
     std::vector<glm::vec4> weights1;
 
     [[nodiscard]] std::size_t count() const { return positions.size(); }

@@ -54,10 +54,11 @@ double crossing(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const 
     return u >= 0 && v >= 0 && u + v <= 1 && t >= 0 ? t : miss;
 }
 
-// A run is up to runLength consecutive triangles of a primitive. Its box saves the tests of its triangles.
+// A run is a group of up to runLength consecutive triangles of a primitive. A ray that misses the run's bounding box is
+// not tested against the triangles.
 constexpr std::size_t runLength = 64;
 
-// Returns the boxes of the mesh's runs. `place(index)` returns the position of vertex `index`.
+// Returns the bounding boxes of the mesh's runs of triangles. `place(index)` returns the position of vertex `index`.
 template <typename Place>
 std::vector<Bounds> boxesOfRuns(const Mesh& mesh, const Place& place) {
     std::vector<Bounds> boxes;
@@ -69,8 +70,9 @@ std::vector<Bounds> boxesOfRuns(const Mesh& mesh, const Place& place) {
     return boxes;
 }
 
-// Returns the ray parameter of the first hit of the mesh, or `nearest` if that is smaller. `boxes` are the boxes of its
-// runs; without boxes, all triangles are tested. `place(index)` returns the position of vertex `index`.
+// Returns the ray parameter of the first hit of the mesh, or `nearest` if that is smaller. `boxes` are the bounding
+// boxes of the mesh's runs of triangles; without boxes, all triangles are tested. `place(index)` returns the position
+// of vertex `index`.
 template <typename Place>
 double nearestCrossing(const Mesh& mesh, const std::vector<Bounds>& boxes, const Ray& ray, double nearest,
                        const Place& place) {
@@ -93,7 +95,7 @@ auto placesOf(const Mesh& mesh) {
 
 // Returns the ray parameter of the first hit of an object that is not deformed, or `nearest` if that is smaller. The
 // ray is transformed to object space if the matrix is invertible; otherwise the triangles are transformed to world
-// space. `boxes` are the boxes of the mesh's runs.
+// space. `boxes` are the bounding boxes of the mesh's runs of triangles.
 double nearestCrossing(const Mesh& mesh, const std::vector<Bounds>& boxes, const glm::dmat4& worldFromObject,
                        const glm::dmat4& objectFromWorld, const Ray& world, double nearest) {
     const Ray ray{glm::dvec3(objectFromWorld * glm::dvec4(world.origin, 1)),
@@ -123,7 +125,7 @@ Ball ballAround(const Bounds& bounds, const glm::dmat4& worldFromBounds) {
     return {glm::dvec3(worldFromBounds * glm::dvec4(bounds.centre(), 1)), radius};
 }
 
-// Returns true only if the ray misses the ball despite rounding. The ray's direction must have unit length.
+// Returns true only if the ray misses the ball even with rounding errors. The ray's direction must have unit length.
 bool misses(const Ray& ray, const Ball& ball) {
     constexpr double rounding = 1e-12;
     const glm::dvec3 toCentre = ball.centre - ray.origin;
@@ -141,7 +143,7 @@ Bounds unionOf(const std::vector<Bounds>& boxes) {
 // Triangles of one object, prepared for intersection with many rays.
 class Target {
 public:
-    // `meshBoxes` are the boxes of the runs of the undeformed mesh.
+    // `meshBoxes` are the bounding boxes of the runs of triangles of the undeformed mesh.
     Target(const Mesh& mesh, const std::vector<Bounds>& meshBoxes, const Object& object)
         : mesh_(mesh), meshBoxes_(meshBoxes), object_(object), deformed_(deformed(object)) {
         if (deformed_) {
@@ -169,7 +171,7 @@ private:
     glm::dmat4 objectFromWorld_{1};
     const Object& object_;
     bool deformed_;
-    // Positions and boxes of runs in world space; empty unless the object is deformed.
+    // Vertex positions, and bounding boxes of runs of triangles, in world space; empty unless the object is deformed.
     std::vector<glm::dvec3> positions_;
     std::vector<Bounds> posedBoxes_;
 };
@@ -181,7 +183,7 @@ std::vector<std::optional<Hit>> firstHits(const Scene& scene, const Pose& pose, 
     std::vector<Ray> rays;
     for (const glm::dvec3& direction : directions) rays.push_back({origin, glm::normalize(direction)});
     std::vector<Hit> nearest(rays.size(), {std::numeric_limits<double>::infinity(), -1});
-    std::vector<std::vector<Bounds>> boxes(scene.meshes.size());  // per mesh; computed when first needed
+    std::vector<std::vector<Bounds>> boxes(scene.meshes.size());  // boxes of runs, per mesh; computed when first needed
     for (std::size_t i = 0; i < pose.objects.size(); ++i) {
         const Object& object = pose.objects[i];
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];

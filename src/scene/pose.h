@@ -16,7 +16,7 @@ struct Object {  // mesh instance with all its primitives
     std::string name;  // name of the node or, if empty, of the mesh; "#i" is appended for instance i
     // For a skinned object, the matrix of its first joint, because some code needs a single matrix.
     glm::dmat4 worldFromObject{1.0};
-    double cocScale = 1;  // factor on the circle of confusion of the object, ≥ 0
+    double cocScale = 1;  // multiplies the circle of confusion of the object, ≥ 0
     // World matrix times inverse bind matrix of each joint; empty without a skin. With a skin, worldFromObject does not
     // apply to vertices.
     std::vector<glm::dmat4> worldFromJoint;

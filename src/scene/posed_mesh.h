@@ -1,6 +1,6 @@
 #pragma once
 // Posing of vertices on the CPU: morph targets, then the skin or the object's matrix (glTF 2.0, 3.7.2.2 and 3.7.3). The
-// renderer's GPU code computes the same and is tested against it.
+// renderer's GPU code performs the same computation and is tested against this code.
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
@@ -32,8 +32,8 @@ std::vector<glm::vec3> posedNormals(const Mesh& mesh, const Object& object);
 // Returns whether the object has a skin or a nonzero morph weight.
 bool deformed(const Object& object);
 
-// Returns a world-space bounding box of the vertices that triangles use: exact for deformed objects, else around the
-// transformed bounding box of the mesh.
+// Returns a world-space bounding box of the vertices that triangles use. The box is exact for deformed objects; for
+// other objects, it encloses the transformed bounding box of the mesh.
 Bounds posedBounds(const Mesh& mesh, const Object& object);
 
 // Same as posedBounds(mesh, object), where `meshBounds` is mesh.bounds(), computed in advance.

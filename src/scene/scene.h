@@ -188,7 +188,7 @@ struct Environment {
     glm::vec3 nadir{0.0f};
     std::shared_ptr<const Image> map;  // image of EnvironmentType::map; NaN counts as black
     bool visible = true;               // false: the environment lights the scene, but the background is transparent
-    float lighting = 1.0f;             // factor on the radiance that lights surfaces; does not apply to the background
+    float lighting = 1.0f;             // multiplies the radiance that lights surfaces, but not the background
 };
 
 // ---- hierarchy and animation --------------------------------------------------------------------
@@ -206,7 +206,7 @@ struct Node {
     int camera = -1;
     int light = -1;
     std::vector<float> morphWeights;
-    double cocScale = 1;  // factor on the blur of the node's subtree (from extras), ≥ 0; 0: always sharp
+    double cocScale = 1;  // multiplies the blur of the node's subtree (from extras), ≥ 0; 0: always sharp
     bool visible = true;  // KHR_node_visibility; false: meshes and lights of the node's subtree are not drawn
     bool ground = false;  // true if addGround added this node
     std::vector<glm::dmat4> instances;  // EXT_mesh_gpu_instancing: matrices in node space
@@ -224,10 +224,10 @@ enum class ChannelPath {
     rotation,
     scale,
     weights,
-    visible,        // KHR_node_visibility; values from 0.5 are true
+    visible,      // KHR_node_visibility; values from 0.5 are true
     cameraYfov,   // radians; camera…: properties of a camera (KHR_animation_pointer)
     cameraZnear,  // m
-    cameraLens,   // entry AnimationChannel::lensValue of Camera::lens
+    cameraLens,   // entry of Camera::lens named by AnimationChannel::lensValue
     lightColor,   // light…: properties of a light (KHR_animation_pointer)
     lightIntensity,
     lightRange,  // m
@@ -253,13 +253,13 @@ struct Ignored {
     std::string what;
     std::string reason;
     std::uint64_t count = 1;
-    bool damage = false;  // true if the file is damaged, which causes a warning
+    bool damage = false;  // true: ignored because the file is damaged; causes a warning
 };
 
 struct Scene {
     std::string name;
     std::filesystem::path file;  // source file; empty: none
-    bool school = false;         // built-in school of fish, lit for an exposure of 0 EV
+    bool school = false;         // true: built-in school of fish, lit for an exposure of 0 EV
     std::vector<Mesh> meshes;
     std::vector<Material> materials;  // does not include glTF's default material (Primitive::material −1)
     std::vector<Texture> textures;
@@ -274,8 +274,8 @@ struct Scene {
     std::optional<Environment> environment;  // environment; nullopt: see environmentOrDefault
     double metresPerUnit = 1;                // length unit of all lengths in this scene; a Pose is in metres
     std::optional<double> ownMetresPerUnit;  // unit from the file's extras; nullopt: not stated
-    std::vector<std::string> variants;       // names of the variants of materials (KHR_materials_variants)
-    std::string variant;                     // chosen variant; empty: the default materials
+    std::vector<std::string> variants;       // names of the material variants (KHR_materials_variants)
+    std::string variant;                     // chosen material variant; empty: the default materials
     std::vector<std::string> extensions;     // glTF extensions that the file uses, sorted
     std::vector<Ignored> ignored;
     std::shared_ptr<const CameraTrack> cameraTrack;  // camera of another file; null: the scene's own cameras

@@ -52,7 +52,7 @@ std::string arcsAdvice(const UsdLayer& layer) {
            "--flatten";
 }
 
-// Returns the camera with a path or a name; `chosen` empty: the only camera.
+// Returns the camera whose path or name is `chosen`; if `chosen` is empty, the layer's only camera.
 PrimPath chosenCamera(const UsdLayer& layer, const std::string& chosen, const std::string& file) {
     std::vector<PrimPath> cameras;
     PrimPath scratch;

@@ -168,7 +168,7 @@ private:
         if (keep) into.numbers.push_back(found);
     }
 
-    // Parses a value. With `keep` = false, only checks it: arrays of meshes are large.
+    // Parses a value. With `keep` = false, only checks its syntax, because arrays of meshes are large.
     void value(UsdValue& into, bool keep, int depth = 0) {
         if (depth > deepestValue) refuse("the value is nested too deeply");
         const char first = next();

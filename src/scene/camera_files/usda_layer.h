@@ -1,6 +1,6 @@
 #pragma once
-// Reader of USD's text format (.usda), as far as cameras need it: prims, their metadata's composition arcs, and the
-// values of transforms and cameras. Source: the grammar in the USD documentation, "USD ASCII file format".
+// Reader of those parts of USD's text format (.usda) that cameras need: prims, the composition arcs in their metadata,
+// and the values of transforms and cameras. Source: the grammar in the USD documentation, "USD ASCII file format".
 
 #include <map>
 #include <string>

@@ -11,8 +11,8 @@
 
 namespace defocus::engine {
 
-// Returns the numbers of an attribute at a time code, between samples by linear interpolation; nullopt if the prim has
-// no value. Throws Error unless there are `count` finite numbers. `where` begins the message.
+// Returns the numbers of an attribute at a time code, with linear interpolation between samples; nullopt if the prim
+// has no value. Throws Error unless there are `count` finite numbers. `where` is the start of the error message.
 std::optional<std::vector<double>> usdNumbers(const UsdPrim& prim, std::string_view name, std::size_t count,
                                               double timeCode, const std::string& where);
 

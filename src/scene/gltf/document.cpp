@@ -133,7 +133,7 @@ std::string percentDecoded(std::string_view text) {
 }
 
 // Decodes base64; skips line breaks and accepts missing padding. Returns nullopt for invalid characters. tinygltf's
-// decoder does not report them, and it is ten times slower.
+// decoder does not report invalid characters, and it is ten times slower.
 std::optional<std::vector<std::byte>> base64Decoded(std::string_view text) {
     static const std::array<int, 256> digits = [] {
         std::array<int, 256> table{};

@@ -74,7 +74,7 @@ Scene readScene(gltf::Source& source, const std::filesystem::path& path, const P
     scene.textures = std::move(textures.textures);
     scene.images = std::move(textures.images);
     scene.imageNames = std::move(textures.names);
-    source.document.json.erase("materials");  // free memory for the meshes
+    source.document.json.erase("materials");  // frees memory for the meshes
 
     scene.meshes = gltf::readMeshes(source, scene.materials, progress);
 

@@ -144,8 +144,8 @@ int lightOf(const Source& source, const nlohmann::json& json, const std::string&
     return static_cast<int>(light);
 }
 
-// Returns `cocScale` from the node's extras, a factor on the blur of the node's subtree; 1 if absent. Throws Error
-// unless it is a number ≥ 0.
+// Returns `cocScale` from the node's extras, the blur factor of the node's subtree; 1 if absent. Throws Error unless it
+// is a number ≥ 0.
 double cocScaleOf(Source& source, const nlohmann::json& json, const std::string& label) {
     const auto extras = json.find("extras");
     if (extras == json.end() || !extras->is_object() || !extras->contains("cocScale")) return 1;

@@ -25,16 +25,16 @@ enum class Kind {
     indices,    // array of indices
     indexMap,   // object whose values are indices
     indexMaps,  // array of objects whose values are indices
-    object,     // object with the given `properties`
+    object,     // object with the members `properties`
     objects,    // array of objects
 };
 
 struct Property {
     std::string_view name;
     Kind kind;
-    std::string_view target = {};               // for Kind::index, indices, indexMap, indexMaps
-    std::span<const Property> properties = {};  // for Kind::object, objects
-    std::size_t length = 0;                     // for Kind::numbers
+    std::string_view target = {};  // array of the indexed entries; for Kind::index, indices, indexMap, indexMaps
+    std::span<const Property> properties = {};  // members; for Kind::object, objects
+    std::size_t length = 0;                     // number of entries, 0: any; for Kind::numbers
     bool required = false;
 };
 

@@ -83,7 +83,7 @@ void checkExtensions(Source& source) {
     }
 }
 
-// Gives textures without a core image the image of EXT_texture_webp.
+// Textures without an image of a core format (PNG or JPEG) get the image of EXT_texture_webp.
 void useWebpImages(Source& source) {
     for (std::size_t i = 0; i < source.model.textures.size(); ++i) {
         int& image = source.model.textures[i].source;

@@ -70,7 +70,7 @@ void takeBudget(Source& source, std::uint64_t count, std::uint64_t elementBytes,
 void grantFile(Source& source, const std::string& uri, const std::string& what);
 
 // Adds content that is not drawn to Source::ignored. Entries with equal `what` and `reason` are merged, and their
-// counts added.
+// counts are added.
 void ignore(Source& source, const std::string& what, const std::string& reason, std::uint64_t count = 1);
 // Same as ignore(), for content that cannot be drawn correctly because the file is damaged.
 void ignoreDamaged(Source& source, const std::string& what, const std::string& reason, std::uint64_t count);

@@ -43,7 +43,7 @@ tinygltf::Model readStructure(Document& document) {
     readEach(document, json, "accessors", model.accessors, [](Accessor& accessor, auto& error, const Json& entry) {
         return ParseAccessor(&accessor, &error, entry, keepText);
     });
-    json.erase("accessors");  // free memory for the meshes: the structures hold all data of accessors
+    json.erase("accessors");  // frees memory for the meshes; `model` holds all accessors
     readEach(document, json, "meshes", model.meshes, [&](Mesh& mesh, auto& error, const Json& entry) {
         return ParseMesh(&mesh, &model, &error, entry, keepText);
     });

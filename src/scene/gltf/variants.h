@@ -1,5 +1,5 @@
 #pragma once
-// Variants of a file's materials (KHR_materials_variants). Internal to the glTF loader.
+// Material variants of a file (KHR_materials_variants). Internal to the glTF loader.
 
 #include <string>
 #include <vector>

@@ -74,7 +74,7 @@ std::map<std::string, int> appendVertices(tinygltf::Model& model, Vertices verti
         if (!uv.empty()) attributes[name] = gltf::appendVectors(model, uv);
     };
     appendUv("TEXCOORD_0", vertices.uv0);
-    if (!vertices.uv0.empty()) appendUv("TEXCOORD_1", vertices.uv1);  // glTF does not allow set 1 without set 0
+    if (!vertices.uv0.empty()) appendUv("TEXCOORD_1", vertices.uv1);  // glTF forbids TEXCOORD_1 without TEXCOORD_0
     if (!vertices.colors.empty()) attributes["COLOR_0"] = gltf::appendVectors(model, vertices.colors);
     return attributes;
 }
