@@ -3,18 +3,19 @@
 //
 // N samples divide the lens into N cells that pass equal amounts of light. A cell's image is approximately the image
 // from the cell's centre, blurred slightly. The blur kernel is the lens's shape, √N times smaller. A sum of pinhole
-// images without that blur has ghost copies instead of a disk. Therefore each image is rendered from a cell's centre
-// and blurred by a Gaussian of σ = blur·|c| px. c is the circle of confusion of the surface at the pixel. The image
-// resolution follows the blur (Soler, Subr, Durand, Holzschuch and Sillion 2009, Fourier Depth of Field).
+// images without this blur shows ghost copies of a point instead of a disk. Therefore each image is rendered from a
+// cell's centre and blurred by a Gaussian of σ = blur·|c| px. c is the circle of confusion of the surface at the pixel.
+// The image resolution follows the blur (Soler, Subr, Durand, Holzschuch and Sillion 2009, Fourier Depth of Field).
 //
 // Variances of convolved kernels add. The centres therefore have the lens's mean, and the lens's covariance minus the
 // covariance of the blur. Blurred points keep their position and size for any N; plain sequence points would shift them
 // by their mean. σ falls as 1/√N, so the result converges to that of plain accumulation.
 //
 // Blurring is linear. Pixels are therefore sorted by σ into a few classes and summed, and each class is blurred once
-// per block (render/accumulation/cell_sums.h). A pixel contributes to the two classes with the nearest variances, with
-// weights that preserve its own variance; this avoids popping. Pixels with hardly any blur stay unblurred. Pixels with
-// an alpha-blended surface also stay unblurred, because the surface and its background differ in blur.
+// per block of samples (render/accumulation/cell_sums.h). A pixel contributes to the two classes with the nearest
+// variances, with weights that preserve its own variance; this avoids popping. Pixels with hardly any blur stay
+// unblurred. Pixels with an alpha-blended surface also stay unblurred, because the surface and its background differ in
+// blur.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -51,8 +52,8 @@ std::string reasonForNoCells(const FramePlan& plan);
 // each block. The blur of a block's cells depends on the number of all samples up to the end of the block.
 LensCells lensCells(const FramePlan& plan);
 
-// Moves each of the plan's samples to the centre of its cell, and its position in the pixel by LensCells::pixelShift.
-// Does nothing if cells.blur is 0.
+// Moves each sample of the plan to the centre of its lens cell, and shifts its position in the pixel by
+// LensCells::pixelShift. Does nothing if cells.blur is 0.
 void moveToCells(FramePlan& plan, const LensCells& cells);
 
 // Returns the resolution along an axis that the image of a sample needs at a CoC of `coc` px, as a fraction of full
