@@ -52,7 +52,7 @@ struct ConvergenceOptions {
     // is not listed.
     std::vector<LodMode> lods = {LodMode::off, LodMode::fractional};
     std::vector<LodMetric> metrics = {LodMetric::measured};
-    std::vector<double> thresholdFactors = {0.5, 1, 2};  // factors on defaultThresholds for the number of samples
+    std::vector<double> thresholdFactors = {0.5, 1, 2};  // factors that multiply the default level thresholds
     int runs = 3;                                        // runs of each case, ≥ 1
     int seeds = 1;             // seeds, ≥ 1; run r uses the plan's seed + r % seeds, so the errors have a spread
     RendererOptions renderer;  // RendererOptions::settings is ignored
@@ -113,8 +113,9 @@ struct ConvergenceVisitor {
     // Called with each frame as soon as it is measured. `image` and its FLIP map are non-null only in the first run of
     // a case.
     std::function<void(const ConvergenceRun& run, const Image* image, const Image* flipMap)> run;
-    // Called with each skipped case and the reason. Either the method cannot render the scene (a ray tracer without
-    // environment maps …), or its image differs from the reference by design (Method::shadesAsLit, drawsMotion).
+    // Called with each skipped case and the reason. Either the method cannot render the scene (for example, a ray
+    // tracer without environment maps), or its image differs from the reference by design (Method::shadesAsLit,
+    // drawsMotion).
     std::function<void(const ConvergenceCase& wanted, const std::string& reason)> leftOut;
 };
 

@@ -54,7 +54,7 @@ struct ScalingPoint {
     ScalingAxis axis = ScalingAxis::triangles;
     double value = 0;  // number of triangles, instances, samples or pixels, or the f-number
     std::uint64_t triangles = 300'000;
-    int instances = 0;  // number of fish in the grid; 0: the school is drawn instead
+    int instances = 0;  // number of fish in the grid; 0: the built-in school is drawn instead
     std::uint32_t samples = 8;
     int width = 640;
     int height = 480;
@@ -65,7 +65,7 @@ std::vector<ScalingPoint> scalingPoints(ScalingAxis axis, bool large);
 
 struct ScalingRow {
     ScalingAxis axis = ScalingAxis::triangles;
-    double value = 0;  // value on the axis; for ScalingAxis::blur: largest diameter, px
+    double value = 0;  // value on the axis; for ScalingAxis::blur: largest CoC diameter, px
     LodMode mode = LodMode::off;
     std::uint32_t samples = 0;
     int width = 0;

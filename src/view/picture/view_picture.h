@@ -3,10 +3,10 @@
 // that fits the time budget. While the view is still, the image accumulates samples. Shows one image, or two for
 // comparison, and overlays.
 //
-// After the first block of samples of a still view, its lens images are kept (kept_images.h). If only the focus
-// distance or the f-number changes, the picture is computed from these images until the accumulated image has as many
-// samples. If OpenGL runs on the CPU and adding all images takes longer than the budget, fewer images are added until
-// the view is still.
+// After the first batch of samples of a still view, the images of its lens samples are also drawn and kept
+// (kept_images.h). If only the focus distance or the f-number changes, the picture is computed from these images until
+// the accumulated image has as many samples. If OpenGL runs on the CPU and adding all images takes longer than the
+// budget, fewer images are added until the view is still.
 
 #include <chrono>
 #include <memory>
