@@ -6,7 +6,7 @@
     scripts/figures endurance --only "A long film"
 
 PROGRAM is a build of commit FIRST. Its processor times are compared with those of the current program.
-Takes about half an hour on two cores. Exits with 1 if a part falls short.
+Takes about half an hour on two cores. Exits with 1 if a part fails.
 """
 
 import datetime
@@ -88,7 +88,7 @@ def cost(program, scene, picture):
 
 
 def costs(program, folder, arguments):
-    """Renders each file of many parts. Returns the lines of the page, and true."""
+    """Renders each file of many parts. Returns the lines of the page, and True, because no time is an error."""
     rows = []
     for kind, count, first in MANY:
         scene = folder / "many.glb"

@@ -7,8 +7,8 @@ one refocused from lens images with another focus (--no-fill-gaps), and of one w
 samples and another seed.
 
 The second table has the seconds of a film of 96 frames in which only the focus moves, with 64 lens samples per frame, program
-start included: `capture`, `capture --refocus`, and their ratio. Of `capture`, 1 and 4 frames are timed, and the others take as
-long as each of these. The last columns are the seconds of a rendered and of a refocused picture in these films.
+start included: `capture`, `capture --refocus`, and their ratio. For `capture`, only 1 and 4 frames are timed, and the
+film's time is extrapolated. The last columns are the seconds of a rendered and of a refocused picture in these films.
 """
 
 import json
