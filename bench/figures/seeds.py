@@ -81,7 +81,7 @@ def jeong():
 
 
 def limited_work():
-    """Returns (scene, limit, speed-up, ratio of tests, ratio of swept work) by row of Figure 7 for method "stochastic"."""
+    """Returns (scene, limit, speed-up, ratio of tests, ratio of swept work) by row of Figure 7, for `stochastic`."""
     rows = []
     for line in (ROOT / "bench/results/lens/figure-7.md").read_text().splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]

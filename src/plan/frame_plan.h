@@ -27,7 +27,7 @@ struct LevelDraw {
     std::uint32_t level = 0;
     std::uint32_t firstSample = 0;  // index into FramePlan::samples
     std::uint32_t sampleCount = 0;
-    // triangles of all primitives, without the triangles culled by ObjectPlan::visible
+    // triangles of all primitives, without culled triangles (see ObjectPlan::visible)
     std::uint32_t triangleCount = 0;
 };
 
@@ -39,8 +39,8 @@ struct VisibleLevel {
     std::uint32_t outside = 0;                        // triangles culled because they lie outside the image
 };
 
-// Division of an object's triangles that makes C linear inside each of them, within RenderSettings::cocTolerance. C is
-// the circle of confusion in clip space (circle_of_confusion.h).
+// How an object's triangles are divided so that C is linear inside each of them, up to an error of
+// RenderSettings::cocTolerance. C is the circle of confusion in clip space (circle_of_confusion.h).
 enum class Refinement {
     none,       // triangles are drawn undivided
     split,      // triangles are cut where the slope of C jumps, and at the near plane before the lens shear

@@ -74,8 +74,8 @@ struct ConvergenceCase {
 
 // Returns the cases, ordered by number of samples. For each number, accumulation at full detail comes first; it is
 // always included, as are the ray tracers "embree" and "embree-shared" if the program has them. Methods without lens
-// samples are in the first group. Post-process methods and ray tracers are measured at full detail only. Published
-// forms ignore the lists of levels.
+// samples are in the first group. Post-process methods and ray tracers are measured at full detail only. Cases with
+// published settings ignore the lists of levels.
 std::vector<ConvergenceCase> convergenceCases(const ConvergenceOptions& options);
 
 // Error of an image, computed from display-encoded values; see metrics.h.

@@ -40,8 +40,8 @@ double milliseconds(Renderer& renderer, const FramePlan& plan) {
     return renderer.stats().renderMilliseconds;
 }
 
-// The renderers, plans and times of a frame's three versions. The complete and the empty frame share a renderer, so
-// that render targets and programs are created once.
+// The renderers, plans and times of a frame's three versions: complete, empty, and drawn into a small image. The
+// complete and the empty frame share a renderer, so that render targets and programs are created once.
 struct TimedMode {
     std::unique_ptr<Renderer> renderer;
     std::unique_ptr<Renderer> smallRenderer;

@@ -48,8 +48,8 @@ struct LensCells {
 // Returns why the images of the plan's samples cannot be blurred by lens cells; empty if they can.
 std::string reasonForNoCells(const FramePlan& plan);
 
-// Returns the cells of the samples that were planned together. A frame that grows block by block has separate cells in
-// each block. The blur of a block's cells depends on the number of all samples up to the end of the block.
+// Returns the cells of the samples that were planned together. A frame whose samples are added in blocks has separate
+// cells in each block. The blur of a block's cells depends on the number of all samples up to the end of the block.
 LensCells lensCells(const FramePlan& plan);
 
 // Moves each sample of the plan to the centre of its lens cell, and shifts its position in the pixel by

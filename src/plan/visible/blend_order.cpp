@@ -147,7 +147,8 @@ Relations BlendSorter::relationsOf(std::size_t node) const {
     return relations;
 }
 
-// Finds the relations of all nodes. A node that has no order with an earlier sorted node becomes stochastic.
+// Finds the relations of all nodes. A node that cannot be sorted relative to an earlier sorted node is drawn by
+// stochastic transparency.
 void BlendSorter::relate() {
     relations_.resize(nodes_.size());
     parallelFor(nodes_.size(), [&](std::size_t i) { relations_[i] = relationsOf(i); });

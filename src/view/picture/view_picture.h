@@ -86,7 +86,7 @@ public:
     // Returns the times of the latest frame: passes from timer queries, set-up by wall clock.
     [[nodiscard]] const std::vector<PassTime>& passes() const { return passes_; }
     [[nodiscard]] std::uint64_t changes() const { return changes_; }  // number of changes of the view or the scene
-    [[nodiscard]] std::uint64_t begun() const { return begun_; }      // number of still images that were begun
+    [[nodiscard]] std::uint64_t begun() const { return begun_; }      // number of still images begun so far
 
 private:
     using Clock = std::chrono::steady_clock;
