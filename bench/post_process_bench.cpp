@@ -104,7 +104,7 @@ void costOverRadius() {
         const double ofSeparable = spreadOf(a).median;
         const double ofDirect = spreadOf(b).median;
         fmt::print("{:>10} {:>12.2f} {:>12.2f}\n", r, ofSeparable, ofDirect);
-        if (r == 0) continue;  // radius 0 shows the time of the passes without taps
+        if (r == 0) continue;  // leave radius 0, which has no taps, out of the fit
         radii.push_back(r);
         separableTimes.push_back(ofSeparable);
         directTimes.push_back(ofDirect);

@@ -28,7 +28,7 @@ from figures.markdown import table
 from figures.results import run_of
 from figures.timed import timed
 
-# Commit to compare the current program with in the test of files with many parts.
+# Commit whose program is compared with the current one on files with many parts.
 FIRST = "f7ddc1ab"
 PAIRS = 3  # runs of each version, in alternation
 # Files with many parts: name and number of the parts, and the render time in s of the first measurement, on a busier

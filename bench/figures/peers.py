@@ -36,12 +36,12 @@ from figures.files import write_file
 from figures.timed import processor
 
 COUNTS = (2, 4, 8, 16, 32, 64, 128, 256)
-EEVEE_COUNTS = (4, 16)  # more samples hardly change its image
+EEVEE_COUNTS = (4, 16)  # more samples hardly change EEVEE's image
 TARGETS = [("rmse", 0.01), ("rmse", 0.005), ("rmse", 0.0033), ("flip", 0.03), ("flip", 0.015), ("flip", 0.01)]
 REFERENCES = {"auto": "accumulation", "accumulation": "accumulation", "embree-shared": "embree", "embree": "embree", "cycles": "cycles",
               "eevee": "cycles"}
 SCENES = {"school": [], "helmets": ["helmets.gltf"], "school-f11": ["--fstop", "11"],
-          "chess-f16": [ROOT / "meshes/chess.glb", "--fstop", "16"]}  # {name: words of defocus_peers_bench}
+          "chess-f16": [ROOT / "meshes/chess.glb", "--fstop", "16"]}  # {name: arguments of defocus_peers_bench}
 
 
 class Point(NamedTuple):

@@ -95,6 +95,6 @@ def main(words):
             print_errors(program, scene, pathlib.Path(folder))
     print(f"\n{'scene':>8}{'size':>9}{'capture':>10}{'--refocus':>11}{'ratio':>7}{'rendered':>10}{'refocused':>11}\n"
           f"{'':>8}{'px':>9}{'s':>10}{'s':>11}{'':>7}{'s/frame':>10}{'s/frame':>11}")
-    for scene in SCENES[:3]:  # the chess board moves
+    for scene in SCENES[:3]:  # without the chess board, which moves
         with tempfile.TemporaryDirectory() as folder:
             print_film(program, scene, pathlib.Path(folder))

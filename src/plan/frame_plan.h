@@ -97,7 +97,7 @@ struct ObjectPlan {
 struct BlendRun {
     std::uint32_t object = 0;     // index into FramePlan::objects
     std::uint32_t primitive = 0;  // index into Mesh::primitives
-    std::uint32_t level = 0;      // level of `triangles`
+    std::uint32_t level = 0;      // level to which `triangles` belong
     // Ranges in Pyramid::indices, back to front. Empty: the entire primitive, at all levels that are drawn.
     std::vector<IndexRange> triangles;
     // true: each lens sample draws or drops a blended fragment by its alpha, so that the position in the order doesn't

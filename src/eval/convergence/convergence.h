@@ -44,7 +44,7 @@ struct PublishedForm {
 struct ConvergenceOptions {
     std::vector<MethodUse> methods;  // methods to measure; empty: all, with default settings
     std::vector<MethodForm> forms = {MethodForm::published, MethodForm::best,
-                                     MethodForm::standard};  // forms of methods with default settings
+                                     MethodForm::standard};  // forms to measure for methods with default settings
     std::vector<PublishedForm> published;                    // settings of MethodForm::published
     RenderSettings plan;                                     // settings of every case; the lists below override them
     std::vector<std::uint32_t> sampleCounts = {8, 16, 32, 64, 128, 256};  // lens samples, for methods that use them

@@ -30,7 +30,7 @@ inline constexpr int maxCellClasses = 5;  // max number of variance classes on e
 // Returns the blur variance of class k ≥ 0, a group of pixels with similar blur, along an axis in px²: 4^k/3 + 1/6. The
 // image of a class consists of tent-weighted means over squares of 2^k px, interpolated linearly between their centres.
 double cellClassVariance(int k);
-inline constexpr double minCellVariance = 0.01;  // in px², subtracted from each variance; invisible within a pixel
+inline constexpr double minCellVariance = 0.01;  // subtracted from each blur variance, px²; too small to be visible
 
 struct LensCells {
     double blur = 0;                 // σ as a fraction of |c|; 0: images are not blurred

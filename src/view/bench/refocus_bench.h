@@ -10,7 +10,7 @@ namespace defocus::engine {
 struct RefocusBenchRow {
     std::string method;             // method in the format of MethodUse::text
     std::string change;             // such as "focus 2 to 1.4 m"
-    std::uint32_t keptImages = 0;   // lens images that the window keeps; 0: keeps none
+    std::uint32_t keptImages = 0;   // lens images (one per lens sample) that the window keeps; 0: none
     double dragMilliseconds = 0;    // median time of a frame while the value is dragged
     FrameQuality dragQuality;       // resolution and lens samples of the last frame of the drag
     double dragPsnr = 0;            // PSNR of the last frame of the drag, dB

@@ -18,7 +18,7 @@ namespace defocus::engine {
 struct ViewBenchOptions {
     std::vector<MethodUse> methods;        // methods to measure, one after another
     std::uint32_t frames = 60;             // frames of the movement, ≥ 4: an orbit of 1° per frame
-    double restSeconds = 10;               // max time that is measured after the movement, s
+    double restSeconds = 10;               // max time to measure after the movement, s
     double convergedError = 0.005;         // estimated error at which the picture at rest counts as converged
     std::uint32_t referenceSamples = 512;  // lens samples of a reference at full detail, 2 … maxSamples
     std::filesystem::path shaderFolder;    // replacement shaders; empty: the embedded shaders

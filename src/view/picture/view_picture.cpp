@@ -35,7 +35,7 @@ std::vector<double> imageKey(const PictureRequest& request) {
     return key;
 }
 
-// Returns the values that pictures from kept images may change.
+// Returns the lens values that can change in pictures computed from kept lens images.
 std::vector<double> focusKey(const Lens& lens) {
     return {lens.focusDistance, lens.fStop};
 }

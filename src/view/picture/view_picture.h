@@ -103,7 +103,7 @@ private:
 
     [[nodiscard]] const ProgressiveImage& first() const { return sides_[0]->image; }
     [[nodiscard]] const GlTexture& firstTexture();
-    [[nodiscard]] std::uint32_t minSamples() const;                    // smaller sample count of both sides
+    [[nodiscard]] std::uint32_t minSamples() const;                    // smaller of the sample counts of both sides
     [[nodiscard]] double growthTime(const FrameBudget& budget) const;  // ms
     bool prepareSides(const PictureRequest& request);
     void drawMoving(const PictureRequest& request, FrameBudget& budget);
