@@ -1,20 +1,20 @@
 // Measures the time that a limit on the foreground blur saves (Munkberg, Toth and Akenine-Möller 2012). One scene is
 // seen through leaves that nearly touch the lens, as in their Figure 7. The other is a game of chess with a moving
 // queen in front, as in their Figure 4. Our rasteriser draws one lens sample per instance, so its pixel work per
-// triangle doesn't grow with the blur. A limit saves only triangles outside the image that their blur would extend into
-// it. It also makes levels of detail finer.
+// triangle doesn't grow with the blur. A limit saves only triangles that lie outside the image and would be blurred
+// into it. A limit also makes levels of detail finer.
 //
 //   defocus_foreground_bench [--stochastic]   --stochastic: method "stochastic" alone
 //
 // Held equal: camera, lens, size, lens samples, renderer and process. Runs alternate; the fastest of each counts. CPU
 // is the time of all threads, which depends less on other load. `work` is the heat map of --aov work: triangles that
 // touch a pixel, per lens sample. `swept` is the heat map of --aov swept-work: triangles whose bounds over the complete
-// lens cover a pixel. It is the number of triangles that a rasteriser tests at a pixel if it tests every sample within
-// these bounds.
+// lens cover a pixel. A rasteriser tests this number of triangles at a pixel if it tests every sample within these
+// bounds.
 //
-// Then method "stochastic" itself, with C linear inside triangles as published: time, and the number of triangles that
-// it tests for each ray, which is the paper's measure of work. It bounds each ray's part of the lens, and it stops
-// behind the nearest hit.
+// Then measures method "stochastic", with the circle of confusion C linear inside triangles as published: the time, and
+// the number of triangles tested for each ray, which is the paper's measure of work. The method tests a triangle only
+// for rays whose part of the lens can see the triangle, and stops behind the nearest hit.
 
 #include <fmt/format.h>
 
@@ -130,7 +130,7 @@ void measureStochastic(const Figure& figure) {
         view.lens.foregroundLimit = limit;
         rows.push_back({.limit = limit, .plan = planFrame(frame.world, view, frame.settings)});
     }
-    RendererOptions linear;  // as in munkberg2012: dividing triangles would add work only to limited frames
+    RendererOptions linear;  // as in the preset munkberg2012: dividing triangles would add work only to limited frames
     linear.settings = {{"coc-interpolation", "linear"}};
     const auto renderer = methodNamed("stochastic").make(frame.world, linear);
     std::vector<double> tests(rows.size());

@@ -1,9 +1,9 @@
 // Renders one scene with several methods and numbers of lens samples, for `scripts/figures peers`.
 //
-// Writes FOLDER/scene.glb, the scene with painted light (unlit_file.h), and renders this file. Each image is
-// FOLDER/METHOD-SAMPLES.exr; METHOD-reference.exr has another seed and full detail. Prints a line of JSON for the file,
-// and one for each image. Times run from the first sample to the image in main memory. Each method draws a frame once
-// before it counts. CPU time is the time of all threads.
+// Writes FOLDER/scene.glb, the scene with lighting baked into vertex colours (unlit_file.h), and renders this file.
+// Each image is FOLDER/METHOD-SAMPLES.exr; METHOD-reference.exr has another seed and full detail. Prints a line of JSON
+// for the file, and one for each image. Times run from the first sample to the image in main memory. Each method first
+// draws an untimed frame. CPU time is the time of all threads.
 //
 //   defocus_peers_bench FOLDER [SCENE] [--fstop 16] [--size 512x384] [--methods auto,accumulation,embree-shared,embree]
 //       [--counts 2,4,8,16,32,64,128,256] [--reference-samples 1024]

@@ -4,7 +4,7 @@
 // - the time that a single pass for near and far field could save;
 // - the flatness of the disks depending on the number of components;
 // - the error of storage formats;
-// - the times of the variants that the slide on performance compares.
+// - the times of the variants that the performance slide of Garcia 2018 compares.
 //
 // Held constant within a table: image, process, kernel. Variants run alternately; the median time counts. Checks that
 // the separable and the direct blur agree.
@@ -104,7 +104,7 @@ void costOverRadius() {
         const double ofSeparable = spreadOf(a).median;
         const double ofDirect = spreadOf(b).median;
         fmt::print("{:>10} {:>12.2f} {:>12.2f}\n", r, ofSeparable, ofDirect);
-        if (r == 0) continue;  // radius 0 shows the time of the passes without taps
+        if (r == 0) continue;  // leave radius 0, which has no taps, out of the fit
         radii.push_back(r);
         separableTimes.push_back(ofSeparable);
         directTimes.push_back(ofDirect);
@@ -268,9 +268,9 @@ void storages() {
     fmt::print("\n");
 }
 
-// Repeats the comparison of the slide on performance: fields of half the width with one component, and fields of a
-// quarter of the width with two. The baseline is a gather over the square at both sizes, and at full size without a
-// limit on the blur.
+// Repeats the comparison on the performance slide of Garcia 2018: blur at half the width with one kernel component, and
+// at a quarter of the width with two. The baseline is a gather over the square at both sizes, and at full size without
+// a limit on the blur.
 void slideOfPerformance() {
     PreparedFrame frame = school({});
     constexpr std::uint32_t samples = 1024;

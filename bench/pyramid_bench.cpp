@@ -12,7 +12,7 @@
 // level 0 directly to that count. The measure is the larger of the mean distances to and from level 0. "mean" is the
 // geometric mean of the ratios over all levels.
 //
-// Looks. Held constant: the largest mesh of each scene, the triangle count of each level (meshoptimizer gets our
+// Appearance. Held constant: the largest mesh of each scene, the triangle count of each level (meshoptimizer gets our
 // counts), camera, lens, 32 lens samples, 512 x 384 px. Each level is drawn at the blur at which the default thresholds
 // select it, and compared with level 0 under the same blur. meshoptimizer's levels keep the attributes of the surviving
 // vertices; its meshopt_simplify ignores attributes (version 0.18).

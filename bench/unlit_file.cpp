@@ -19,7 +19,8 @@ namespace tinygltf = gltf::tinygltf;
 
 void addMesh(tinygltf::Model& model, const Mesh& mesh) {
     if (!mesh.morphTargets.empty()) fail("mesh \"{}\" has morph targets, which are not written", mesh.name);
-    // Without normals, a reader of the file would give each triangle vertices of its own.
+    // Write normals, although unlit materials don't need them: without normals, importers split the vertices of
+    // triangles.
     const std::map<std::string, int> attributes = {
         {"POSITION", gltf::appendPositions(model, mesh.vertices.positions)},
         {"NORMAL", gltf::appendVectors(model, mesh.vertices.normals)},

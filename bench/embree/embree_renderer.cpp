@@ -44,8 +44,8 @@ struct TileSeeds {
 // The part of a lens sample's data that is equal for all tiles.
 struct WaveSample {
     std::uint32_t index = 0;  // index of the sample in the sequence
-    // Points for sampling modes in which all pixels share them: in the pixel ([0, 1)² px, right and down), and on the
-    // lens (unit disk).
+    // Sample points, for sampling modes in which all pixels share them: in the pixel ([0, 1)² px, right and down), and
+    // on the lens (unit disk).
     glm::dvec2 pixel{0};
     glm::dvec2 lens{0};
     glm::vec2 light{0.5f};  // point on each light
@@ -240,8 +240,9 @@ PacketPoints EmbreeRenderer::ownPoints(const Tile& tile, int place, const TileSe
     return points;
 }
 
-// Returns the light sample point of each pixel of the packet, in [0, 1)². All pixels use the wave sample's point; with
-// EmbreeSampling::perPixel, each pixel shifts it by its own offset, modulo 1 (Cranley and Patterson 1976).
+// Returns the light sample point of each pixel of the packet, in [0, 1)². All pixels use the light point of the lens
+// sample; with EmbreeSampling::perPixel, each pixel shifts this point by its own offset, modulo 1 (Cranley and
+// Patterson 1976).
 std::array<glm::vec2, packetSize> EmbreeRenderer::lightPointsOf(const Tile& tile, int place,
                                                                 const WaveSample& sample) const {
     std::array<glm::vec2, packetSize> points;

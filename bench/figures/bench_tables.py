@@ -14,7 +14,7 @@ def span(values, digits):
 
 
 def by_size_only(bench_has):
-    """Returns the sentence under a table whose run chose levels by size. bench_has: such as "This bench has"."""
+    """Returns the sentence under a table whose run chose levels by size. bench_has: words such as "This bench has"."""
     return (f"\nThe run chose levels by size (`--lod-metric size`). {bench_has} no option for it, so only the commit of the run "
             "repeats the figures.\n")
 

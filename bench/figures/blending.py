@@ -4,7 +4,7 @@
 
 SCENE is a .gltf or .glb file. For each scene the table has the RMSE of 16, 64 and 256 lens samples against a reference of
 the same program from another seed. With --before, an older program is measured, too, and the last column is the RMSE
-between the two references: the error of an order of surfaces that is wrong.
+between the references of both programs: the error that a wrong order of surfaces causes.
 """
 
 import pathlib

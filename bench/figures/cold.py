@@ -24,7 +24,7 @@ def medians(runs):
 
 
 def row_of(name, times):
-    """times: {form: Times}."""
+    """Returns a line of the table. times: {form: Times}."""
     return f"{name:32}" + "".join(f"{of.wall:16.2f} s{of.processor:10.2f} s" for of in times.values())
 
 

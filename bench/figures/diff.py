@@ -61,7 +61,7 @@ def cells_of(row):
 
 
 def row_of(cells):
-    skipped = (None, "", "accumulation") if "sweep" in cells else (None,)  # older sweeps have no method
+    skipped = (None, "", "accumulation") if "sweep" in cells else (None,)  # results of older sweeps have no method
     key = [f"{cells[name]:.6g}" if isinstance(cells[name], float) else cells[name] for name in KEYS if cells.get(name) not in skipped]
     time = [cells.get(name) for name in ("milliseconds", "low", "high")]
     errors = {name: value for name, value in cells.items() if ERRORS.fullmatch(name) and value is not None}

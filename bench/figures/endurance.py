@@ -6,7 +6,7 @@
     scripts/figures endurance --only "A long film"
 
 PROGRAM is a build of commit FIRST. Its processor times are compared with those of the current program.
-Takes about half an hour on two cores. Exits with 1 if a part falls short.
+Takes about half an hour on two cores. Exits with 1 if a part fails.
 """
 
 import datetime
@@ -28,7 +28,7 @@ from figures.markdown import table
 from figures.results import run_of
 from figures.timed import timed
 
-# Commit to compare the current program with in the test of files with many parts.
+# Commit whose program is compared with the current one on files with many parts.
 FIRST = "f7ddc1ab"
 PAIRS = 3  # runs of each version, in alternation
 # Files with many parts: name and number of the parts, and the render time in s of the first measurement, on a busier
@@ -88,7 +88,7 @@ def cost(program, scene, picture):
 
 
 def costs(program, folder, arguments):
-    """Renders each file of many parts. Returns the lines of the page, and true."""
+    """Renders each file of many parts. Returns the lines of the page, and True, because no time is an error."""
     rows = []
     for kind, count, first in MANY:
         scene = folder / "many.glb"

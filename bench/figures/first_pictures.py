@@ -2,8 +2,9 @@
 
     scripts/figures first-pictures MODELS [--program build/release/defocus]
 
-MODELS is a folder with the glTF files in SCENES; the school of fish is built in. Each scene has three pictures: without
-guessed units, tone map and metering; with the defaults; with --ground. Held equal: scene, camera, f-number, image size.
+MODELS is a folder with the glTF files in SCENES; the school of fish is built in. Each scene has three pictures: with
+lengths taken as metres, without tone map and metering; with the defaults; with --ground. Held equal: scene, camera,
+f-number, image size.
 Needs Pillow (Debian: python3-pil) and the font of fonts-dejavu-core.
 """
 

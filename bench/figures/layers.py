@@ -4,9 +4,9 @@
 
 SCENE is a .gltf or .glb file, or school, the built-in scene (default: school and the chess set). Each scene is rendered
 by `--method accumulation`: without layers, with each layer, and with depth, normal and albedo together. The processor
-time is the time of the whole program on all cores. Runs alternate between the layers, after a first run of each that
-fills caches of their own. Each time is divided by the time of the picture alone in the same round; the table has the
-medians of these ratios.
+time is the time of the whole program on all cores. Runs alternate between the layers. A first run of
+each fills the caches and is not counted. Each time is divided by the time of the picture alone in the same round; the
+table has the medians of these ratios.
 """
 
 import pathlib

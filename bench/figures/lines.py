@@ -30,7 +30,7 @@ PLACES = {"blurred edges": (38, 76), "in focus": (124, 68), "lights": (16, 0)}  
 
 
 def measure(program, folder):
-    """Runs the bench for every view of the scene, where the folder lacks results, and copies the results."""
+    """Runs the bench for each view, resuming the results in the folder, and copies the results."""
     (folder / "teapots.glb").write_bytes(teapots.teapots())
     for name, options in runs().items():
         again = ["--resume"] if (folder / name).exists() else []

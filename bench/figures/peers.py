@@ -5,17 +5,18 @@
 SCENE is school, helmets (twenty copies of FlightHelmet), school-f11 or chess-f16 (both mostly in focus); default: all.
 Needs Blender 3.4 (Debian: apt-get install blender). EEVEE also needs a display, or Xvfb.
 
-Held equal: geometry, colours (light is painted on, nothing is lit), camera, lens (round aperture), image size, pixel filter
+Held equal: geometry, colours (baked lighting, unlit materials), camera, lens (round aperture), image size, pixel filter
 (box of one pixel; EEVEE: a similar one), colour transform. Cycles has no adaptive sampling, no denoising and no bounces.
 Levels of detail are those of `--lod fractional`, the default for a given number of samples.
 
-Errors are RMSE and FLIP of sRGB-encoded values in [0, 1]. Each renderer is compared with its own image of many samples and
-another seed, at full detail; EEVEE with that of Cycles. The distances between these images show that all draw one picture.
-Times are CPU seconds of all threads to draw an image, and in brackets wall-clock seconds. They exclude start-up, loading,
-pyramids and ray-tracing hierarchies. Up to 32 samples, each time is the least of three images, except for EEVEE. Times
-between two numbers of samples are interpolated, logarithm over logarithm. The row "first" names the renderer with the
-least CPU time, and how many times this time the CPU time of embree-shared is. It is undecided if another renderer
-reaches the error with its smallest number of samples, whose time is only an upper bound.
+Errors are RMSE and FLIP of sRGB-encoded values in [0, 1]. Each renderer is compared with its own image of many samples
+and another seed, at full detail; EEVEE with that of Cycles. The differences between these references show that all draw
+the same picture. Times are CPU seconds of all threads to draw an image, and in brackets wall-clock seconds. They
+exclude start-up, loading, pyramids and ray-tracing hierarchies. Up to 32 samples, each time is the minimum over three
+images, except for EEVEE. Times between two numbers of samples are interpolated, logarithm over logarithm. The row
+"first" names the renderer with the lowest CPU time, and the ratio of the CPU time of embree-shared to this time. The
+row is "undecided" if another renderer reaches the error with its smallest number of samples, whose time is only an
+upper bound.
 """
 
 import json
@@ -35,12 +36,12 @@ from figures.files import write_file
 from figures.timed import processor
 
 COUNTS = (2, 4, 8, 16, 32, 64, 128, 256)
-EEVEE_COUNTS = (4, 16)  # more samples hardly change its image
+EEVEE_COUNTS = (4, 16)  # more samples hardly change EEVEE's image
 TARGETS = [("rmse", 0.01), ("rmse", 0.005), ("rmse", 0.0033), ("flip", 0.03), ("flip", 0.015), ("flip", 0.01)]
 REFERENCES = {"auto": "accumulation", "accumulation": "accumulation", "embree-shared": "embree", "embree": "embree", "cycles": "cycles",
               "eevee": "cycles"}
 SCENES = {"school": [], "helmets": ["helmets.gltf"], "school-f11": ["--fstop", "11"],
-          "chess-f16": [ROOT / "meshes/chess.glb", "--fstop", "16"]}  # {name: words of defocus_peers_bench}
+          "chess-f16": [ROOT / "meshes/chess.glb", "--fstop", "16"]}  # {name: arguments of defocus_peers_bench}
 
 
 class Point(NamedTuple):
@@ -74,7 +75,7 @@ def time_to(points, metric, target):
 
 def without_overhead(images):
     """Subtracts from Blender's times the part that does not grow with the samples. images: [{samples, seconds, cpuSeconds}], the first
-    of one sample. Returns all others."""
+    with one sample. Returns all others."""
     first, last = images[0], images[-1]
     result = [dict(image) for image in images[1:]]
     for name in ("seconds", "cpuSeconds"):
@@ -89,13 +90,13 @@ def cell(time):
 
 
 def winner(times):
-    """Names the first of a column, with its lead over embree-shared. times: {contestant: Time or None}."""
+    """Returns the fastest renderer of a column, and its speed-up over embree-shared. times: {name: Time or None}."""
     reached = {name: time for name, time in times.items() if time}
     if not reached:
         return "none"
     first = min(reached, key=lambda name: reached[name].cpu)
     if any(time.at_most for name, time in reached.items() if name != first):
-        return "undecided"  # another contestant's time is only an upper bound
+        return "undecided"  # another renderer's time is only an upper bound
     rival = reached.get("embree-shared")
     if first.startswith("embree") or not rival or reached[first].at_most:
         return first
@@ -103,7 +104,7 @@ def winner(times):
 
 
 def table(points):
-    """points: {contestant: [Point]}. Returns lines."""
+    """Returns the lines of a table. points: {name of a renderer: [Point]}."""
     columns = [{name: time_to(of, *target) for name, of in points.items()} for target in TARGETS]
     lines = [f"{'CPU s (wall-clock s) to':24}" + "".join(f"{f'{metric.upper()} {error}':>18}" for metric, error in TARGETS)]
     lines += [f"{name:24}" + "".join(f"{cell(column[name]):>18}" for column in columns) for name in points]

@@ -1,7 +1,7 @@
 """Runs inside Blender for `scripts/figures peers`: renders the .glb file of defocus_peers_bench with Cycles or EEVEE.
 
-Prints a line of JSON for each image. Blender keeps its scene between images, so the difference of the times of two images is
-the time of their samples.
+Prints a line of JSON for each image. Blender keeps its scene between images, so the times of two images differ by
+the time of the additional samples.
 """
 
 import json

@@ -1,10 +1,11 @@
-"""Measures what four pixel positions per lens sample save, and what they change in the error.
+"""Measures the time that four pixel positions per lens sample save, and their effect on the error.
 
     scripts/figures positions SCENE … [--runs 3] [--options "--fstop 1.4"] [--program build/release/defocus] [--output FILE]
 
-SCENE is a .gltf or .glb file. Each scene is rendered by `--method accumulation` at full detail, with as many pixel positions in
-total by samples of one position and by a quarter of the samples with four. The table has the processor time of drawing the
-samples, over all cores (median over the runs, which alternate), and RMSE and FLIP against a reference of another seed.
+SCENE is a .gltf or .glb file. Each scene is rendered by `--method accumulation` at full detail, with the same total
+number of pixel positions: by samples with one position each, and by a quarter as many samples with four. The table has
+the processor time of drawing the samples, over all cores (median over the runs, which alternate), and RMSE and FLIP
+against a reference of another seed.
 """
 
 import pathlib
@@ -16,7 +17,7 @@ from figures.files import write_file
 from figures.frames import Frames
 from figures.timed import facts
 
-DRAWN = ((32, 1), (8, 4), (64, 1), (16, 4))  # samples and positions of each
+DRAWN = ((32, 1), (8, 4), (64, 1), (16, 4))  # (lens samples, positions per sample)
 
 
 def name_of(drawn):

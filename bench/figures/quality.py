@@ -1,11 +1,11 @@
-"""Measures how well the automatic number of lens samples meets the error that a quality stands for.
+"""Measures how well the automatic number of lens samples meets the error limit of a quality.
 
     scripts/figures quality [SCENE …] [--quality good] [--options "--fstop 1.4"] [--program build/release/defocus]
 
 SCENE is a .gltf or .glb file, or school, the built-in scene (default: school and five scenes of meshes/). For each scene the
 table has the method and the number of samples that `--quality` chose, the time, and FLIP against a reference of full detail
-from another seed. The last column is the smallest of 16, 32, 64 … samples of the same method whose FLIP is that of the
-quality or less; "more" if none of those up to the number chosen is.
+from another seed. The last column is the smallest of 16, 32, 64 … samples with which the same method meets the FLIP
+limit of the quality; "more" if no such number up to the chosen one does.
 """
 
 import pathlib

@@ -7,8 +7,8 @@ one refocused from lens images with another focus (--no-fill-gaps), and of one w
 samples and another seed.
 
 The second table has the seconds of a film of 96 frames in which only the focus moves, with 64 lens samples per frame, program
-start included: `capture`, `capture --refocus`, and their ratio. Of `capture`, 1 and 4 frames are timed, and the others take as
-long as each of these. The last columns are the seconds of a rendered and of a refocused picture in these films.
+start included: `capture`, `capture --refocus`, and their ratio. For `capture`, only 1 and 4 frames are timed, and the
+film's time is extrapolated. The last columns are the seconds of a rendered and of a refocused picture in these films.
 """
 
 import json
@@ -95,6 +95,6 @@ def main(words):
             print_errors(program, scene, pathlib.Path(folder))
     print(f"\n{'scene':>8}{'size':>9}{'capture':>10}{'--refocus':>11}{'ratio':>7}{'rendered':>10}{'refocused':>11}\n"
           f"{'':>8}{'px':>9}{'s':>10}{'s':>11}{'':>7}{'s/frame':>10}{'s/frame':>11}")
-    for scene in SCENES[:3]:  # the chess board moves
+    for scene in SCENES[:3]:  # without the chess board, which moves
         with tempfile.TemporaryDirectory() as folder:
             print_film(program, scene, pathlib.Path(folder))

@@ -107,7 +107,7 @@ def time_at_error(rows, error):
 
 
 def equal_error_speedup(row, rows):
-    """Returns the row's speed-up over full detail with the samples that the row's RMSE needs; None if not measured."""
+    """Returns the row's speed-up over full detail with the same RMSE; None if not measured."""
     if not row["fromReference"]:
         return None
     full = [other for other in rows if other["lod"] == "off" and other["sweep"] == "samples" and

@@ -1,7 +1,7 @@
 """Tables of docs/seeds.md: the claims of each publication, and the figures of the runs in bench/results.
 
-A row has the claim, our form, the test (`Suite.test`) or bench that checks it, the published figure, and ours. A dash
-means that there is no figure.
+A row has the claim, our implementation, the test (`Suite.test`) or bench that checks it, the published figure, and
+ours. A dash means that there is no figure.
 """
 
 import functools
@@ -81,7 +81,7 @@ def jeong():
 
 
 def limited_work():
-    """Returns (scene, limit, times as fast, ratio of tests, ratio of swept work) rows of Figure 7 of the method itself."""
+    """Returns (scene, limit, speed-up, ratio of tests, ratio of swept work) by row of Figure 7, for `stochastic`."""
     rows = []
     for line in (ROOT / "bench/results/lens/figure-7.md").read_text().splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
@@ -91,7 +91,7 @@ def limited_work():
 
 
 def times_longer():
-    """Returns how much longer stochastic points take than accumulation, over the errors that both reach."""
+    """Returns the ratio of the times of stochastic points and accumulation, as a range over errors that both reach."""
     by_name = {method["name"]: [time["milliseconds"] for time in method["times"]]
                for method in run_of("llvmpipe-methods-lens-space")["timesToErrors"]}
     pairs = zip(by_name["stochastic at full detail"], by_name["accumulation at full detail"])
@@ -151,7 +151,7 @@ def munkberg():
 
 
 def flips(scene, *rows):
-    """Returns FLIP as text for rows of the run of methods with few images. A row is named by its beginning."""
+    """Returns FLIP as text for rows of the run of methods with few images. rows: the beginning of each row."""
     found = method_rows("llvmpipe-circular")[scene]
     return [next(f"{values[2]:.4f}" for (name, _), values in found.items() if name.startswith(row)) for row in rows]
 

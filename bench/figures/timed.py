@@ -1,4 +1,4 @@
-"""Runs of a program with their times, and the facts about program and machine that a record of times names."""
+"""Times runs of a program, and describes the program and the machine."""
 
 import os
 import subprocess

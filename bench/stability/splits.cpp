@@ -17,7 +17,7 @@ namespace {
 
 constexpr double nudge = 1e-6;                 // tiny change of λ
 constexpr double oneSample = 1 + 1e-4;         // max change: one sample, plus rounding of 32-bit layers
-constexpr std::uint32_t renderedSamples = 60;  // not a multiple of the wave size
+constexpr std::uint32_t renderedSamples = 60;  // not a multiple of the size of a batch of samples
 
 // Returns the number of samples whose level changes when the level of detail λ crosses the integer `level`.
 double splitError(double level, std::uint32_t samples) {

@@ -16,7 +16,7 @@ inline constexpr double infinite = std::numeric_limits<double>::infinity();
 struct StabilityCase {
     std::string area;       // "sums", "lens", "motion", "space", "values", "levels", "traced"
     std::string name;       // short description of the difficulty
-    std::string measured;   // quantity of the error, with its unit
+    std::string measured;   // name and unit of the measured error
     std::string reference;  // reference of the comparison, such as "closed form" or "double sum"
     double limit = 0;       // max error that passes; infinity: for comparison only
     std::function<double()> error;

@@ -44,7 +44,8 @@ double constantError(float value, std::uint32_t samples) {
     return largestRelativeError(wall(glm::vec3(value), samples, exactLayers), glm::dvec3(value));
 }
 
-// Returns the relative error of the same sum in floats without compensation. Waves of `wave` samples are summed first.
+// Returns the relative error of a plain sum in floats, without compensation. Batches of `wave` samples are summed
+// first.
 double plainError(float value, std::uint32_t samples, std::uint32_t wave) {
     float sum = 0;
     for (std::uint32_t i = 0; i < samples; i += wave) {

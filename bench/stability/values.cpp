@@ -42,7 +42,7 @@ double materialError() {
 
 constexpr int mapWidth = 256;  // texels
 
-// Returns a uniform map of 0.5. If x ≥ 0, the texel in column `x` at the horizon is NaN.
+// Returns an environment map of uniform radiance 0.5. If x ≥ 0, the texel in column `x` at the horizon is NaN.
 Environment surroundings(int x) {
     const auto map = std::make_shared<Image>(mapWidth, mapWidth / 2, 3);
     std::fill(map->pixels.begin(), map->pixels.end(), 0.5f);

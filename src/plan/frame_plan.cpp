@@ -185,7 +185,7 @@ double smallTriangles(const ObjectPlan& object, const World& world, const FrameP
     return count;
 }
 
-// Bounds the divisions of objects whose circle of confusion C is curved, so that a lens sample has at most
+// Limits the subdivision of objects whose circle of confusion C is curved, so that a lens sample has at most
 // maxSmallTriangles small triangles.
 void boundDivisions(FramePlan& plan, const World& world) {
     const auto fits = [&](std::uint32_t parts) {
@@ -272,7 +272,7 @@ void leaveOutLens(FramePlan& plan, const World& world) {
     plan.largestBlur = largestBlur(plan, world);
     plan.usesLens = plan.settings.keepAll || plan.settings.refocus || plan.largestBlur >= minBlur;
     if (plan.usesLens) return;
-    const double aspect = plan.coc.aspect;  // a pinhole also needs the aspect ratio
+    const double aspect = plan.coc.aspect;  // kept for the pinhole, which also needs the aspect ratio
     plan.coc = {};
     plan.coc.aspect = aspect;
     plan.apertureDiameter = 0;
@@ -283,7 +283,8 @@ void leaveOutLens(FramePlan& plan, const World& world) {
     }
 }
 
-// Without a lens, keeps only the samples that antialiasing needs, unless something else changes between samples.
+// Reduces a frame without visible blur to the samples that antialiasing needs. Keeps all samples if motion, shadows or
+// stochastic transparency need them.
 void leaveOutSamples(FramePlan& plan) {
     if (plan.usesLens) return;
     const bool stochastic = std::ranges::any_of(plan.blendOrder, &BlendRun::stochastic);
@@ -341,8 +342,8 @@ void noteUnusedPaths(FramePlan& plan, const World& world) {
     if (plan.moments.empty()) plan.leftOut.push_back({"motion path", "nothing moves while the shutter is open"});
 }
 
-// Appends objects that no lens sample sees, after all decisions of the plan, so that they change none. Omits their
-// transmissive primitives, because only the nearest eight glass objects may copy the image.
+// Appends objects that no lens sample sees. Called last, so that these objects affect no other decision of the plan.
+// Omits their transmissive primitives, because only the nearest eight glass objects may copy the image.
 void addUnseen(FramePlan& plan, const World& world, std::vector<ObjectPlan> unseen) {
     const std::uint32_t maxParts = plan.objects.empty() ? 1 : plan.objects.front().maxParts;
     for (ObjectPlan& object : unseen) {
@@ -354,7 +355,7 @@ void addUnseen(FramePlan& plan, const World& world, std::vector<ObjectPlan> unse
         chooseLevels(object, world.pyramids[mesh], plan);
         chooseRefinement(object, world, plan);
         object.maxParts = maxParts;
-        object.coc = {};  // no blur, because renderers take the maximum over all objects
+        object.coc = {};  // no blur: renderers take the maximum CoC over all objects
         const std::vector<Primitive>& primitives = world.scene->meshes[mesh].primitives;
         for (std::uint32_t p = 0; p < primitives.size(); ++p) {
             const Material& material = materialOf(*world.scene, primitives[p]);
@@ -439,7 +440,8 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     if (plan.needsAlpha && view.lens.dofEnabled && view.lens.catEye > 0)
         fail("lens: a cat's eye cannot be combined with a transparent background");
     plan.samples = lensSamples(view.lens, settings.sequence, settings.firstSample, settings.sampleCount, settings.seed);
-    // The positions of a sample form a grid, and the sample moves the grid within one of its cells.
+    // Each lens sample renders a grid of positions in a pixel. The jitter therefore spans one grid cell instead of a
+    // pixel.
     for (LensSample& sample : plan.samples) sample.pixel /= static_cast<float>(positionsPerAxis(settings));
     plan.frameFirst = settings.firstSample;
     plan.frameSamples = settings.firstSample + settings.sampleCount;

@@ -18,7 +18,7 @@ namespace defocus::engine {
 // Time of a lens sample within the exposure.
 struct SampleMoment {
     std::uint32_t moment = 0;
-    float fraction = 0;  // position between this shutter time and the next, [0, 1); 0 at the last shutter time
+    float fraction = 0;  // interpolation weight of the next shutter time, [0, 1); 0 at the last shutter time
     float time = 0;      // time within the exposure, [0, 1)
 };
 
@@ -27,7 +27,7 @@ struct LevelDraw {
     std::uint32_t level = 0;
     std::uint32_t firstSample = 0;  // index into FramePlan::samples
     std::uint32_t sampleCount = 0;
-    // triangles of all primitives, without the triangles culled by ObjectPlan::visible
+    // triangles of all primitives, without culled triangles (see ObjectPlan::visible)
     std::uint32_t triangleCount = 0;
 };
 
@@ -39,15 +39,15 @@ struct VisibleLevel {
     std::uint32_t outside = 0;                        // triangles culled because they lie outside the image
 };
 
-// Division of an object's triangles that makes C linear inside each of them, within RenderSettings::cocTolerance. C is
-// the circle of confusion in clip space (circle_of_confusion.h).
+// How an object's triangles are divided so that C is linear inside each of them, up to an error of
+// RenderSettings::cocTolerance. C is the circle of confusion in clip space (circle_of_confusion.h).
 enum class Refinement {
     none,       // triangles are drawn undivided
     split,      // triangles are cut where the slope of C jumps, and at the near plane before the lens shear
     subdivide,  // triangles are divided into small triangles because C is curved, then split if ObjectPlan::cuts
 };
 
-inline constexpr std::uint32_t maxEdgeParts = 64;  // max of OpenGL's tessellator
+inline constexpr std::uint32_t maxEdgeParts = 64;  // OpenGL guarantees at least 64 (GL_MAX_TESS_GEN_LEVEL)
 
 // Vertex transforms and morph weights of an object at one instant.
 struct ObjectPose {
@@ -70,8 +70,8 @@ struct ObjectPlan {
     Bounds viewBox;             // bounding box in view space over the entire exposure
     double nearestDepth = 0;    // nearest depth of the bounding box in m; may be less than View::nearPlane
     double farthestDepth = 0;   // farthest depth of the bounding box in m
-    CocRange coc;               // CoC in px over the bounding box; `smallest` covers all of RenderSettings::refocus
-    CocDeviation cocDeviation;  // bounds of the CoC error over the drawn levels, px
+    CocRange coc;               // CoC in px over the bounding box; `smallest` is over all of RenderSettings::refocus
+    CocDeviation cocDeviation;  // bounds in px of the error of interpolating the CoC inside the drawn triangles
     double projectedEdge = 0;   // mean edge length of level 0 at the nearest depth, px
     double lambda = 0;          // fractional level λ
     LevelDraw coarse;           // samples [0, n) draw level ⌊λ⌋ + 1; no samples if λ is an integer
@@ -86,7 +86,7 @@ struct ObjectPlan {
     Refinement refinement = Refinement::none;
     // Max number of parts into which Refinement::subdivide divides an edge.
     std::uint32_t maxParts = maxEdgeParts;
-    bool cuts = false;       // refined triangles may reach the near plane, or contain a jump of the slope of C
+    bool cuts = false;       // refined triangles may reach the near plane, or the slope of C may jump inside them
     bool mirrored = false;   // the transform flips the winding of triangles
     bool blended = false;    // the object has alpha-blended primitives
     bool transmits = false;  // the object has transmissive primitives
@@ -97,7 +97,7 @@ struct ObjectPlan {
 struct BlendRun {
     std::uint32_t object = 0;     // index into FramePlan::objects
     std::uint32_t primitive = 0;  // index into Mesh::primitives
-    std::uint32_t level = 0;      // level of `triangles`
+    std::uint32_t level = 0;      // level to which `triangles` belong
     // Ranges in Pyramid::indices, back to front. Empty: the entire primitive, at all levels that are drawn.
     std::vector<IndexRange> triangles;
     // true: each lens sample draws or drops a blended fragment by its alpha, so that the position in the order doesn't
@@ -139,9 +139,9 @@ struct FramePlan {
     LodThresholds thresholds;  // settings.thresholds, completed by defaults that depend on the number of samples
     double tanHalfHorizontal = 0;
     double apertureDiameter = 0;  // diameter in m; 0 for a pinhole, also if the blur is too small to be visible
-    // Upper bound of the CoC in px over the drawn objects and a visible background of varying colour. The bound comes
-    // from bounding boxes and is infinite if a box reaches the near plane. It is also set if the frame uses a pinhole
-    // because the blur is too small to be visible.
+    // Upper bound of the CoC in px over the drawn objects and a visible background of varying colour. The bound is
+    // computed from bounding boxes and is infinite if a box reaches the near plane. The value is also set if the frame
+    // uses a pinhole because the blur is too small to be visible.
     double largestBlur = 0;
     ClipCircleOfConfusion coc;
     std::vector<LensSample> samples;  // samples to draw, in order
@@ -153,12 +153,12 @@ struct FramePlan {
     // Transforms from view space at each shutter time to view space in the middle of the exposure; empty if the camera
     // doesn't move.
     std::vector<glm::dmat4> middleFromView;
-    std::vector<ObjectPlan> objects;   // objects to draw, front to back; then unseen objects of keepAll
+    std::vector<ObjectPlan> objects;   // front to back, then the unseen objects that settings.keepAll retains
     std::vector<BlendRun> blendOrder;  // all alpha-blended and transmissive primitives, back to front
     ShadowPlan shadows;
     std::vector<LeftOut> leftOut;
     std::vector<std::vector<bool>> levelsUsed;  // [mesh][level]: true if any object draws the level
-    bool usesLens = true;                       // false: no blur reaches half a pixel, and samples only antialias edges
+    bool usesLens = true;                       // false: no blur reaches half a pixel, so samples only antialias edges
     bool usesCocControls = false;  // for some object, the circle of confusion C at depth w differs from a + b·w
     bool usesOwnBlur = false;      // an object or a vertex modifies the lens's blur
     bool usesTextures = false;

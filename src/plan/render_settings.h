@@ -20,7 +20,8 @@ enum class LodCause {
 
 struct RenderSettings {
     std::uint32_t sampleCount = 64;  // lens samples, 1 … maxSamples
-    // Pixel positions of each lens sample: 1, or 4 in a grid of 2 × 2. A layer has one pixel per position.
+    // Number of positions in a pixel that each lens sample renders: 1, or 4 in a 2 × 2 grid. The layer textures have
+    // one texel per position.
     std::uint32_t positions = 1;
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;         // selects a different set of sample points
@@ -35,9 +36,9 @@ struct RenderSettings {
     bool multipleScattering = false;  // compensates the energy that rough specular reflection loses
     double cocTolerance = 0.5;        // max error in px of interpolating C inside a triangle, > 0
     bool keepAll = false;             // disables culling, and keeps the lens even if no blur is visible
-    // Focus distances for which the images of the lens samples are used. Each object's levels suit the smallest blur
-    // over this range, and the lens samples are kept even if nothing is blurred at the frame's own focus. Needs a lens
-    // with C(w) = a + b·w (circle_of_confusion.h).
+    // Range of focus distances to which the image can be refocused after rendering. Each object's levels suit the
+    // smallest blur over this range, and the lens samples are kept even if nothing is blurred at the frame's own focus.
+    // Needs a lens with C(w) = a + b·w (circle_of_confusion.h).
     std::optional<FocusRange> refocus = {};
     std::vector<Layer> layers = {};  // data layers to sum, such as depth and normals
 };
@@ -45,8 +46,8 @@ struct RenderSettings {
 // Returns the number of positions in a pixel along each axis: 1 or 2.
 int positionsPerAxis(const RenderSettings& settings);
 
-// Returns the number of positions that all samples draw in a pixel. Edges in focus are antialiased as well as by this
-// number of samples with one position each.
+// Returns the number of positions in a pixel that all samples together render. This number determines the antialiasing
+// of edges in focus.
 std::uint32_t positionCount(const RenderSettings& settings);
 
 // Multiplies the thresholds by `factor`; unset thresholds first get the defaults for frames of `sampleCount` samples.

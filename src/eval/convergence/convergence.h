@@ -44,7 +44,7 @@ struct PublishedForm {
 struct ConvergenceOptions {
     std::vector<MethodUse> methods;  // methods to measure; empty: all, with default settings
     std::vector<MethodForm> forms = {MethodForm::published, MethodForm::best,
-                                     MethodForm::standard};  // forms of methods with default settings
+                                     MethodForm::standard};  // forms to measure for methods with default settings
     std::vector<PublishedForm> published;                    // settings of MethodForm::published
     RenderSettings plan;                                     // settings of every case; the lists below override them
     std::vector<std::uint32_t> sampleCounts = {8, 16, 32, 64, 128, 256};  // lens samples, for methods that use them
@@ -52,7 +52,7 @@ struct ConvergenceOptions {
     // is not listed.
     std::vector<LodMode> lods = {LodMode::off, LodMode::fractional};
     std::vector<LodMetric> metrics = {LodMetric::measured};
-    std::vector<double> thresholdFactors = {0.5, 1, 2};  // factors on defaultThresholds for the number of samples
+    std::vector<double> thresholdFactors = {0.5, 1, 2};  // factors that multiply the default level thresholds
     int runs = 3;                                        // runs of each case, ≥ 1
     int seeds = 1;             // seeds, ≥ 1; run r uses the plan's seed + r % seeds, so the errors have a spread
     RendererOptions renderer;  // RendererOptions::settings is ignored
@@ -74,8 +74,8 @@ struct ConvergenceCase {
 
 // Returns the cases, ordered by number of samples. For each number, accumulation at full detail comes first; it is
 // always included, as are the ray tracers "embree" and "embree-shared" if the program has them. Methods without lens
-// samples are in the first group. Post-process methods and ray tracers are measured at full detail only. Published
-// forms ignore the lists of levels.
+// samples are in the first group. Post-process methods and ray tracers are measured at full detail only. Cases with
+// published settings ignore the lists of levels.
 std::vector<ConvergenceCase> convergenceCases(const ConvergenceOptions& options);
 
 // Error of an image, computed from display-encoded values; see metrics.h.
@@ -113,8 +113,9 @@ struct ConvergenceVisitor {
     // Called with each frame as soon as it is measured. `image` and its FLIP map are non-null only in the first run of
     // a case.
     std::function<void(const ConvergenceRun& run, const Image* image, const Image* flipMap)> run;
-    // Called with each skipped case and the reason. Either the method cannot render the scene (a ray tracer without
-    // environment maps …), or its image differs from the reference by design (Method::shadesAsLit, drawsMotion).
+    // Called with each skipped case and the reason. Either the method cannot render the scene (for example, a ray
+    // tracer without environment maps), or its image differs from the reference by design (Method::shadesAsLit,
+    // drawsMotion).
     std::function<void(const ConvergenceCase& wanted, const std::string& reason)> leftOut;
 };
 

@@ -1,12 +1,12 @@
 #pragma once
 // Measures the popping of levels of detail: the change from frame to frame that levels add while camera, focus or scene
-// move. Compares four modes. nearest: one level per object. fractional: samples divided between two levels.
-// continuous: also one sample that draws the finer level in some pixels and the coarser level in the others. multirate:
-// fractional levels, drawn by this method.
+// move. Compares four modes. nearest: one level per object. fractional: samples divided between two levels. continuous:
+// also one sample that draws the finer level in some pixels and the coarser level in the others. multirate: fractional
+// levels, drawn by method multirate instead of accumulation.
 //
-// The reference is full detail with the same lens samples, for multirate drawn by multirate itself. Sampling noise
-// therefore cancels, and full detail itself measures 0. Let I be a frame of the mode and R the same frame at full
-// detail, both display-encoded:
+// The reference is full detail with the same lens samples. For multirate, the reference is drawn by multirate, too.
+// Sampling noise therefore cancels, and full detail itself measures 0. Let I be a frame of the mode and R the same
+// frame at full detail, both display-encoded:
 //   change: (I_t − I_{t−1}) − (R_t − R_{t−1}). The bench measures its RMSE, and the FLIP between I_t and the expected
 //           frame I_{t−1} + (R_t − R_{t−1}), clipped to [0, 1]. The change includes pops and all other errors of the
 //           levels that move with the camera.
@@ -19,8 +19,8 @@
 // Expected step: if all N samples change their level at once, the difference is blurred by c px. The difference of a
 // single sample is sharp and w px wide, so its step is √(c/w)/N of the pop of all samples. If less than one sample
 // changes per frame (Δλ·N < 1), fractional levels make this step in some frames and none in the others. Continuous
-// levels change a fraction Δλ·N of the sample's pixels in every frame, which gives a step of √(c/w)·√(Δλ/N).
-// At a quarter of the speed, this step is half as large.
+// levels change a fraction Δλ·N of the sample's pixels in every frame, which gives a step of √(c/w)·√(Δλ/N). At a
+// quarter of the speed, this step is half as large.
 //
 // Equal for all modes: scene, views, number of lens samples, thresholds, image size and, except for multirate,
 // renderer. Layers are 32-bit floats by default, so that their rounding doesn't count as an error of the levels.
@@ -76,8 +76,8 @@ struct PoppingFrame {
     Pop step;
 };
 
-// The step of one sample relative to the pop of all samples, for a static object. RMSEs are of linear values over the
-// complete image.
+// Change of the image when one sample switches its level, relative to the change when all samples switch, for a static
+// object. RMSEs are of linear values over the complete image.
 struct SampleStep {
     std::uint32_t samples = 0;
     std::string object;

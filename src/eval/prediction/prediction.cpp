@@ -30,7 +30,8 @@ struct Stand {
     double depth = 0;  // depth of the mesh's centre, m
 };
 
-// Rotates the mesh so that the camera sees it from the direction `towards`, as in the prediction's pictures.
+// Rotates the mesh so that the camera sees it from the direction `towards`, one of the directions from which the
+// pyramid's errors were predicted.
 void turnTo(Stand& stand, const glm::dvec3& towards) {
     const Pyramid& pyramid = stand.world.pyramids[0];
     const Eye eye = eyeAlong(pyramid, towards, 1);

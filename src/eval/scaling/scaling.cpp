@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::array comparedModes = {LodMode::off, LodMode::fractional};
 constexpr int gridTriangles = 500;        // triangles of each instance at full detail
-constexpr int smallFactor = 40;           // divisor of width and height that leaves only vertex work
+constexpr int smallFactor = 40;           // divisor of width and height, so that almost only vertex work remains
 constexpr double bytesPerTriangle = 600;  // main memory: mesh, pyramid while it is built, driver's copy
 constexpr double memoryShareMax = 0.8;
-constexpr double minMargin = 0.05;  // min difference of two ranked parts, as a fraction of the frame time
+constexpr double minMargin = 0.05;  // min difference to rank two parts, as a fraction of the frame time
 
 FramePlan planOf(const ScalingWorld& world, const ScalingPoint& point, LodMode mode) {
     View view = world.view;
@@ -40,8 +40,8 @@ double milliseconds(Renderer& renderer, const FramePlan& plan) {
     return renderer.stats().renderMilliseconds;
 }
 
-// The renderers, plans and times of a frame's three versions. The complete and the empty frame share a renderer, so
-// that render targets and programs are created once.
+// The renderers, plans and times of a frame's three versions: complete, empty, and drawn into a small image. The
+// complete and the empty frame share a renderer, so that render targets and programs are created once.
 struct TimedMode {
     std::unique_ptr<Renderer> renderer;
     std::unique_ptr<Renderer> smallRenderer;

@@ -54,7 +54,7 @@ struct ScalingPoint {
     ScalingAxis axis = ScalingAxis::triangles;
     double value = 0;  // number of triangles, instances, samples or pixels, or the f-number
     std::uint64_t triangles = 300'000;
-    int instances = 0;  // number of fish in the grid; 0: the school is drawn instead
+    int instances = 0;  // number of fish in the grid; 0: the built-in school is drawn instead
     std::uint32_t samples = 8;
     int width = 640;
     int height = 480;
@@ -65,15 +65,15 @@ std::vector<ScalingPoint> scalingPoints(ScalingAxis axis, bool large);
 
 struct ScalingRow {
     ScalingAxis axis = ScalingAxis::triangles;
-    double value = 0;  // value on the axis; for ScalingAxis::blur: largest diameter, px
+    double value = 0;  // value on the axis; for ScalingAxis::blur: largest CoC diameter, px
     LodMode mode = LodMode::off;
     std::uint32_t samples = 0;
     int width = 0;
     int height = 0;
     int runs = 0;
     Spread milliseconds;             // time of the complete frame
-    Spread layers;                   // time of the empty frame, ms
-    Spread vertices;                 // time of the small frame, ms
+    Spread layers;                   // time of the empty frame, in which layers are only cleared and added, ms
+    Spread vertices;                 // time of the frame drawn into a small image, ms
     Spread fill;                     // rest of the complete frame's time, ms, ≥ 0
     std::uint64_t triangles = 0;     // drawn triangles, sum over all samples
     std::uint64_t gpuBytes = 0;      // peak size of the renderer's resources
@@ -84,7 +84,8 @@ struct ScalingRow {
     [[nodiscard]] std::vector<ScalingPart> largestParts() const;
 };
 
-// Times of the runs of a frame's three versions, ms. The three vectors have the same size.
+// Times (ms) of the runs of a frame's three versions: complete, empty, and drawn into a small image. The vectors have
+// the same size.
 struct ScalingTimes {
     std::vector<double> complete;
     std::vector<double> layers;    // empty frame

@@ -82,7 +82,7 @@ private:
     ReferenceImage image_;
 };
 
-// A variant of the frame that is compared: form, method, level mode, with its renderer and measurements.
+// One of the compared variants of the frame (form, method, level mode), with its renderer and measurements.
 struct SpeedupSubject {
     const SpeedupForm* form = nullptr;
     MethodUse use;

@@ -23,7 +23,7 @@ namespace defocus::engine {
 
 // Settings of levels and lens samples, and a world whose pyramids are built with these settings.
 struct SpeedupForm {
-    std::string preset;              // name of the preset; empty: none
+    std::string preset;              // name of the preset (settings of a publication); empty: none
     const World* world = nullptr;    // scene, pose, lights and environment are the same in all forms
     RenderSettings plan;             // settings without the number of samples and the level mode
     double pyramidMilliseconds = 0;  // build time of the world's pyramids

@@ -10,15 +10,14 @@ namespace defocus::engine {
 
 inline constexpr std::size_t patchDepths = 5;
 
-// Returns the sides of the patches, in object units, at depths evenly spaced over the object's box. The box must lie in
-// front of the near plane. A patch is a square of side √(1 + ¾c²) px for a blur disk of diameter c px. The square has
-// the same variance along an axis as the disk convolved with a pixel. c is the CoC in the middle of the image, clamped
-// to the range in the box. With LodCoc::centre, the box's centre replaces all depths. RenderSettings::lodCause can omit
-// the disk or the pixel from the convolution.
+// Returns the sides of the patches, in object units, at depths evenly spaced over the object's bounding box. The box
+// must lie in front of the near plane. A patch is a square of side √(1 + ¾c²) px for a blur disk of diameter c px. The
+// square has the same variance along an axis as the disk convolved with a pixel. c is the CoC in the middle of the
+// image, clamped to the range in the box. With LodCoc::centre, the box's centre replaces all depths.
+// RenderSettings::lodCause can omit the disk or the pixel from the convolution.
 std::array<double, patchDepths> blurredPatches(const ObjectPlan& object, const FramePlan& plan);
 
-// Returns the smallest |CoC| in px over a box and, with RenderSettings::refocus, over the focus distances of that
-// range.
+// Returns the smallest |CoC| in px over a box and, if RenderSettings::refocus is set, over all its focus distances.
 double smallestCoc(const FramePlan& plan, const CocBox& box);
 
 // Returns the projected length in px of one unit of object space, at the depth of the bounding box's centre.

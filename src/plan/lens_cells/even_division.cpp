@@ -36,7 +36,7 @@ struct Division {
     std::uint32_t share = 1;
     std::vector<std::uint32_t> order;
 
-    // Assigns `share` of the points `members` to each of the centres `among`; both are lists of indices.
+    // Assigns `share` points to each centre. `members` and `among` are the indices of the points and of the centres.
     void divide(std::span<std::uint32_t> members, std::span<std::uint32_t> among) {
         if (among.size() == 1) {
             std::ranges::sort(members);

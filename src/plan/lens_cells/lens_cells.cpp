@@ -16,8 +16,8 @@ namespace defocus::engine {
 
 namespace {
 
-// With N samples, σ of a cell's blur is cellWidth/√N times the CoC diameter. Disk-shaped cells would need 1/4. This
-// value is 40 % larger to close the gaps between cells.
+// With N samples, σ of a cell's blur is cellWidth/√N times the CoC diameter. A disk-shaped cell has σ = 1/4 of its
+// diameter. The value is 40 % larger to close the gaps between cells.
 constexpr double cellWidth = 0.35;
 constexpr std::uint32_t fewestSamples = 4;  // with fewer samples, the images of samples are not blurred
 constexpr std::uint32_t maxPointsOfCell = 16;
@@ -42,7 +42,7 @@ LensSpread spreadOf(const std::vector<LensSample>& samples) {
 }
 
 // Returns the fraction of the unit disk that the light through an aperture image would fill at uniform density. This is
-// (Σ w)² / Σ w² over the transmittances w of the image's cells, divided by the number of cells in the disk.
+// (Σ w)² / Σ w² over the transmittances w of the image's pixels, divided by the number of pixels in the disk.
 double filledArea(const ApertureImage& image) {
     double squares = 0;
     double rowsBefore = 0;
@@ -125,8 +125,8 @@ double varianceOf(double blur, double coc) {
     return std::max(0.0, blur * coc * blur * coc - minCellVariance);
 }
 
-// Returns the number of variance classes (groups of pixels with similar blur, see lens_cells.h) that CoC diameters up
-// to `coc` px need.
+// Returns how many variance classes are needed for CoC diameters up to `coc` px. A variance class is a group of pixels
+// with similar blur (see lens_cells.h).
 int classesFor(double blur, double coc) {
     const double variance = varianceOf(blur, coc);
     int classes = variance > 0 ? 1 : 0;
@@ -168,8 +168,8 @@ LensCells lensCells(const FramePlan& plan) {
     for (const LensSample& sample : samples)
         cells.pixelShift -= glm::dvec2(sample.pixel) / static_cast<double>(samples.size());
     moveToMeans(samples, plan);
-    // For a CoC of c px, the lens point (1, 0) moves the image by c/2 px. A blur of σ = blur·c px therefore has a σ of
-    // 2·blur on the lens.
+    // For a CoC of c px, the lens point (1, 0) moves the image by c/2 px. A blur with σ = blur·c px in the image
+    // therefore corresponds to σ = 2·blur on the lens.
     cells.middles = matched(samples, lens, 4 * blur * blur);
     return cells;
 }

@@ -3,18 +3,19 @@
 //
 // N samples divide the lens into N cells that pass equal amounts of light. A cell's image is approximately the image
 // from the cell's centre, blurred slightly. The blur kernel is the lens's shape, √N times smaller. A sum of pinhole
-// images without that blur has ghost copies instead of a disk. Therefore each image is rendered from a cell's centre
-// and blurred by a Gaussian of σ = blur·|c| px. c is the circle of confusion of the surface at the pixel. The image
-// resolution follows the blur (Soler, Subr, Durand, Holzschuch and Sillion 2009, Fourier Depth of Field).
+// images without this blur shows ghost copies of a point instead of a disk. Therefore each image is rendered from a
+// cell's centre and blurred by a Gaussian of σ = blur·|c| px. c is the circle of confusion of the surface at the pixel.
+// The image resolution follows the blur (Soler, Subr, Durand, Holzschuch and Sillion 2009, Fourier Depth of Field).
 //
 // Variances of convolved kernels add. The centres therefore have the lens's mean, and the lens's covariance minus the
 // covariance of the blur. Blurred points keep their position and size for any N; plain sequence points would shift them
 // by their mean. σ falls as 1/√N, so the result converges to that of plain accumulation.
 //
 // Blurring is linear. Pixels are therefore sorted by σ into a few classes and summed, and each class is blurred once
-// per block (render/accumulation/cell_sums.h). A pixel contributes to the two classes with the nearest variances, with
-// weights that preserve its own variance; this avoids popping. Pixels with hardly any blur stay unblurred. Pixels with
-// an alpha-blended surface also stay unblurred, because the surface and its background differ in blur.
+// per block of samples (render/accumulation/cell_sums.h). A pixel contributes to the two classes with the nearest
+// variances, with weights that preserve its own variance; this avoids popping. Pixels with hardly any blur stay
+// unblurred. Pixels with an alpha-blended surface also stay unblurred, because the surface and its background differ in
+// blur.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -29,7 +30,7 @@ inline constexpr int maxCellClasses = 5;  // max number of variance classes on e
 // Returns the blur variance of class k ≥ 0, a group of pixels with similar blur, along an axis in px²: 4^k/3 + 1/6. The
 // image of a class consists of tent-weighted means over squares of 2^k px, interpolated linearly between their centres.
 double cellClassVariance(int k);
-inline constexpr double minCellVariance = 0.01;  // in px², subtracted from each variance; invisible within a pixel
+inline constexpr double minCellVariance = 0.01;  // subtracted from each blur variance, px²; too small to be visible
 
 struct LensCells {
     double blur = 0;                 // σ as a fraction of |c|; 0: images are not blurred
@@ -47,12 +48,12 @@ struct LensCells {
 // Returns why the images of the plan's samples cannot be blurred by lens cells; empty if they can.
 std::string reasonForNoCells(const FramePlan& plan);
 
-// Returns the cells of the samples that were planned together. A frame that grows block by block has separate cells in
-// each block. The blur of a block's cells depends on the number of all samples up to the end of the block.
+// Returns the cells of the samples that were planned together. A frame whose samples are added in blocks has separate
+// cells in each block. The blur of a block's cells depends on the number of all samples up to the end of the block.
 LensCells lensCells(const FramePlan& plan);
 
-// Moves each of the plan's samples to the centre of its cell, and its position in the pixel by LensCells::pixelShift.
-// Does nothing if cells.blur is 0.
+// Moves each sample of the plan to the centre of its lens cell, and shifts its position in the pixel by
+// LensCells::pixelShift. Does nothing if cells.blur is 0.
 void moveToCells(FramePlan& plan, const LensCells& cells);
 
 // Returns the resolution along an axis that the image of a sample needs at a CoC of `coc` px, as a fraction of full

@@ -53,7 +53,7 @@ Bounds posedBox(const Pyramid& pyramid, const ObjectPose& pose, bool skinned) {
         return transformed(widened(pyramid.bounds, reach), pose.viewFromJoint.front());
     Bounds box;
     for (std::size_t j = 0; j < pyramid.jointBounds.size(); ++j) {
-        // A joint index beyond the skin moves no vertex; the first joint's matrix replaces the missing matrix.
+        // Joint indices beyond the skin select the first joint, as in posing.glsl.
         const glm::dmat4& matrix = pose.viewFromJoint[j < pose.viewFromJoint.size() ? j : 0];
         box.extend(transformed(widened(pyramid.jointBounds[j], reach), matrix));
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Duration of a frame's exposure, and scene poses at the shutter times, which are the times that a plan needs.
+// Exposure of a frame: its duration, and the scene's poses at the shutter times, the times at which motion is sampled.
 
 #include <functional>
 #include <optional>

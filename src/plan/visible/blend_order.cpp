@@ -14,7 +14,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t maxConvexTriangles = 1000;  // max triangles of a primitive that isConvex() tests
-constexpr std::size_t maxParts = 5000;            // max parts in all primitives: all overlapping pairs are compared
+constexpr std::size_t maxParts = 5000;            // max parts of all primitives; bounds the comparisons of pairs
 constexpr double tolerance = 1e-4;                // relative to the primitive's size; allows for rounded positions
 
 // A blended or transmissive primitive of an object.
@@ -147,7 +147,8 @@ Relations BlendSorter::relationsOf(std::size_t node) const {
     return relations;
 }
 
-// Finds the relations of all nodes. A node that has no order with an earlier sorted node becomes stochastic.
+// Finds the relations of all nodes. A node that cannot be sorted relative to an earlier sorted node is drawn by
+// stochastic transparency.
 void BlendSorter::relate() {
     relations_.resize(nodes_.size());
     parallelFor(nodes_.size(), [&](std::size_t i) { relations_[i] = relationsOf(i); });

@@ -16,9 +16,9 @@
 
 namespace defocus::engine {
 
-// Returns whether the triangles are part of the surface of a convex body whose fronts face outwards, such as a flat
-// pane. From any viewpoint, back faces lie behind front faces, and two faces of the same side never overlap. More than
-// 1,000 triangles are not tested and count as not convex.
+// Returns whether the triangles are part of the surface of a convex body whose front faces point outwards, such as a
+// flat pane. From any viewpoint, back faces lie behind front faces, and faces of the same orientation never overlap.
+// More than 1,000 triangles are not tested and count as not convex.
 bool isConvex(const std::vector<glm::vec3>& positions, std::span<const std::uint32_t> indices);
 
 // Sets FramePlan::blendOrder and ObjectPlan::blended. The levels of the objects must be chosen.

@@ -36,20 +36,21 @@ PosedPart posedPart(const glm::dmat4& viewFromObject, const std::vector<glm::vec
     return part;
 }
 
-// Returns whether the part lies on the plane or on its front (`sign` 1) or back (−1).
+// Returns whether the entire part lies on the plane or in front of it (`sign` 1) or behind it (−1).
 bool isOn(const Plane& plane, const PosedPart& part, double sign, double rounding) {
     return std::ranges::all_of(part.corners, [&](const glm::dvec3& corner) {
         return sign * (glm::dot(plane.normal, corner) - plane.distance) >= -rounding;
     });
 }
 
-// Returns whether the lens, a disk around the origin of the plane z = 0, lies on the front (`sign` 1) or back (−1).
+// Returns whether the lens, a disk around the origin in the plane z = 0, lies in front of the plane (`sign` 1) or
+// behind it (−1).
 bool lensIsOn(const Plane& plane, double lensRadius, double sign) {
     return -sign * plane.distance - lensRadius * glm::length(glm::dvec2(plane.normal)) >= 0;
 }
 
 bool mayHide(const PosedPart& front, bool frontIsFlat, const PosedPart& behind, bool behindIsFlat, double lensRadius) {
-    // A plane separates `front` from `behind` and the lens.
+    // `front` cannot hide `behind` if a plane separates `front` from both `behind` and the lens.
     const double rounding = std::max(front.rounding, behind.rounding);
     for (const Plane& plane : front.planes)
         for (const double sign : {1.0, -1.0})
@@ -98,7 +99,7 @@ bool mayHide(const BlendPart& front, const BlendPart& behind, const FramePlan& p
         const PosedPart& p = front.poses[std::min(i, front.poses.size() - 1)];
         const PosedPart& q = behind.poses[std::min(i, behind.poses.size() - 1)];
         if (p.nearest + p.rounding >= q.farthest) continue;
-        // A blur that is not a + b·w bends planes, so that only depths can be compared.
+        // If C(w) isn't a + b·w, the lens shear doesn't preserve planes, so only the depths are compared.
         if (plan.usesCocControls || mayHide(p, front.flat, q, behind.flat, 0.5 * plan.apertureDiameter)) return true;
     }
     return false;

@@ -29,7 +29,7 @@ struct PosedPart {
 struct BlendPart {
     std::vector<PosedPart> poses;  // one pose, or one for each shutter time
     bool flat = false;             // the part is a single triangle
-    // Rectangle of the image in px, relative to its centre, that contains all lens samples' images of the part.
+    // Bounds in px, relative to the centre of the image, of the part's projections in all lens samples.
     glm::dvec2 low{0}, high{0};
 };
 

@@ -89,8 +89,8 @@ std::vector<std::vector<SeenPoint>> seenPoints(const FramePlan& plan) {
     parallelFor(rays.size(), [&](std::size_t i) {
         const auto column = static_cast<double>(i % rayColumns);
         const auto row = static_cast<double>(i / rayColumns);
-        // Use 0.501 instead of 0.5: crossing() divides by the components, and with an odd number of rays, 0.5 would
-        // make one of them 0.
+        // Use 0.501 instead of 0.5: crossing() divides by the components of the direction, and with an odd number of
+        // rays, 0.5 would make a component of the central rays 0.
         rays[i] = seenAlong(plan, {2 * (column + 0.501) / rayColumns - 1, 2 * (row + 0.501) / rayRows - 1});
     });
     std::erase_if(rays, [](const std::vector<SeenPoint>& ray) { return ray.empty(); });

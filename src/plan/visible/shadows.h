@@ -27,7 +27,7 @@ struct ShadowProjection {
         clipRows{};            // matrix rows to clip space, reversed depth; w is 1 for parallel light, else depth in m
     glm::vec3 toLight{0.0f};   // unit vector to the light, for directional lights
     float texel = 0;           // texel width in m at w = 1
-    glm::vec3 radiance{0.0f};  // EnvironmentDirections::Choice::radiance over π, for the surroundings
+    glm::vec3 radiance{0.0f};  // EnvironmentDirections::Choice::radiance divided by π, for the environment
 };
 
 // Returns the max number of points on each light for which a sample needs at most maxShadowMaps maps. `maps` is the

@@ -24,11 +24,11 @@ struct PixelRectangle {
 
 struct Tile {
     PixelRectangle area;
-    PixelRectangle cell;  // cell whose window coordinates are used; it contains `area`
+    PixelRectangle cell;  // cell of the image whose window coordinates are used; it contains `area`
     bool operator==(const Tile&) const = default;
 };
 
-inline constexpr int maxCellPixels = 8192;  // maximum width and height of a cell
+inline constexpr int maxCellPixels = 8192;  // px; larger images are divided into cells with separate window coordinates
 
 // Returns the cells of an image, row by row. All cells have the same size, except that the last cell of a row or column
 // may be smaller.

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double snapping = 1.0 / 128;      // max change in px of a triangle's altitude by rounding to 8 subpixel bits
-constexpr double transformation = 0x1p-21;  // max error of a single-precision position, relative to its terms
+constexpr double transformation = 0x1p-21;  // max error of a single-precision position, relative to its summands
 constexpr double storage = 1e-6;            // relative error of a cluster's stored values
 constexpr double guardBand = 1.8;           // |NDC| beyond which triangles may be clipped
 constexpr int shutterParts = 4;         // parts of the time between two shutter times; each has its own motion bound
@@ -28,7 +28,7 @@ constexpr std::size_t maxMoments = 64;  // max shutter times for culling; with m
 // max vertices per level, over all shutter times; posing them takes about 10 ms
 constexpr std::size_t maxPosedVertices = 100'000;
 constexpr double minSaving = 1.0 / 8;  // fraction of a level's triangles; if less is culled, all are drawn
-constexpr std::uint32_t minGap = 128;  // min triangles to skip; drawing fewer costs less than another index range
+constexpr std::uint32_t minGap = 128;  // min triangles to skip; drawing fewer costs less than another range
 
 // Bounds of the lens in object space during a part of the exposure.
 struct LensRange {
@@ -98,7 +98,7 @@ void addLenses(ObjectViews& views, const ObjectPlan& object, const World& world)
     views.lenses = std::move(lenses);
 }
 
-// Returns the radius on the unit disk that contains all lens samples.
+// Returns the largest distance of a lens sample from the lens's centre, in radii of the lens.
 double lensReach(const FramePlan& plan) {
     double reach = 0;
     for (const LensSample& sample : plan.samples)

@@ -20,8 +20,8 @@
 // needs a C that is one linear function inside the cluster's box. It also needs rigid vertices without blur modifiers,
 // so no skins or morph targets. Otherwise each triangle of the cluster is posed on the CPU and tested by its corners.
 // Static triangles use Eq. 5, moving ones Eq. 7 and 8 (lens_facing.h). The corner test is valid only for triangles that
-// are drawn undivided. Objects whose triangles are divided keep these clusters. Large meshes also keep them, because
-// the test would take too long.
+// are drawn undivided. Clusters that would need it are not culled if the object's triangles are divided, or if the mesh
+// is so large that the test would take too long.
 //
 // Rounding. A renderer rounds positions, to 1/256 px at best, and this may flip a narrow triangle. The lens must
 // therefore lie behind the planes by a margin larger than any rounding. Then no culled triangle would have drawn a

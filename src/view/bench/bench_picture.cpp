@@ -35,7 +35,7 @@ Image benchReference(const Document& document, const ViewState& state, const Vie
     return renderedReference(document.frame->world, view, reference, progress).image;
 }
 
-// Returns the image at another size, bilinearly interpolated between pixel centres as the window's texture is.
+// Returns the image at another size, interpolated bilinearly like the window's texture.
 Image enlarged(const Image& image, int width, int height) {
     if (image.width == width && image.height == height) return image;
     Image result(width, height, image.channels);

@@ -30,7 +30,7 @@ private:
 Image benchReference(const Document& document, const ViewState& state, const View& view,
                      const ViewBenchOptions& options, const Progress& progress);
 
-// Returns the image at another size, bilinearly interpolated between pixel centres as the window's texture is.
+// Returns the image at another size, interpolated bilinearly like the window's texture.
 Image enlarged(const Image& image, int width, int height);
 
 }  // namespace defocus::engine

@@ -1,6 +1,7 @@
 #pragma once
-// Measures how fast and how well the window answers a change of focus or f-number while the camera stands still: with
-// and without kept lens images (picture/kept_images.h).
+// Measures the frame time and the picture quality after a change of focus or f-number while the camera stands still.
+// Compares a window that keeps lens images (the image of each lens sample; picture/kept_images.h) with one that
+// doesn't.
 
 #include "view/bench/view_bench.h"
 
@@ -9,13 +10,13 @@ namespace defocus::engine {
 struct RefocusBenchRow {
     std::string method;             // method in the format of MethodUse::text
     std::string change;             // such as "focus 2 to 1.4 m"
-    std::uint32_t keptImages = 0;   // lens images that the window keeps; 0: keeps none
+    std::uint32_t keptImages = 0;   // lens images (one per lens sample) that the window keeps; 0: none
     double dragMilliseconds = 0;    // median time of a frame while the value is dragged
     FrameQuality dragQuality;       // resolution and lens samples of the last frame of the drag
-    double dragPsnr = 0;            // PSNR of this frame, dB
+    double dragPsnr = 0;            // PSNR of the last frame of the drag, dB
     double fullMilliseconds = 0;    // time from the last change to the first picture at full quality
-    std::uint32_t fullSamples = 0;  // lens samples of this picture
-    double fullPsnr = 0;            // PSNR of this picture, dB
+    std::uint32_t fullSamples = 0;  // lens samples of the first picture at full quality
+    double fullPsnr = 0;            // PSNR of the first picture at full quality, dB
 };
 
 // Measures the methods on the document's scene at ViewState::pictureSize. For each method, drags the focus halfway, in

@@ -18,7 +18,7 @@ namespace defocus::engine {
 struct ViewBenchOptions {
     std::vector<MethodUse> methods;        // methods to measure, one after another
     std::uint32_t frames = 60;             // frames of the movement, ≥ 4: an orbit of 1° per frame
-    double restSeconds = 10;               // max time that the picture is watched after the movement, s
+    double restSeconds = 10;               // max time to measure after the movement, s
     double convergedError = 0.005;         // estimated error at which the picture at rest counts as converged
     std::uint32_t referenceSamples = 512;  // lens samples of a reference at full detail, 2 … maxSamples
     std::filesystem::path shaderFolder;    // replacement shaders; empty: the embedded shaders
@@ -32,7 +32,7 @@ struct ViewBenchRow {
     double firstPicture = 0;     // time from the first change of the camera to its finished frame, ms
     FrameQuality quality;        // quality of the last frame of the movement
     double movingPsnr = 0;       // PSNR in dB, from the mean squared error of three frames of the movement
-    double stillPicture = 0;     // time from the end of the movement to the first picture that accumulates, s
+    double stillPicture = 0;     // time from the end of the movement to the first accumulated picture, s
     double converged = 0;        // time from the end of the movement to the converged picture, s; infinity: not reached
     std::uint32_t samples = 0;   // lens samples of the picture at the end
     double stillPsnr = 0;        // PSNR of the picture at the end, dB

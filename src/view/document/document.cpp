@@ -46,7 +46,7 @@ void sayCacheFailure(const PreparedFrame& frame, ViewState& state) {
     if (!frame.cacheFailure.empty()) sayFault(state, "simplified meshes are not cached: " + frame.cacheFailure);
 }
 
-// Replaces the scene and resets the state that belongs to a scene.
+// Replaces the scene, and resets the state of the previous scene.
 void adoptScene(Document& document, ViewState& state, LoadedScene scene) {
     document.frame = std::move(scene.frame);
     document.draft = scene.draft;

@@ -23,7 +23,7 @@ struct Document {
     std::uint64_t worldVersion = 0;          // incremented when GPU copies of the world must be rebuilt
 };
 
-// Starts to open a scene. Keeps samples, levels, method and surroundings of the current request.
+// Starts to open a scene. Keeps samples, levels, method and environment of the current request.
 void openScene(Document& document, const ViewState& state, const std::filesystem::path& scene);
 
 // Adopts the loader's result, if there is one. Returns whether a new scene was opened, which invalidates all references
@@ -41,9 +41,9 @@ void noteEdit(Document& document, const ViewState& state, bool held);
 void actOnDocument(Document& document, ViewState& state, const ViewActions& actions, bool exporting);
 
 // Applies all differences between the state's request and Document::shown: camera, aperture image, blur of nodes, time
-// and hidden nodes, ground, surroundings, lights. A change that can't be applied is reverted, with a message. `held`: a
-// mouse button is held down; surroundings are applied after its release. A ground is applied after the pyramids are
-// built.
+// and hidden nodes, ground plane, environment, lights. A change that can't be applied is reverted, with a message.
+// `held`: a mouse button is held down; the environment is applied after its release. The ground plane is applied once
+// the pyramids are built.
 void updateWorld(Document& document, ViewState& state, bool held);
 
 // Switches to a camera of the file, or "auto", and to the camera's lens. Throws Error for an unknown camera.

@@ -1,6 +1,6 @@
 #pragma once
-// Undo and redo of everything that affects the picture: camera, lens, surroundings, levels, samples, exposure.
-// Overlays, comparisons and the animation's time are not part of an edit.
+// Undo and redo of everything that affects the picture: camera, lens, environment, levels, samples, exposure. Overlays,
+// comparisons and the animation's time are not part of an edit.
 
 #include <deque>
 #include <optional>

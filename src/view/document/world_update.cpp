@@ -1,4 +1,4 @@
-// Updates the world of a document to the request of the window's state. Panels, keys and undo change only the request.
+// Applies the request in the window's state to the document's world. Panels, keys and undo change only the request.
 
 #include <algorithm>
 #include <tuple>
@@ -40,7 +40,8 @@ void apply(const Part& part, Document& document, ViewState& state, const Update&
     }
 }
 
-// Returns the request for a camera of the file, without the request's own camera position and image-dependent focus.
+// Returns the state's request with a camera of the file. Omits the camera position and a focus that depends on the
+// image.
 Request cameraRequest(const ViewState& state, const CameraChoice& camera) {
     Request request = state.options;
     request.camera = camera;
@@ -73,7 +74,7 @@ PlacedCamera followedCamera(const Document& document, const ViewState& state) {
     return placed;
 }
 
-// Poses the world as the options in `state` request. Clears the selection if the selected object is hidden.
+// Poses the world according to state.options. Clears the selection if the selected object is hidden.
 void updatePose(Document& document, ViewState& state) {
     const Scene& scene = *document.frame->scene;
     World& world = document.frame->world;

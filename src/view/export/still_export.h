@@ -26,11 +26,11 @@ public:
     // pose must not change.
     StillExport(const PreparedFrame& frame, const StillRequest& request);
 
-    // Draws one wave of samples, or writes the file once all samples are drawn. Returns false after the file is
+    // Draws one batch of samples, or writes the file once all samples are drawn. Returns false after the file is
     // written.
     bool step();
     [[nodiscard]] double share() const { return driver_->share(); }  // finished fraction, 0 … 1
-    [[nodiscard]] double secondsLeft() const;                        // estimate; infinity before the first wave
+    [[nodiscard]] double secondsLeft() const;                        // estimate; infinity before the first batch
     [[nodiscard]] const StillRequest& request() const { return request_; }
 
 private:

@@ -53,7 +53,8 @@ void nodeBlurRow(const Ui& ui) {
     ImGui::EndDisabled();
 }
 
-// Draws how many lens images the window keeps for changes of focus and f-number. The tooltip says why it keeps none.
+// Shows how many lens images (images of single lens samples) are kept to change focus and f-number without rendering.
+// The tooltip says why none are kept.
 void lensImagesRow(const Ui& ui) {
     const KeptImages* const kept = ui.picture.image ? ui.picture.image->keptImages() : nullptr;
     std::string about =

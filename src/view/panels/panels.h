@@ -35,8 +35,8 @@ DEFOCUS_PANELS(DEFOCUS_DECLARE_PANEL)
 
 inline constexpr double panelWidth = 364;  // width in interface units; see interfaceScale
 
-// Returns the settings of the section "Samples and levels" from top to bottom: those of samples, levels and methods
-// that affect the pixels and have a widget.
+// Returns the settings of the section "Samples and levels" from top to bottom: the settings of samples, levels and
+// methods that affect the pixels and have a widget.
 std::vector<const Setting*> settingsPanelRows();
 
 // Draws the panel to the right of the picture.

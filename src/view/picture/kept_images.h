@@ -1,7 +1,7 @@
 #pragma once
-// Lens images of a still view. The window computes pictures with another focus distance or a smaller
-// aperture from them in one frame, by the mathematics of refocus/refocus.h. Their levels of detail suit all focus
-// distances of a range around the view's own.
+// Keeps lens images of a still view: the image of each lens sample. The window computes pictures with another focus
+// distance or a smaller aperture from these images in one frame, by the mathematics of refocus/refocus.h. Levels of
+// detail of the images suit all focus distances of a range around the view's own.
 
 #include <cstdint>
 #include <filesystem>
@@ -43,8 +43,8 @@ public:
     [[nodiscard]] bool complete() const { return planned() > 0 && drawn_ == planned(); }
     // Returns why no images are planned; empty if images are planned or begin() was not called.
     [[nodiscard]] const std::string& obstacle() const { return obstacle_; }
-    // Returns the number of planned images in a picture for the lens's focus distance and f-number. Returns 0 if either
-    // value is outside the range of the images, or if less than a quarter of the images lie within the aperture.
+    // Returns how many planned images contribute to a picture with the lens's focus distance and f-number. Returns 0 if
+    // either value is outside the range of the images, or if less than a quarter of the images lie within the aperture.
     [[nodiscard]] std::uint32_t serving(const Lens& lens) const {
         return static_cast<std::uint32_t>(imagesFor(lens).size());
     }

@@ -93,8 +93,8 @@ void makeImage(LivePicture& picture, const Document& document, const ViewState& 
     picture.worldVersion = document.worldVersion;
 }
 
-// Turns off comparison and popping test; if neither is on, replaces the method by accumulation. Returns false if
-// nothing could be simplified.
+// Simplifies a request that failed: turns off comparison and popping test or, if neither is on, replaces the method by
+// accumulation. Returns false if nothing could be simplified.
 bool simplifyRequest(ViewState& state) {
     if (state.comparison != Comparison::none || state.poppingSince) {
         state.comparison = Comparison::none;

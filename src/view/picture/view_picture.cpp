@@ -35,7 +35,7 @@ std::vector<double> imageKey(const PictureRequest& request) {
     return key;
 }
 
-// Returns the values that pictures from kept images may change.
+// Returns the lens values that can change in pictures computed from kept lens images.
 std::vector<double> focusKey(const Lens& lens) {
     return {lens.focusDistance, lens.fStop};
 }
@@ -206,7 +206,7 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     notePasses();
 }
 
-// Draws the picture from the kept images. Returns false if too few of them suit the request's lens.
+// Draws the picture from the kept lens images. Returns false if too few of them suit the request's lens.
 bool ViewPicture::drawRefocused(const PictureRequest& request) {
     const Lens& lens = request.view.lens;
     const std::uint32_t serving = images_ && images_->complete() && !showsWork_ ? images_->serving(lens) : 0;
@@ -247,7 +247,7 @@ void ViewPicture::planImages(const PictureRequest& request) {
     images_->begin(request.view, settingsOf(request.settings, request.sides[0]), first().plan(), request.imageBytes);
 }
 
-// Returns whether grow() draws kept images next.
+// Returns whether the next call of grow() draws lens images to keep instead of samples.
 bool ViewPicture::keepsMore() const {
     if (!growing_ || !images_ || images_->drawn() == images_->planned()) return false;
     return first().samples() >= blockSamples || !grows_;
@@ -329,8 +329,8 @@ void ViewPicture::present(const PictureRequest& request) {
     }
     displayTimer_.reset();
     displayTimer_.begin();
-    // Draw frames of a moving view at their own resolution, because this pass is slow on a CPU; the window enlarges the
-    // result.
+    // Draw frames of a moving view at their own resolution, because the display pass is slow on a CPU. The window
+    // enlarges the result.
     const TextureInfo& image = inputs.first->info();
     const bool fullSize = growing_ || display.wireframe;
     display_.draw(inputs, display, fullSize ? request.view.width : image.width,

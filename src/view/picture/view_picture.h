@@ -3,10 +3,10 @@
 // that fits the time budget. While the view is still, the image accumulates samples. Shows one image, or two for
 // comparison, and overlays.
 //
-// After the first block of samples of a still view, its lens images are kept (kept_images.h). If only the focus
-// distance or the f-number changes, the picture is computed from these images until the accumulated image has as many
-// samples. If OpenGL runs on the CPU and adding all images takes longer than the budget, fewer images are added until
-// the view is still.
+// After the first batch of samples of a still view, the images of its lens samples are also drawn and kept
+// (kept_images.h). If only the focus distance or the f-number changes, the picture is computed from these images until
+// the accumulated image has as many samples. If OpenGL runs on the CPU and adding all images takes longer than the
+// budget, fewer images are added until the view is still.
 
 #include <chrono>
 #include <memory>
@@ -86,7 +86,7 @@ public:
     // Returns the times of the latest frame: passes from timer queries, set-up by wall clock.
     [[nodiscard]] const std::vector<PassTime>& passes() const { return passes_; }
     [[nodiscard]] std::uint64_t changes() const { return changes_; }  // number of changes of the view or the scene
-    [[nodiscard]] std::uint64_t begun() const { return begun_; }      // number of still images that were begun
+    [[nodiscard]] std::uint64_t begun() const { return begun_; }      // number of still images begun so far
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -103,7 +103,7 @@ private:
 
     [[nodiscard]] const ProgressiveImage& first() const { return sides_[0]->image; }
     [[nodiscard]] const GlTexture& firstTexture();
-    [[nodiscard]] std::uint32_t minSamples() const;                    // smaller sample count of both sides
+    [[nodiscard]] std::uint32_t minSamples() const;                    // smaller of the sample counts of both sides
     [[nodiscard]] double growthTime(const FrameBudget& budget) const;  // ms
     bool prepareSides(const PictureRequest& request);
     void drawMoving(const PictureRequest& request, FrameBudget& budget);

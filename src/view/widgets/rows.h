@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 // Draws the row of the setting `name`. Returns whether the request changed. Values that the setting rejects are
 // ignored. `first`: the value that a checkbox turns on; empty: no checkbox, since the setting always has a value. The
-// overload without `first` uses Setting::example, which every setting has that may be unset.
+// overload without `first` uses Setting::example, which is given for every setting that may be unset.
 bool settingRow(Request& request, const std::string& name);
 bool settingRow(Request& request, const std::string& name, const std::string& first);
 

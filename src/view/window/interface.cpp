@@ -63,7 +63,7 @@ void ViewInterface::feed(const std::vector<WindowEvent>& events) {
         ImGui_ImplGlfw_KeyCallback(window, event.key, 0, event.pressed ? 1 : 0, 0);
     };
     if (const bool focused = window_->focused(); focused != std::exchange(focused_, focused) && !focused)
-        std::ranges::fill(io.KeysDown, false);  // another window receives the key releases
+        std::ranges::fill(io.KeysDown, false);  // focus was lost: another window receives the key releases
     for (const WindowEvent& event : std::exchange(tappedKeys_, {})) tell(event);
     std::array<bool, 3> pressed{};
     std::set<int> down;
