@@ -37,8 +37,8 @@ struct LeastSquares {
     Numbered<UnknownNumber, std::uint8_t> held;  // 1: the unknown keeps its initial value; may be empty
 
     static constexpr int iterations = 4;  // number of iterations; more cause no visible change
-    // Strength of the pull towards the prior, relative to an unknown's weight. Prevents overshoot of unknowns with few
-    // points.
+    // Strength of the pull towards the prior, relative to an unknown's weight. It prevents overshoot of unknowns with
+    // few points.
     static constexpr float pull = 0.01f;
 
     // Solves the system; overwrites `sums`.
