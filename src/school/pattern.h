@@ -22,7 +22,7 @@ struct FishBand {  // band around the body
 struct FishStripes {      // stripes along the body
     float count = 0.0f;   // number of stripes over the body's height; 0: none
     float share = 0.45f;  // painted fraction of a stripe's period
-    float slant = 0.0f;   // rise towards the tail, in half body heights per body length
+    float slant = 0.0f;   // rise of the stripes towards the tail, in half body heights per body length
     float wave = 0.0f;    // amplitude of the stripes' waviness, in stripe periods
     float from = 0.3f;
     float to = 1.0f;

@@ -27,7 +27,7 @@ public:
         return (shifted >> turn) | (shifted << ((32u - turn) & 31u));
     }
 
-    // Returns a random value in [0, 1) with 24 bits.
+    // Returns a random value in [0, 1) with 24 random bits.
     float uniform() { return static_cast<float>(next() >> 8u) * 0x1p-24f; }
     float uniform(float low, float high) { return low + (high - low) * uniform(); }
     // Returns `value` times a random factor in 1 ± `relative`.

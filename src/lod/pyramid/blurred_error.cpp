@@ -34,7 +34,7 @@ constexpr float maxUnseenGrowth = 4;
 
 // ---- averages over patches
 
-// Sums of squares over all cells and channels, one per patch size. Entry 0 is the sum for single cells, the other
+// Sums of squares over all cells and channels, one per patch size. Entry 0 is the sum for single cells; the other
 // entries are sums for patch means.
 using SquareSums = std::array<double, blurSizes>;
 using SurroundSums = std::array<SquareSums, surrounds.size()>;
@@ -43,9 +43,9 @@ using SurroundSums = std::array<SquareSums, surrounds.size()>;
 // the black squares of a checkerboard.
 class Patches {
     struct Size {
-        CellBox shown;                                // patches that may contain lit cells
+        CellBox shown;                                // patches that may contain non-black cells
         CellBox kept;                                 // `shown`, padded with empty patches for the next patch size
-        std::array<LargeVector<glm::vec3>, 2> means;  // means over white and over black squares; empty for single cells
+        std::array<LargeVector<glm::vec3>, 2> means;  // over white and black checker squares; empty for single cells
     };
 
 public:

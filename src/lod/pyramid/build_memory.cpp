@@ -41,7 +41,7 @@ std::uint64_t keptBytes(const Mesh& mesh) {
     return 2 * fullDetailBytes(mesh);
 }
 
-// Returns whether the memory limit allows to build on all cores: the largest meshes at the same time, when all other
+// Returns whether the memory limit allows building on all cores: the largest meshes at the same time, when all other
 // pyramids are already finished. `order`: mesh indices, the largest mesh first.
 bool fitsInParallel(const std::vector<Mesh>& meshes, const std::vector<std::size_t>& order,
                     const PyramidOptions& options) {

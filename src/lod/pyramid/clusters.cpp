@@ -20,7 +20,7 @@ namespace {
 
 constexpr float coneWeight = 0.75f;     // weight of orientation relative to distance, 0 to 1
 constexpr float minTurn = 1e-3f;        // min cost factor for a difference in orientation
-constexpr std::size_t seedsAhead = 64;  // max unassigned triangles kept and tested as the first one of a cluster
+constexpr std::size_t seedsAhead = 64;  // max unassigned triangles kept as candidates for a cluster's first triangle
 // Max number of triangles at one vertex that a cluster considers. Files may have millions of triangles at one vertex.
 constexpr std::size_t maxNeighbours = 1024;
 

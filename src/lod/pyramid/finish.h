@@ -39,8 +39,8 @@ struct FinishMap {
     [[nodiscard]] glm::vec3 at(const glm::vec2& uv0, const glm::vec2& uv1) const;
 };
 
-// Simplified material. The default is white and matt, tinted by vertex colours only; it is used for meshes without a
-// scene.
+// Simplified material. The default is white and matt, tinted by vertex colours only. Meshes without a scene use this
+// default.
 struct Finish {
     bool unlit = false;
     glm::vec3 baseColor{1.0f};

@@ -11,8 +11,8 @@ namespace defocus::engine {
 namespace {
 
 constexpr double referenceSamples = 64;
-constexpr LodThresholds referenceSize{0.25, 3.3};     // `blur` and `size` at 64 samples; target: mean edge in px
-constexpr LodThresholds referenceError{0.018, 0.18};  // `blur` and `size` at 64 samples; target: max distance in px
+constexpr LodThresholds referenceSize{0.25, 3.3};     // blur and size at 64 samples, for target edge lengths in px
+constexpr LodThresholds referenceError{0.018, 0.18};  // blur and size at 64 samples, for target errors in px
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double sampleErrorExponent = 0.65;
 constexpr double lightOfSampleError = 6.7;   // default of LodThresholds::light for one sample, px

@@ -19,20 +19,20 @@ const char* lodMetricName(LodMetric metric);
 // converge to full detail. For the metrics `size` and `error`, the target is max(blur · c, size) px for a circle of
 // confusion of c px. For `proportional`, `blur` is the level of an object whose circle of confusion is as large as its
 // bounding box. For `measured`, a level's error is at most light / edge for edges of `edge` px. This error is
-// dimensionless: it is relative to the standard deviation of the object's radiance within its blur. Therefore, `light`
-// is in px.
+// dimensionless, because it is relative to the standard deviation of the object's radiance within its blur. `light` is
+// therefore in px.
 struct GivenThresholds {
-    std::optional<double> blur = {};   // target in px per px of CoC; number of levels for `proportional`; ≥ 0
-    std::optional<double> size = {};   // min target in px, ≥ 0; only for LodMetric::size and LodMetric::error
-    std::optional<double> light = {};  // limit in px, ≥ 0; only for LodMetric::measured, which ignores the other two
+    std::optional<double> blur = {};   // target edge length or error per CoC diameter; levels for `proportional`; ≥ 0
+    std::optional<double> size = {};   // min target edge length or error in px, ≥ 0; for LodMetric::size and ::error
+    std::optional<double> light = {};  // max error · edge length, px, ≥ 0; the only threshold of LodMetric::measured
 };
 
 // Resolves LodMetric::automatic to a concrete metric; returns any other metric unchanged.
 LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given);
 
 struct LodThresholds {
-    double blur = 0;  // target in px per px of CoC; number of levels for `proportional`
-    double size = 0;  // min target in px
+    double blur = 0;  // target edge length or error per CoC diameter; number of levels for `proportional`
+    double size = 0;  // min target edge length or error in px
     // Max product of a level's edge length in px and its error in standard deviations of the radiance within the blur.
     // Only for LodMetric::measured; see measuredLimit.
     double light = 0;

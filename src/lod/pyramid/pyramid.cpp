@@ -27,8 +27,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double minEdgeGrowth = 1.05;   // min ratio of the mean edges of consecutive levels
-constexpr double minEdgeToError = 2;     // min ratio of a level's mean edge to its error
+constexpr double minEdgeGrowth = 1.05;   // min ratio of the mean edge lengths of consecutive levels
+constexpr double minEdgeToError = 2;     // min ratio of a level's mean edge length to its error
 constexpr double minErrorGrowth = 1.25;  // min ratio of the errors of consecutive levels, from level 1 on
 constexpr double errorFloor = 1e-6;      // min error, relative to the bounding box's diagonal
 // Number of points on each of two surfaces for measuring the distance between a level and level 0. It equals the number

@@ -151,7 +151,7 @@ private:
     std::mutex mutex_;
     std::vector<double> shares_;
     std::size_t finished_ = 0;
-    double total_ = 0;    // triangles of all meshes, plus one per mesh
+    double total_ = 0;    // number of triangles of all meshes, plus one per mesh
     double reached_ = 0;  // finished part of `total_`
 };
 

@@ -65,7 +65,7 @@ public:
 
 private:
     std::vector<Handover> handovers_;
-    HalfedgeHandle judged_;  // half-edge of the last judge()
+    HalfedgeHandle judged_;  // half-edge whose collapse judge() evaluated last
 };
 
 // Computes the cost of a collapse: the quadric errors of both vertices at the surviving vertex, plus a small term for

@@ -52,7 +52,7 @@ public:
             sink(place, last);
     }
 
-    // Returns the vertex with the lowest cost; the queue must not be empty.
+    // Returns the vertex to collapse next. The queue must not be empty.
     [[nodiscard]] VertexHandle best() const { return VertexHandle(static_cast<int>(heap_.front() & 0xffffffffu)); }
     VertexHandle takeBest() {
         const VertexHandle vertex = best();

@@ -31,8 +31,8 @@ struct LeastSquares {
 
     std::span<const TriangleSums> triangles;
     Numbered<TriangleCorner, UnknownNumber> corners;
-    Numbered<UnknownNumber, float> weights;      // Σ share·weight; 0: the unknown keeps its initial value
-    Rows sums;                                   // Σ share·weight·target
+    Numbered<UnknownNumber, float> weights;      // sums of the weights; 0: the unknown keeps its initial value
+    Rows sums;                                   // sums of the weighted targets
     Rows solution;                               // input: initial value and prior; output: solution
     Numbered<UnknownNumber, std::uint8_t> held;  // 1: the unknown keeps its initial value; may be empty
 

@@ -73,7 +73,7 @@ struct LevelMesh {
     // A back vertex shares its normal and colour only with other back vertices.
     Numbered<LevelVertexNumber, std::uint8_t> apart;
     Numbered<ComponentNumber, Growth> growths;
-    Numbered<LevelVertexNumber, ComponentNumber> growthsOf;  // component of each vertex; empty if there are no growths
+    Numbered<LevelVertexNumber, ComponentNumber> growthsOf;  // component of each vertex; empty if no component grows
 };
 
 // Fitted attributes of each vertex of a LevelMesh.

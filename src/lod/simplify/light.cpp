@@ -40,7 +40,8 @@ struct LitPoint {
     float light = 0;  // area times the mean of the colour channels
 };
 
-// Calls visit(vertex indices of a triangle, point) for sample points. Returns the area of the surface.
+// Calls visit(corners, point) for sample points, with the vertex indices of the point's triangle. Returns the surface
+// area.
 template <typename Visit>
 double forEachLitPoint(const LitSurface& surface, std::size_t minPoints, const Visit& visit) {
     const std::size_t triangles = surface.indices.size() / 3;
@@ -154,7 +155,7 @@ struct FollowingMeans {
     LargeVector<GroupSlopes> slopes;
 };
 
-// Computes the mean radiance under each light and its derivatives. Reuses the possibly large memory of `result`.
+// Computes the mean radiance under each light and its derivatives. Reuses the memory of `result`.
 void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, std::size_t minPoints,
             FollowingMeans& result) {
     const Lights from = lights();

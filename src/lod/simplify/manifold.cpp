@@ -106,7 +106,7 @@ EdgeGroups groupEdges(const PairedSurface& surface) {
     EdgeGroups groups;
     groups.starts.reserve(edgeCount / 2 + edgeCount / 16);
     std::uint32_t seen = 0;
-    std::vector<std::pair<PositionNumber, SurfaceCorner>> keys;  // higher position, half-edge
+    std::vector<std::pair<PositionNumber, SurfaceCorner>> keys;  // pairs of higher position number and half-edge
     for (const PositionNumber p : byLow.keys()) {
         keys.clear();
         const std::span<SurfaceCorner> edges = byLow[p];

@@ -132,7 +132,7 @@ public:
 template <typename Key, typename Item>
 class Buckets {
 public:
-    // Groups the items 0 … itemCount − 1 by keyOf(item), below keyCount. Items with an invalid key are left out.
+    // Groups the items 0 … itemCount − 1 by keyOf(item) < keyCount. Items with an invalid key are left out.
     template <typename KeyOf>
     Buckets(std::size_t keyCount, std::size_t itemCount, const KeyOf& keyOf) : first_(keyCount + 1, 0) {
         const auto items = numbersBelow<Item>(itemCount);

@@ -32,13 +32,13 @@ constexpr std::size_t fewTriangles = 2048;
 constexpr int maxVainRounds = 4;  // max consecutive rounds without improvement
 constexpr double maxWay = 48;     // max distance to level 0's outline in cells; farther outlines belong to another part
 constexpr int maxEdgePoints = 24;
-constexpr double stiffness = 0.1;      // damping of moves, relative to the weight of the outline points
-constexpr double maxMoveShare = 0.25;  // max move per round, relative to the mean length of the vertex's edges
+constexpr double stiffness = 0.1;      // damping of displacements, relative to the weight of the outline points
+constexpr double maxMoveShare = 0.25;  // max displacement per round, relative to the vertex's mean edge length
 constexpr double constraintSlack = 1e-3;
 
 // An edge with up to two of its faces.
 struct Edge {
-    std::uint32_t a = 0, b = 0;  // vertex groups, a < b
+    std::uint32_t a = 0, b = 0;  // vertex groups at the ends, a < b
     std::uint32_t third = 0;     // vertex group at the first face's third corner
     std::uint32_t face[2] = {0, 0};
     // Direction of each face along the edge. 1: from a to b; −1: from b to a; 0: no face.
@@ -48,7 +48,7 @@ struct Edge {
 
 struct Edges {
     std::vector<Edge> all;   // one edge per pair of vertex groups
-    std::vector<Edge> more;  // one edge per face after the second at an edge
+    std::vector<Edge> more;  // one edge for each face after the first two faces at an edge
 };
 
 Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {

@@ -102,7 +102,8 @@ struct AttributeQuadric {
     AttributeGradients<n> gradients{};
     AttributeRow<n> offset{};
 
-    // Adds a face at the vertex. e is zero, because the face has the vertex's own attributes at this corner.
+    // Adds a face at the vertex. The face has the vertex's own attributes at this corner, so that `offset` is
+    // unchanged.
     void addFace(const AttributeGradients<n>& face, float faceWeight) {
         squares.weight += faceWeight;
         for (std::size_t j = 0; j < n; ++j) {

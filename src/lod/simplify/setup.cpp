@@ -41,7 +41,7 @@ bool endsAt(const Crosses& crosses, FaceHandle beyond) {
     return !(glm::dot(cross, cross) > 0);
 }
 
-// Returns the weight of the constraint at half-edge `e` for the half-edge's own face, due to a seam or border.
+// Returns the weight that a seam or border adds at half-edge `e`, on the side of the half-edge's face.
 double seamConstraint(const SurfaceMesh& mesh, HalfedgeHandle e) {
     const HalfedgeHandle twin = mesh.opposite_halfedge_handle(e);
     if (mesh.is_boundary(twin) || mesh.primitive(mesh.face_handle(e)) != mesh.primitive(mesh.face_handle(twin)))
@@ -200,7 +200,7 @@ void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPosi
     s.survivors.reserve(mesh.n_vertices());
     for (const auto v : numbersBelow<VertexHandle>(mesh.n_vertices())) s.survivors.push_back(v);
     s.current.assign(s.survivors.begin(), s.survivors.end());
-    s.modules.emplace(mesh);  // modules for collapses of the complete mesh
+    s.modules.emplace(mesh);
 }
 
 }  // namespace defocus::engine

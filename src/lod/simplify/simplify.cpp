@@ -155,8 +155,8 @@ void collapseTo(Simplifier& s, std::size_t floor, std::size_t target, double sha
     bool collapsed = true;
     while (s.liveFaces > floor) {
         if (s.queue.empty()) {
-            // A collapse can make another collapse two edges away possible, but does not update that candidate. Retry
-            // all vertices once.
+            // A collapse can make another collapse possible two edges away, where candidates are not updated. Retry all
+            // vertices once.
             if (!collapsed) return;
             collapsed = false;
             fillQueue(s);

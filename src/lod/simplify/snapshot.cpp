@@ -211,11 +211,11 @@ FaceRings faceRings(const Snapshot& level, const Frame& frame) {
 struct Closest {
     double squaredDistance = 0;
     TriangleCorner corner;  // corner of the closest face; invalid: the start vertex is the closest point
-    glm::dvec2 along{0};    // coordinates along the edges to the next and the previous corner
+    glm::dvec2 along{0};    // coordinates of the closest point along the edges to the next and the previous corner
 };
 
-// Returns the corner of `face` nearest to `p`, not in `seen`, with at most maxFacesAround faces; invalid if there is
-// none.
+// Returns the corner of `face` nearest to `p` that is not in `seen` and has at most maxFacesAround faces; invalid if
+// there is none.
 VertexHandle nearestUnseen(const FaceRings& rings, TriangleNumber face, const glm::dvec3& p,
                            std::span<const VertexHandle> seen) {
     VertexHandle nearest;

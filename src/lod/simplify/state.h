@@ -34,7 +34,7 @@ struct Component {
     // Area in object units squared: the component's area in the original mesh, plus the areas of components that it
     // replaces.
     double area = 0;
-    PrimitiveNumber primitive;  // primitive of one of its faces
+    PrimitiveNumber primitive;  // primitive of one of the component's faces
     std::size_t faces = 0;      // number of remaining faces
     // Number of vertices with a good or poor collapse (simplify.h), according to the tests made so far.
     std::size_t harmless = 0;
@@ -45,7 +45,7 @@ struct Component {
 
 struct Simplifier {
     std::shared_ptr<const Origin> origin;
-    std::unique_ptr<SurfaceMesh> mesh;       // surface; compact() removes its deleted elements
+    std::unique_ptr<SurfaceMesh> mesh;       // the surface; compact() removes its deleted elements
     std::optional<CollapseModules> modules;  // collapse modules that operate on `mesh`
     // For each vertex, the vertex onto which it collapsed, or itself if it is not deleted. Invalid if its component was
     // removed.
