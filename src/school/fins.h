@@ -19,15 +19,15 @@ struct FinRay {
 struct Fin {
     FinKind kind = FinKind::dorsal;
     std::function<FinRay(float t)> ray;    // t in [0, 1] from the first to the last fin ray
-    glm::vec3 sideways{0.0f, 0.0f, 1.0f};  // direction of the ripple
+    glm::vec3 sideways{0.0f, 0.0f, 1.0f};  // direction in which the fin ripples
     float ripple = 0.02f;
     float phase = 0.0f;
     int rays = 20;
-    bool rowsAlongRays = false;  // true: vertex rows follow the fin rays (long low fins); false: rows cross them (fans)
+    bool rowsAlongRays = false;  // true: vertex rows follow the fin rays, for long low fins; false: rows cross the rays
 };
 
-// Vertex rows of a fin. `at` is the position t of each row across the fin if rows follow the fin rays, else its
-// fraction r of the distance from root to edge. `counts` holds the number of vertices of each row.
+// Vertex rows of a fin. If rows follow the fin rays, `at` is the position t of each row across the fin. Otherwise, `at`
+// is the row's fraction r of the distance from root to edge. `counts` holds the number of vertices of each row.
 struct FinRows {
     std::vector<float> at;
     std::vector<std::uint32_t> counts;

@@ -22,7 +22,7 @@ namespace {
 constexpr int maximumFish = 10'000;
 constexpr int minimumTriangles = 200;
 constexpr int maximumTriangles = 10'000'000;
-constexpr std::int64_t maximumTotal = 400'000'000;  // max triangles of a school, which take about 10 GB
+constexpr std::int64_t maximumTotal = 400'000'000;  // max triangles of a school, about 10 GB of memory
 
 // Camera: 50 mm lens at f/0.95 on a 36 mm sensor, focused at 2 m. The CoC diameter at 1024 px width is 74.9 px · |1/2 −
 // 1/z|, z in m. It is 37 px at 1 m, under 2 px from 1.90 to 2.11 m, and at most 37 px behind the focus.
@@ -31,14 +31,14 @@ constexpr double fStop = 0.95;
 constexpr double focusDistance = 2.0;
 constexpr double tanHalfWidth = 0.36;   // 36 mm / (2 · 50 mm)
 constexpr double tanHalfHeight = 0.27;  // at an aspect ratio of 4:3
-constexpr double cameraTilt = 0.28;     // radians upwards, so that the bright water surface is the backdrop
+constexpr double cameraTilt = 0.28;     // radians upwards, so that the bright water surface is the background
 
 struct Placement {
     FishSpecies species;
     int variant;
     double x, y;        // image position in [−1, 1]; +x right, +y up
     double depth;       // m
-    float length;       // length in m without tail fin
+    float length;       // length in m, without the tail fin
     double yaw, pitch;  // degrees; yaw 0: swims to the right, yaw > 0: towards the camera, pitch > 0: upwards
 };
 
@@ -79,7 +79,7 @@ glm::dvec3 worldPosition(const Placement& fish) {
 }
 
 // Scatters further fish over the view behind the focus plane until the school has `count` fish. Fish do not overlap;
-// the depth range grows with each failed attempt.
+// the depth range grows with each position that is rejected.
 void scatter(std::size_t count, std::uint32_t seed, std::vector<Placement>& school) {
     std::vector<glm::dvec3> centres;
     centres.reserve(count);
@@ -131,7 +131,7 @@ void addCamera(Scene& scene) {
     addNode(std::move(node), scene);
 }
 
-// Adds a directional light that shines along `direction` in camera axes. A glTF light shines along its node's −z axis.
+// Adds a directional light along `direction` in camera coordinates. A glTF light shines along its node's −z axis.
 void addSun(const std::string& name, const glm::vec3& color, float lux, const glm::dvec3& direction, Scene& scene) {
     Light light;
     light.name = name;

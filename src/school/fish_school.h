@@ -15,8 +15,8 @@ struct FishSchoolOptions {
     std::uint32_t seed = 1;
 };
 
-// Returns the school with its camera (fStop and focusDistance set), lights and environment. Throws Error for options
-// out of range.
+// Returns the school of fish with lights, an environment and a camera whose fStop and focusDistance are set. Throws
+// Error for options out of range.
 Scene fishSchool(const FishSchoolOptions& options = {}, const Progress& progress = {});
 
 }  // namespace defocus::engine

@@ -13,12 +13,12 @@ namespace defocus::engine {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr float eyeEdge = 0.75f;  // edge length in the eyes relative to the body; short for crisp pupils
+constexpr float eyeEdge = 0.75f;  // edge length in the eyes relative to the body; shorter for crisp pupils
 
 // ---- body ------------------------------------------------------------------------------------------
 
 struct Rings {
-    std::vector<float> at;  // body: position `a`; eye: angle from the pole
+    std::vector<float> at;  // position of each ring; body: position `a`, eye: angle from the pole
     std::vector<std::uint32_t> counts;
 };
 
@@ -27,7 +27,7 @@ float ellipsePerimeter(float p, float q) {  // approximation by Ramanujan, 1914
 }
 
 Rings bodyRings(const FishShape& shape, float edge) {
-    // Tabulate the distance from the snout along the skin, averaged over back, belly and flank. Steps are fine at the
+    // Tabulate the distance from the snout along the skin, averaged over back, belly and flank. Steps are finer at the
     // round snout.
     constexpr int pieces = 400;
     std::vector<float> distance{0.0f};
@@ -63,7 +63,7 @@ Rings bodyRings(const FishShape& shape, float edge) {
     return rings;
 }
 
-// Maps fractions of a section's girth to angles, starting at the back and passing the left flank first.
+// Maps fractions of a body section's perimeter to angles, from the back down the left flank and up the right one.
 class Girth {
 public:
     explicit Girth(const FishSection& section) {
@@ -74,7 +74,7 @@ public:
             length_[i] = length_[i - 1] + 0.5f * pi / static_cast<float>(quarter) * std::sqrt(dy * dy + dz * dz);
         }
     }
-    // Returns the angle at `fraction` (0 to 1) of the girth.
+    // Returns the angle at `fraction` (0 to 1) of the perimeter.
     [[nodiscard]] float angle(float fraction) const {
         const float turns = 4.0f * fraction;
         const float quadrant = std::floor(turns);
@@ -102,7 +102,7 @@ void addBody(const Fish& fish, const Rings& rings, float edge, FishSurface& surf
         const float a = rings.at[ring];
         const FishSection section = fishSection(shape, a);
         const Girth girth(section);
-        // For the normals, derive the outline's slope from neighbouring sections.
+        // The normals need the slope along the body, which comes from neighbouring sections.
         const float reach = std::min(0.004f, 0.4f * std::min(a, 1.0f - a));
         const FishSection ahead = fishSection(shape, a - reach);
         const FishSection behind = fishSection(shape, a + reach);
@@ -225,7 +225,7 @@ Layout layoutFor(const FishShape& shape, const std::vector<Fin>& fins, int trian
 
 void FishSurface::add(const glm::vec3& position, const glm::vec3& color) {
     positions.push_back(position);
-    // Quantise colours to 8 bits, as most files store them.
+    // Quantise colours to 8 bits, as most file formats do.
     const glm::vec3 steps = glm::floor(glm::clamp(color, 0.0f, 1.0f) * 255.0f + 0.5f);
     colors.emplace_back(steps / 255.0f, 1);
 }
@@ -234,7 +234,7 @@ Mesh fishMesh(const Fish& fish, int triangles, int skinMaterial, int eyeMaterial
     const std::vector<Fin> fins = fishFins(fish.shape);
     const Layout plan = layoutFor(fish.shape, fins, triangles);
 
-    // Build the straight fish in body lengths: body and fins, then the eyes.
+    // Build the straight fish in body lengths: first body and fins, then the eyes.
     FishSurface surface;
     surface.positions.reserve(plan.triangles / 2 + 64);
     surface.colors.reserve(plan.triangles / 2 + 64);
@@ -244,7 +244,7 @@ Mesh fishMesh(const Fish& fish, int triangles, int skinMaterial, int eyeMaterial
     const std::size_t skinIndices = surface.indices.size();
     for (const float side : {1.0f, -1.0f}) addEye(fish, plan.eye, side, surface);
 
-    // Bend the fish as if swimming, then compute normals from the displaced surface.
+    // Bend the fish as if it were swimming, then compute normals from the bent surface.
     const FishSpine spine(fish.shape);
     for (glm::vec3& position : surface.positions) position = fish.shape.length * spine.bend(position);
     Mesh mesh;

@@ -10,9 +10,9 @@
 namespace defocus::engine {
 namespace {
 
-constexpr float softness = 0.012f;  // half width of soft painted borders in body lengths, a few mesh edges
+constexpr float softness = 0.012f;  // half width of a soft colour border in body lengths, a few mesh edges
 
-// Returns 1 for |distance| < halfWidth and 0 outside, with a soft border.
+// Returns 1 for |distance| < halfWidth and 0 outside, with a soft transition.
 float painted(float distance, float halfWidth, float soft = softness) {
     return 1.0f - glm::smoothstep(halfWidth - soft, halfWidth + soft, std::abs(distance));
 }
@@ -100,10 +100,10 @@ glm::vec3 skinColor(const FishPattern& pattern, const FishShape& shape, const Fi
     const float nearMouth = 1.0f - glm::smoothstep(0.4f, 1.3f, a / std::max(shape.mouthLength, 0.02f));
     color = glm::mix(color, pattern.lips, pattern.lipsAmount * nearMouth);
 
-    // The tail's stem blends into the tail fin's colour.
+    // The body blends into the tail fin's colour at the tail.
     color = glm::mix(color, pattern.caudalRoot, glm::smoothstep(0.905f, 0.95f, a + 0.008f * wobble));
 
-    // Apply the relief: a tone per scale, pale rims, dark grooves.
+    // Apply the scale relief: each scale has its own brightness and a pale rim; grooves are dark.
     color *= 1.0f + pattern.scaleVariation * relief.scaleTone + 0.05f * wobble;
     const float brightness = std::max({color.r, color.g, color.b});
     const float rims = pattern.scaleEdgeAmount * glm::smoothstep(0.02f, 0.4f, brightness);
@@ -126,7 +126,7 @@ glm::vec3 finColor(const FishPattern& pattern, FinKind kind, float t, float r, f
     } else {
         color = glm::mix(pattern.pairedRoot, pattern.pairedEdge, glm::smoothstep(0.1f, 0.9f, r));
     }
-    // The web between the fin rays is thinner and transmits some light.
+    // The membrane between the fin rays is thinner and transmits some light.
     const float web = 1.0f - ray;
     return color * (0.82f + 0.18f * ray) + 0.06f * web * glm::smoothstep(0.2f, 1.0f, r) * glm::vec3(0.5f, 0.8f, 1.0f);
 }

@@ -12,8 +12,8 @@ namespace defocus::engine {
 struct FishBand {  // band around the body
     float a = 0.5f;
     float halfWidth = 0.05f;
-    float bow = 0.0f;    // bend of the band: shift towards the tail at back and belly
-    float slant = 0.0f;  // slant of the band: shift from belly to back
+    float bow = 0.0f;    // curvature: shift of the band towards the tail at back and belly
+    float slant = 0.0f;  // shift of the band towards the tail at the back, towards the head at the belly
     glm::vec3 color{0.0f};
     glm::vec3 rim{0.0f};
     float rimWidth = 0.0f;
@@ -22,19 +22,19 @@ struct FishBand {  // band around the body
 struct FishStripes {      // stripes along the body
     float count = 0.0f;   // number of stripes over the body's height; 0: none
     float share = 0.45f;  // painted fraction of a stripe's period
-    float slant = 0.0f;   // rise towards the tail, in half body heights per body length
-    float wave = 0.0f;    // amplitude of the waviness, in stripe periods
+    float slant = 0.0f;   // rise of the stripes towards the tail, in half body heights per body length
+    float wave = 0.0f;    // amplitude of the stripes' waviness, in stripe periods
     float from = 0.3f;
     float to = 1.0f;
     glm::vec3 color{0.0f};
 };
 
 struct FishSpots {
-    float size = 0.0f;    // spacing of the spots in body lengths; 0: no spots
+    float size = 0.0f;    // distance between spots in body lengths; 0: no spots
     float radius = 0.3f;  // radius relative to `size`
     float from = 0.3f;
     float to = 1.0f;
-    float lowest = -1.0f;  // height range, from −1 at the belly to 1 at the back
+    float lowest = -1.0f;  // lowest height of spots, from −1 at the belly to 1 at the back
     float highest = 1.0f;
     glm::vec3 color{0.0f};
     glm::vec3 halo{0.0f};
@@ -45,9 +45,9 @@ struct FishPattern {
     glm::vec3 back{0.1f};
     glm::vec3 flank{0.5f};
     glm::vec3 belly{0.8f};
-    float bellyEdge = -0.35f;  // height of the belly colour's edge, from −1 at the belly to 1 at the back
+    float bellyEdge = -0.35f;  // upper edge of the belly colour, from −1 at the belly to 1 at the back
     glm::vec3 rear{0.5f};      // colour of the rear half
-    float rearStart = 2.0f;    // start of the rear half along the body, 0 at the nose to 1 at the tail; above 1: none
+    float rearStart = 2.0f;    // position along the body, from 0 at the snout to 1 at the tail; above 1: no rear colour
     float rearSoftness = 0.15f;
     float rearSlant = 0.0f;
     glm::vec3 face{0.5f};
@@ -57,16 +57,16 @@ struct FishPattern {
     std::vector<FishBand> bands;
     FishStripes stripes;
     FishSpots spots;
-    glm::vec3 scaleEdge{1.0f};  // pale rim of the scales
+    glm::vec3 scaleEdge{1.0f};  // colour of the pale rims of scales
     float scaleEdgeAmount = 0.12f;
     float scaleVariation = 0.06f;
-    glm::vec3 medianRoot{0.5f};  // dorsal and anal fin: colour at the root
+    glm::vec3 medianRoot{0.5f};  // colour of dorsal and anal fin at the root
     glm::vec3 medianEdge{0.5f};
-    glm::vec3 medianRim{0.5f};  // thin line along the fin's edge
+    glm::vec3 medianRim{0.5f};  // colour of a thin line along the fin's edge
     float medianRimWidth = 0.0f;
     glm::vec3 caudalRoot{0.5f};
     glm::vec3 caudalEdge{0.5f};
-    glm::vec3 caudalRim{0.5f};  // line along the outermost fin rays
+    glm::vec3 caudalRim{0.5f};  // colour of lines along the outermost fin rays
     float caudalRimWidth = 0.0f;
     glm::vec3 pairedRoot{0.5f};
     glm::vec3 pairedEdge{0.5f};

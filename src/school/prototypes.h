@@ -1,6 +1,7 @@
 #pragma once
 // Fish species before random variation: outline, fins and palettes. `variant`, modulo the number of palettes, selects a
-// palette. prototypes_disks.cpp has tall disks, prototypes_ovals.cpp ovals, prototypes_swimmers.cpp long swimmers.
+// palette. Tall disk-shaped fish are in prototypes_disks.cpp, oval fish in prototypes_ovals.cpp, and long swimmers in
+// prototypes_swimmers.cpp.
 
 #include "school/mesh.h"
 

@@ -17,7 +17,7 @@ Fish angelfish(int variant) {
     s.pelvic = {FinKind::pelvic, .34f, -.86f, .269f, .45f, .22f, .75f, .03f, 8};
     s.eyeHeight = .3f;
     FishPattern& p = fish.pattern;
-    if (variant % 2 == 0) {  // blue with golden lines
+    if (variant % 2 == 0) {  // palette: blue with golden lines
         setBody(p, 0x1c3fb0, 0x1d55cf, 0x2a6fe0);
         p.stripes = {13.0f, .42f, .7f, .25f, .33f, .97f, rgb(0xffc928)};
         p.face = rgb(0x3b8be8);
@@ -35,7 +35,7 @@ Fish angelfish(int variant) {
         p.rearStart = .955f;
         p.rearSoftness = .03f;
         p.iris = rgb(0xe8a020);
-    } else {  // flame: vermilion with dark bars
+    } else {  // palette: vermilion with dark bars
         setBody(p, 0xf04a10, 0xff5d14, 0xff8f2e);
         p.bands = {{.42f, .020f, .03f, 0, rgb(0x2a0b16), {}, 0},
                    {.55f, .024f, .02f, 0, rgb(0x2a0b16), {}, 0},
@@ -74,13 +74,13 @@ Fish butterflyfish(int variant) {
     s.gillA = .29f;
     FishPattern& p = fish.pattern;
     p.bands = {{.16f, .024f, .05f, .02f, rgb(0x11131c), rgb(0xfff3d0), .012f}};
-    if (variant % 3 == 0) {  // lemon
+    if (variant % 3 == 0) {  // palette: lemon yellow
         setBody(p, 0xffb400, 0xffcf12, 0xffe45c);
         p.stripes = {15.0f, .2f, .9f, .1f, .33f, .86f, rgb(0xd98a00)};
         p.bands.push_back({.93f, .018f, -.02f, 0, rgb(0x15161d), {}, 0});
         setMedianFins(p, 0xffc40e, 0xffdd3c);
         setCaudalFin(p, 0xffcb18, 0xfff0a0);
-    } else if (variant % 3 == 1) {  // pearl with golden rear half
+    } else if (variant % 3 == 1) {  // palette: pearl with golden rear half
         setBody(p, 0xe9e4d6, 0xf4f1e6, 0xfffbf0);
         p.stripes = {12.0f, .2f, 1.5f, .1f, .32f, .74f, rgb(0x3b4a63)};
         p.rear = rgb(0xffb70a);
@@ -91,7 +91,7 @@ Fish butterflyfish(int variant) {
         p.medianRim = rgb(0x1c2230);
         p.medianRimWidth = .1f;
         setCaudalFin(p, 0xffb914, 0xffe27a);
-    } else {  // copper bands on cream
+    } else {  // palette: copper bands on cream
         setBody(p, 0xf3e2c4, 0xfaf0dc, 0xfffaf0);
         for (const float a : {.36f, .56f, .76f}) {
             p.bands.push_back({a, .038f, .03f, 0, rgb(0xf07c12), rgb(0x8a3c08), .007f});

@@ -17,7 +17,7 @@ Fish anthias(int variant) {
     s.pelvic = {FinKind::pelvic, .33f, -.82f, .291f, .4f, .2f, .6f, .03f, 8};
     s.eyeRadius = .037f;
     FishPattern& p = fish.pattern;
-    if (variant % 3 == 0) {  // orange to rose
+    if (variant % 3 == 0) {  // palette: orange to rose
         setBody(p, 0xff6a14, 0xff8426, 0xffb070);
         p.rear = rgb(0xff5a4a);
         p.rearStart = .62f;
@@ -31,7 +31,7 @@ Fish anthias(int variant) {
         setCaudalFin(p, 0xff6a34, 0xffa860);
         p.caudalRim = rgb(0xe04aa8);
         p.caudalRimWidth = .13f;
-    } else if (variant % 3 == 1) {  // magenta to amber
+    } else if (variant % 3 == 1) {  // palette: magenta to amber
         setBody(p, 0x8a2fc0, 0xc83bb4, 0xf28ac0);
         p.rear = rgb(0xff9a2e);
         p.rearStart = .60f;
@@ -43,7 +43,7 @@ Fish anthias(int variant) {
         setCaudalFin(p, 0xffa030, 0xffd070);
         p.caudalRim = rgb(0xf060b0);
         p.caudalRimWidth = .1f;
-    } else {  // coral
+    } else {  // palette: coral
         setBody(p, 0xe8382c, 0xff5f48, 0xffb49a);
         p.spots = {.055f, .2f, .3f, .95f, -.1f, .95f, rgb(0xffd24a), {}, 0};
         setMedianFins(p, 0xff4a38, 0xff8a5c);
@@ -77,7 +77,7 @@ Fish tang(int variant) {
     s.gillA = .235f;
     s.scaleSize = .034f;
     FishPattern& p = fish.pattern;
-    if (variant % 2 == 0) {  // royal blue, yellow tail
+    if (variant % 2 == 0) {  // palette: royal blue with yellow tail
         setBody(p, 0x0f35b8, 0x1b57e6, 0x3d86f5);
         p.bands = {{.86f, .035f, -.10f, .02f, rgb(0x0a1030), {}, 0}};
         p.stripes = {2.2f, .36f, -.35f, .12f, .2f, .86f, rgb(0x0b1238)};
@@ -91,7 +91,7 @@ Fish tang(int variant) {
         p.rear = rgb(0xffc400);
         p.rearStart = .965f;
         p.rearSoftness = .03f;
-    } else {  // powder blue
+    } else {  // palette: powder blue
         setBody(p, 0x3a8ee8, 0x58b0f5, 0x9ad6ff);
         p.face = rgb(0x10183a);
         p.faceAmount = .95f;
@@ -159,11 +159,11 @@ Fish goldfish(int variant) {
     s.scaleSize = .052f;
     s.finRipple = .055f;
     FishPattern& p = fish.pattern;
-    if (variant % 2 == 0) {  // gold
+    if (variant % 2 == 0) {  // palette: gold
         setBody(p, 0xf25a06, 0xff8412, 0xffc458);
         setMedianFins(p, 0xff7a14, 0xffb45a);
         setCaudalFin(p, 0xff7c16, 0xffc680);
-    } else {  // scarlet and pearl
+    } else {  // palette: scarlet and pearl
         setBody(p, 0xe0300e, 0xff5a20, 0xfff0dc);
         p.spots = {.34f, .34f, .3f, 1.0f, -1.0f, .7f, rgb(0xfff2e2), {}, 0};
         setMedianFins(p, 0xf04a1c, 0xffe2cc);

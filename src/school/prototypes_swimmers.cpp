@@ -19,7 +19,7 @@ Fish fusilier(int variant) {
     s.gillA = .25f;
     s.scaleSize = .036f;
     FishPattern& p = fish.pattern;
-    if (variant % 2 == 0) {  // steel blue under a golden back
+    if (variant % 2 == 0) {  // palette: steel blue under a golden back
         setBody(p, 0xffc21a, 0x2f8fe0, 0xdff2ff);
         p.rear = rgb(0xffc21a);
         p.rearStart = .8f;
@@ -27,7 +27,7 @@ Fish fusilier(int variant) {
         p.rearSlant = -.12f;
         setMedianFins(p, 0xf6c02a, 0xffe27a);
         setCaudalFin(p, 0xffbe14, 0xffdf5c);
-    } else {  // turquoise with a lime line
+    } else {  // palette: turquoise with a lime line
         setBody(p, 0x1664a8, 0x23a6c8, 0xe2fff4);
         p.stripes = {1.5f, .16f, .1f, .0f, .22f, .97f, rgb(0xd8f04a)};
         setMedianFins(p, 0x2a90c0, 0x7fd8e8);
@@ -57,7 +57,7 @@ Fish parrotfish(int variant) {
     s.eyeHeight = .45f;
     s.scaleSize = .06f;
     FishPattern& p = fish.pattern;
-    if (variant % 2 == 0) {  // teal, rose scale rims
+    if (variant % 2 == 0) {  // palette: teal with rose scale rims
         setBody(p, 0x0f9a98, 0x1fc0a8, 0x8fe8c0);
         p.scaleEdge = rgb(0xff7a8c);
         p.stripes = {3.2f, .16f, -.6f, .1f, .0f, .26f, rgb(0xff8a5c)};
@@ -70,7 +70,7 @@ Fish parrotfish(int variant) {
         setCaudalFin(p, 0x1fb0c8, 0xffa070);
         p.caudalRim = rgb(0x1fa0e0);
         p.caudalRimWidth = .09f;
-    } else {  // violet to green
+    } else {  // palette: violet to green
         setBody(p, 0x6a40c8, 0x8a5ad8, 0xf09ac0);
         p.scaleEdge = rgb(0x50e0d0);
         p.rear = rgb(0x2fb8b0);

@@ -1,6 +1,6 @@
 #pragma once
-// Random numbers of the fish school: PCG32 (O'Neill 2014), and value noise based on an integer hash. The standard
-// library's distributions differ between implementations; the school must be the same everywhere.
+// Random numbers of the fish school: PCG32 (O'Neill 2014), and value noise based on an integer hash. The distributions
+// of the standard library are not used, because they differ between implementations.
 
 #include <cmath>
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 class FishRandom {
 public:
-    // Seeds or streams that differ in any bit give unrelated sequences.
+    // Seeds or streams that differ in any bit give uncorrelated sequences.
     FishRandom(std::uint32_t seed, std::uint32_t stream) : increment_((std::uint64_t{stream} << 1u) | 1u) {
         next();
         state_ += 0x9e3779b97f4a7c15ull * (std::uint64_t{seed} + 1u);
@@ -27,7 +27,7 @@ public:
         return (shifted >> turn) | (shifted << ((32u - turn) & 31u));
     }
 
-    // Returns a random value in [0, 1) with 24 bits.
+    // Returns a random value in [0, 1) with 24 random bits.
     float uniform() { return static_cast<float>(next() >> 8u) * 0x1p-24f; }
     float uniform(float low, float high) { return low + (high - low) * uniform(); }
     // Returns `value` times a random factor in 1 ± `relative`.
@@ -38,7 +38,7 @@ private:
     std::uint64_t increment_;
 };
 
-// Returns a hash value in [0, 1) of a lattice point.
+// Returns a pseudorandom value in [0, 1) for a lattice point.
 inline float latticeValue(int x, int y, std::uint32_t seed) {
     const std::uint32_t hash =
         lowbias32(seed + 0x9e3779b9u * static_cast<std::uint32_t>(x) + 0x85ebca6bu * static_cast<std::uint32_t>(y));

@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr float originA = 0.45f;  // position `a` of the spine point that bending leaves in place
+constexpr float originA = 0.45f;  // position `a` of the spine's point that does not move when the spine bends
 
 float monotoneCubic(const std::array<float, 9>& x, const std::array<float, 9>& y, float at) {
     const auto slope = [&](std::size_t i) { return (y[i + 1] - y[i]) / (x[i + 1] - x[i]); };
@@ -53,8 +53,8 @@ float distanceToSegment(const glm::vec2& p, const glm::vec2& a, const glm::vec2&
     return glm::length(p - a - t * ab);
 }
 
-// Adds scales, which overlap like roof tiles: each scale covers the scale behind it. Scales are disks; the foremost
-// disk that contains the point is visible.
+// Adds scales, which overlap like roof tiles: each scale covers the front of the scale behind it. Scales are disks; the
+// foremost disk that contains the point is visible.
 void addScales(const FishShape& shape, float a, float alongGirth, float detail, FishRelief& relief) {
     const float behindGill = glm::smoothstep(shape.gillA * 0.97f, shape.gillA * 1.12f, a);
     const float beforeTail = 1.0f - glm::smoothstep(0.93f, 1.0f, a);
@@ -100,7 +100,7 @@ void addHead(const FishShape& shape, const glm::vec2& p, float detail, FishRelie
     const float toEye = glm::length(p - eye);
     relief.displacement += 0.006f * bell(toEye - 1.15f * shape.eyeRadius, std::max(0.3f * shape.eyeRadius, fine));
     const float grooveEye = 0.6f * bell(toEye - 0.95f * shape.eyeRadius, std::max(0.16f * shape.eyeRadius, fine));
-    // Gill cover: a plate with a step at its rear edge and a fold of the cheek in front.
+    // Gill cover: a plate with a step at its rear edge and a fold of the cheek in front of it.
     const FishSection gill = fishSection(shape, shape.gillA * 0.8f);
     const glm::vec2 hinge(shape.gillA * 0.52f, gill.centre + 0.05f * gill.halfHeight);
     const glm::vec2 reach(shape.gillA * 0.48f, 0.68f * gill.halfHeight);
@@ -122,7 +122,7 @@ FishSection fishSection(const FishShape& shape, float a) {
     float top = monotoneCubic(knotRoots(), shape.outline.top, root);
     float bottom = monotoneCubic(knotRoots(), shape.outline.bottom, root);
     float width = monotoneCubic(knotRoots(), shape.outline.width, root);
-    // The tail's stem flattens towards the tail fin. The end of the stem, hidden inside the fin, is rounded.
+    // The body gets thinner towards the tail fin. Its end, hidden inside the fin, is rounded.
     width *= 1.0f - 0.62f * glm::smoothstep(0.86f, 0.98f, a);
     constexpr float roundFrom = 0.975f;
     if (a > roundFrom) {
@@ -150,7 +150,7 @@ FishRelief fishRelief(const FishShape& shape, const FishSkinPoint& point, float 
 }
 
 FishSpine::FishSpine(const FishShape& shape) {
-    // Heading along the spine: the swimming wave grows from head to tail, and the turn is zero at the origin.
+    // Heading along the spine: the swimming wave grows from head to tail, and the uniform bend is zero at the origin.
     const auto heading = [&](float a) {
         const float envelope = glm::smoothstep(0.1f, 1.25f, a) + 0.08f;
         return shape.turn * (a - originA) +
@@ -173,7 +173,7 @@ glm::vec3 FishSpine::bend(const glm::vec3& straight) const {
     const float index = glm::clamp(std::floor(at), 0.0f, static_cast<float>(steps - 1));
     const Station& before = table_[static_cast<std::size_t>(index)];
     const Station& after = table_[static_cast<std::size_t>(index) + 1];
-    const float t = at - index;  // the spine continues straight beyond the table's ends
+    const float t = at - index;  // beyond the table's ends, the spine continues straight
     const glm::vec2 position = glm::mix(before.position, after.position, t);
     const float heading = glm::mix(before.heading, after.heading, glm::clamp(t, 0.0f, 1.0f));
     return {position.x + straight.z * std::sin(heading), straight.y, position.y + straight.z * std::cos(heading)};

@@ -1,7 +1,7 @@
 #pragma once
 // Shape parameters of one fish: outline, fins, relief and swimming bend. Lengths are in body lengths (snout to root of
-// the tail fin), except FishShape::length in m. Position `a` runs from 0 at the snout to 1 at the root of the tail fin.
-// The fish faces +x; its back is +y.
+// the tail fin), except FishShape::length in m. The position `a` along the body runs from 0 at the snout to 1 at the
+// root of the tail fin. The fish faces +x; its back is +y.
 
 #include <array>
 #include <glm/vec2.hpp>
@@ -10,7 +10,7 @@
 
 namespace defocus::engine {
 
-// Positions `a` of the outline's knots. The outline grows with √a at the snout, which makes it round.
+// Positions `a` of the outline's knots. The outline grows with √a at the snout, so that the snout is round.
 inline constexpr std::array<float, 9> fishKnots{0.0f, 0.04f, 0.12f, 0.25f, 0.4f, 0.55f, 0.7f, 0.85f, 1.0f};
 
 struct FishOutline {
@@ -35,7 +35,7 @@ struct MedianFin {
     std::array<float, 6> heights{};  // lengths of evenly spaced fin rays, from first to last
     float leanFront = 0.5f;          // angle in radians backwards from upright
     float leanRear = 0.8f;
-    float curl = 0.1f;      // backward bend of the tips, in fin ray lengths
+    float curl = 0.1f;      // backward displacement of the tips, in fin ray lengths
     float scallop = 0.03f;  // depth of notches between fin rays, in fin ray lengths
     int rays = 20;
 };
@@ -51,7 +51,7 @@ struct CaudalFin {
 struct PairedFin {
     FinKind kind = FinKind::pectoral;
     float a = 0.3f;        // position `a` of the root
-    float height = -0.2f;  // height of the root, relative to the section's halfHeight
+    float height = -0.2f;  // height of the root above the section's centre, relative to the section's halfHeight
     float length = 0.2f;
     float spread = 0.9f;     // angle in radians between the first and last fin ray
     float outwards = 0.5f;   // angle in radians away from the body
@@ -83,7 +83,7 @@ struct FishShape {
 
 FishSection fishSection(const FishShape& shape, float a);
 
-// Point on the skin of the straight fish.
+// Point on the skin of the fish before bending.
 struct FishSkinPoint {
     float a = 0;
     float y = 0;           // height above the axis
@@ -93,16 +93,16 @@ struct FishSkinPoint {
 };
 
 // Relief of the skin at a point: eye socket, mouth, gill cover, scales and lateral line. The displacement is along the
-// normal, in body lengths. Features that are fine compared with the mesh's edge length `detail` fade out.
+// normal, in body lengths. Features fade out if they are small compared with the mesh's edge length `detail`.
 struct FishRelief {
     float displacement = 0;
     float groove = 0;     // darkness of grooves, 0 to 1
     float scaleEdge = 0;  // 0 to 1; 1 on a scale's pale rim
-    float scaleTone = 0;  // tone from −1 to 1, constant per scale
+    float scaleTone = 0;  // brightness offset from −1 to 1, constant per scale
 };
 FishRelief fishRelief(const FishShape& shape, const FishSkinPoint& point, float detail);
 
-// Swimming bend of the spine. bend() moves a point of the straight fish with the spine. Points are in body lengths,
+// Spine of the swimming fish. bend() moves a point of the straight fish with the spine. Points are in body lengths,
 // with x = −a.
 class FishSpine {
 public:

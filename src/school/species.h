@@ -1,6 +1,6 @@
 #pragma once
-// Fish species of the school: free interpretations of reef and pond fish, each with its own outline, fins and palettes.
-// Fish of one species differ in proportions, relief, bend and pattern.
+// Fish species of the school, freely modelled on reef and pond fish. Each species has its own outline, fins and
+// palettes. Fish of one species differ in proportions, relief, bend and pattern.
 
 #include <cstdint>
 
@@ -12,7 +12,7 @@ enum class FishSpecies { angelfish, butterflyfish, anthias, tang, fusilier, gold
 inline constexpr int fishSpeciesCount = 9;
 
 // Returns a fish. `variant`, modulo the number of palettes, selects a palette of the species. Equal arguments give
-// equal fish.
+// identical fish.
 Fish makeFish(FishSpecies species, int variant, float length, std::uint32_t seed, std::uint32_t number);
 
 }  // namespace defocus::engine

@@ -23,18 +23,18 @@ constexpr int maxResolution = 512;  // max cells per side of a picture; BlurTabl
 static_assert(maxResolution == 1 << (blurSizes - 1));
 constexpr double minBlurredGrowth = 1.1;  // min ratio of the errors of consecutive levels
 constexpr double minError = 1e-6;         // min error of level 1
-// A level's error on a grey background may reach this fraction of the limit. A fraction of 1 would raise FLIP of a
-// smooth surface in focus by more than a fifth.
+// On a grey background, a level's error may reach this fraction of the limit. A fraction of 1 would raise the FLIP
+// error of a smooth surface in focus by more than a fifth.
 constexpr double greyShare = 0.9;
 constexpr double minGreyContrast = 0.004;  // min contrast on a grey background, relative to the mean radiance
 // Max ratio of the errors of consecutive levels. Halving the triangles of a smooth surface doubles its error, because
-// the error grows with the squared edge length. This limit, twice that ratio, gives a lower bound of the error of
+// the error grows with the squared edge length. This limit of twice that ratio yields a lower bound of the error of
 // levels whose triangles are smaller than picture cells.
 constexpr float maxUnseenGrowth = 4;
 
 // ---- averages over patches
 
-// Sums of squares over all cells and channels, one per patch size. Entry 0 is the sum for single cells, the other
+// Sums of squares over all cells and channels, one per patch size. Entry 0 is the sum for single cells; the other
 // entries are sums for patch means.
 using SquareSums = std::array<double, blurSizes>;
 using SurroundSums = std::array<SquareSums, surrounds.size()>;
@@ -43,9 +43,9 @@ using SurroundSums = std::array<SquareSums, surrounds.size()>;
 // the black squares of a checkerboard.
 class Patches {
     struct Size {
-        CellBox shown;                                // patches that may contain lit cells
+        CellBox shown;                                // patches that may contain non-black cells
         CellBox kept;                                 // `shown`, padded with empty patches for the next patch size
-        std::array<LargeVector<glm::vec3>, 2> means;  // means over white and over black squares; empty for single cells
+        std::array<LargeVector<glm::vec3>, 2> means;  // over white and black checker squares; empty for single cells
     };
 
 public:
@@ -111,14 +111,14 @@ private:
     std::vector<Size> sizes_;
 };
 
-// Two rows of cells or patch means that are compared.
+// Two rows of cells or patch means whose difference is measured.
 struct Change {
     const glm::vec3* before;
     const glm::vec3* after;
 };
 
-// Returns the sum over `count` cells of a row and all channels of the product of both changes (after − before). Values
-// are clamped to `brightest`.
+// Multiplies the differences (after − before) of two pairs of rows, and returns the sum over `count` cells and all
+// channels. Values are clamped to `brightest`.
 double sumOfProducts(const Change& first, const Change& second, int count, float brightest) {
     const auto end = 3 * static_cast<std::size_t>(count);
     const auto at = [&](const Change& change, std::size_t i, auto bounded) {
@@ -138,8 +138,8 @@ double sumOfProducts(const Change& first, const Change& second, int count, float
     return double{sums[0]} + double{sums[1]} + double{sums[2]} + double{sums[3]} + double{rest};
 }
 
-// Returns the radiance minus the radiance of the background, so that the background becomes black. The result is
-// `light` itself if the background is black, and otherwise stored in `shifted`, whose memory is reused.
+// Returns the radiance minus the background's radiance, so that the background becomes black. Returns `light` itself if
+// the background is black. Otherwise, the result is stored in `shifted`, whose memory is reused.
 const LargeVector<glm::vec3>& before(float background, const LargeVector<glm::vec3>& light,
                                      LargeVector<glm::vec3>& shifted) {
     if (background == 0) return light;
@@ -149,11 +149,11 @@ const LargeVector<glm::vec3>& before(float background, const LargeVector<glm::ve
     return shifted;
 }
 
-// Adds the squared differences between `seen` and `reference` to `sums`. If `reference` is null, the row `dark` of
-// black cells replaces the rows of the reference.
+// Adds the squared differences between `seen` and `reference` to `sums`. A null `reference` stands for a black picture,
+// with the row `dark` of black cells.
 //
 // Each cell samples one point of the surface, so that a patch mean contains sampling noise. Squaring the mean would add
-// the variance of this noise. Therefore the mean over the white squares of a checkerboard is multiplied by the mean
+// the variance of this noise. Therefore, the mean over the white squares of a checkerboard is multiplied by the mean
 // over the black squares. The noise of the two means is uncorrelated and cancels on average.
 void addSquares(const Patches* reference, const Patches& seen, std::span<const glm::vec3> dark, float brightest,
                 SquareSums& sums) {
@@ -188,7 +188,7 @@ void addDeviations(const Patches& seen, const Patches& squares, SquareSums& sums
 }
 
 // Clamps the noisy sums to possible values. The mean square never grows with the patch size. From one patch size to the
-// next, it falls at most to 1/16, the decrease for two spots that cancel each other.
+// next, it falls at most to 1/16, which is the decrease for two adjacent spots that cancel each other.
 void smooth(SquareSums& sums, std::size_t measured) {
     for (std::size_t i = measured; i > 1; --i) sums[i - 1] = std::max(sums[i - 1], sums[i]);
     for (std::size_t i = 1; i < blurSizes; ++i)
@@ -225,19 +225,18 @@ private:
 struct Sight {
     Eye eye;
     SparseCells reference;              // picture of level 0
-    double covered = 0, sum = 0;        // Picture::covered and sum of level 0
+    double covered = 0, sum = 0;        // Picture::covered and Picture::sum of level 0
     SquareSums light{};                 // sums of level 0's squared radiance on black, per patch size
     SquareSums deviations{};            // sums of level 0's standard deviations on grey, per patch size
     std::vector<SurroundSums> changes;  // sums of squared radiance differences from level 0, per level
 
-    // Measures the levels. `unit` is the mean radiance of the mesh.
+    // Compares each level with level 0. `unit` is the mean radiance of the mesh.
     void judge(const Pyramid& pyramid, std::span<const Finish> finishes, float unit) {
         const LargeVector<glm::vec3> cells = reference.all();
         reference = {};
         const std::vector<glm::vec3> dark(static_cast<std::size_t>(eye.resolution), glm::vec3(0));
         const auto brightest = static_cast<float>(shownWhite) * unit;
-        // A lens sample sees one point, and clamping each point bounds any average. Points are therefore clamped before
-        // averaging.
+        // Clamp each point before averaging: a lens sample sees a single point, and the clamp bounds every average.
         LargeVector<glm::vec3> points = cells;
         for (glm::vec3& value : points) value = glm::min(value, brightest);
         std::array<LargeVector<glm::vec3>, surrounds.size()> shifted;
@@ -334,7 +333,7 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
         sight.sum = reference.sum;
     });
 
-    // A black mesh has no error, because its mean radiance cannot serve as unit.
+    // A black mesh has no error, because its mean radiance cannot serve as the unit.
     double covered = 0;
     double light = 0;
     for (const Sight& sight : sights) {

@@ -1,19 +1,19 @@
 #pragma once
-// Measures the error of a level after blurring. Each level and level 0 are rendered from several directions (picture.h)
-// with the materials of the mesh. Lights are the default lights of scenes without lights. The error therefore includes
-// visible differences in colour, shading and outlines. The signed difference from level 0 is averaged over square
-// patches and then squared. E(level, s) is the RMS of the difference that remains after a blur of size s.
+// Measures the error of a level of detail after blurring. Level 0 and each coarser level are rendered from several
+// directions (picture.h) with the mesh's materials and the default lights of scenes without lights. The error therefore
+// includes visible differences in colour, shading and outlines. The signed difference from level 0 is averaged over
+// square patches and then squared. E(level, s) is the RMS of the difference that remains after a blur of size s.
 //
 // The pictures of level 0 also give the error of a lens sample. V(s) is the standard deviation of the radiance within
-// patches of side s. One sample at a random position within a blur of size s has the error V(s). N samples of a
-// sequence have the error V(s) · N^−p. E and V have the same unit, so that their ratio is independent of the object's
-// brightness and of the exposure. After averaging, radiance is clamped to four times the mean radiance of the mesh,
-// because brighter values are white in an image.
+// patches of side s. One sample at a random position within a blur of size s has the error V(s). N samples have the
+// error V(s) · N^−p, where p is the convergence rate of the sample sequence. E and V have the same unit, so that their
+// ratio is independent of the object's brightness and of the exposure. After averaging, radiance is clamped to four
+// times the mean radiance of the mesh, because brighter values appear white in an image.
 //
 // Errors are measured on two backgrounds: black, and a grey of the mesh's mean radiance. On black, outlines dominate
 // both E and V. A real background may hide the outlines, so that the error of the samples depends on the contrast of
-// the shading alone. A level must meet its limit on both backgrounds. On grey, V is the mean instead of the RMS of the
-// standard deviations within patches. Reason: samples have large errors only at a few edges, but a level has errors all
+// the shading alone. A level must meet its limit on both backgrounds. On grey, V is the mean of the patches' standard
+// deviations instead of their RMS. Reason: samples have large errors only at a few edges, but a level has errors all
 // over a smooth surface, where they are more visible.
 
 #include <cstddef>
@@ -26,16 +26,16 @@
 
 namespace defocus::engine {
 
-// Computes Pyramid::smallestPatch, Pyramid::contrast and PyramidLevel::blurredError from the levels and the finishes of
-// the mesh's primitives. Without finishes, all primitives are white and matt. Errors are raised where needed to grow by
-// at least 10 % per level, so that every target error selects a unique level. `helpers` is the number of additional
-// threads; it does not affect the result.
+// Computes Pyramid::smallestPatch, Pyramid::contrast and PyramidLevel::blurredError. `finishes` are the simplified
+// materials of the mesh's primitives; if empty, all primitives are white and matt. Errors are raised where needed, so
+// that they grow by at least 10 % per level and every target error selects a unique level. `helpers` is the number of
+// additional threads; it does not affect the result.
 void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, std::size_t helpers = 0);
 
-// Returns the directions of the pictures: unit vectors from the mesh to the eye.
+// Returns the view directions from which levels are compared: unit vectors from the mesh to the eye.
 std::vector<glm::dvec3> blurredErrorViews();
 
-// Radiance is clamped to this multiple of the mesh's mean radiance.
+// Radiance is clamped to this multiple of the mesh's mean radiance, because brighter values appear white.
 inline constexpr double shownWhite = 4;
 
 // Return the squared error E² of a level and the squared contrast V² of level 0 for a patch of side `side` (object
@@ -45,9 +45,9 @@ double squaredError(const Pyramid& pyramid, std::size_t level, double side, Surr
 double squaredContrast(const Pyramid& pyramid, double side, Surround surround = Surround::black);
 
 // Returns the level λ at which the ratio E/V equals measuredLimit(light, edge), on the background where the ratio is
-// larger; the coarsest level if the ratio stays below the limit. E and V are RMS over patches of the given sides
-// (object units). `edge` is the level's mean edge in px, projected with `pixelsPerUnit` (> 0) px per object unit. λ is
-// continuous in all arguments. Returns 0 if no errors were measured.
+// larger. Returns the coarsest level if the ratio stays below the limit, and 0 if no errors were measured. E and V are
+// RMS values over patches of the given sides (object units). `edge` is the level's mean edge length in px, for a scale
+// of `pixelsPerUnit` (> 0) px per object unit. λ is continuous in all arguments.
 double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides, double pixelsPerUnit, double light);
 
 }  // namespace defocus::engine

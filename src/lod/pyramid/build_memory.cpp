@@ -14,8 +14,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Memory that building a pyramid takes: a constant size for the images that measure blurred errors (blurred_error.h),
-// and the bytes for each triangle and vertex. Fitting and comparing levels take most of this memory.
+// Memory for building a pyramid: a constant size for the images that measure blurred errors (blurred_error.h), and
+// bytes per triangle and per vertex. Fitting and comparing levels take most of this memory.
 constexpr std::uint64_t imageBytes = 16u << 20;
 constexpr std::uint64_t levelTriangleBytes = 300, fullTriangleBytes = 70;
 constexpr std::uint64_t vertexBytes = 60;
@@ -30,7 +30,7 @@ std::uint64_t attributeBytes(const Vertices& vertices) {
                    vertices.joints, vertices.weights, vertices.blurs, vertices.joints1, vertices.weights1);
 }
 
-// Returns the bytes to build a pyramid that has only level 0.
+// Returns the bytes needed to build a pyramid that has only level 0.
 std::uint64_t fullDetailBytes(const Mesh& mesh) {
     return mesh.triangleCount() * fullTriangleBytes +
            mesh.vertices.count() * (vertexBytes + 2 * attributeBytes(mesh.vertices));
@@ -41,8 +41,8 @@ std::uint64_t keptBytes(const Mesh& mesh) {
     return 2 * fullDetailBytes(mesh);
 }
 
-// Returns whether all pyramids may be built on all cores: the largest meshes at the same time, together with the
-// finished pyramids of the others. `order`: mesh indices, the largest mesh first.
+// Returns whether the memory limit allows building on all cores: the largest meshes at the same time, when all other
+// pyramids are already finished. `order`: mesh indices, the largest mesh first.
 bool fitsInParallel(const std::vector<Mesh>& meshes, const std::vector<std::size_t>& order,
                     const PyramidOptions& options) {
     if (options.memoryLimit == 0) return true;

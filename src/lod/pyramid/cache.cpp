@@ -26,8 +26,8 @@ namespace {
 constexpr std::string_view extension = ".pyramid";
 constexpr std::size_t keyDigits = 16;
 
-// Returns a name that is a hash of the complete key. Different program versions and options therefore never overwrite
-// each other's files.
+// Returns a file name that is a hash of the complete key. Different program versions and options therefore never
+// overwrite each other's files.
 fs::path fileName(const PyramidKey& key) {
     const std::uint64_t rest[4] = {PyramidFileHeader::expectedVersion, key.options.minTriangles,
                                    static_cast<std::uint64_t>(key.options.maxLevels),
@@ -42,7 +42,7 @@ bool consistsOf(std::string_view text, const char* letters) {
 }
 
 // Returns whether the name belongs to a complete cache file, a pending cache file, or another file. Complete files are
-// named "KEY.pyramid". PendingFile uses the name ".KEY.PROCESS-NUMBER.pyramid" during writing.
+// named "KEY.pyramid". While a file is being written, PendingFile names it ".KEY.PROCESS-NUMBER.pyramid".
 NameKind kindOf(std::string_view name) {
     const bool pending = name.starts_with('.');
     if (pending) name.remove_prefix(1);
@@ -132,7 +132,7 @@ CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const fs::path& f
     const std::uint64_t triangles = trianglesOf(meshes);
     result.pyramids.resize(meshes.size());
     PyramidProgress steps(meshes, progress);
-    std::mutex mutex;  // protects `result` except for its pyramids
+    std::mutex mutex;  // protects all members of `result` except `pyramids`
     const auto stillStoring = [&] {
         const std::scoped_lock lock(mutex);
         return result.failure.empty();

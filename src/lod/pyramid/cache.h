@@ -1,6 +1,6 @@
 #pragma once
 // Disk cache of pyramids: one file per mesh, named after its key (file.h). Several processes may use a folder at the
-// same time. A defective file, a link or a pipe is a cache miss: the pyramid is rebuilt and replaces it.
+// same time. Defective files, symbolic links and pipes count as cache misses; the rebuilt pyramid replaces them.
 
 #include <cstdint>
 #include <filesystem>
@@ -23,9 +23,9 @@ struct CachedPyramids {
     std::string failure;            // reason why a pyramid was not stored; empty on success
 };
 
-// Loads pyramids from `folder`; builds and stores the missing pyramids. With an empty `folder`, all pyramids are built
-// and none is stored. Creates the folder if it is missing, with mode 0700. A failure to store is not an error; after
-// the first failure, no further pyramid is stored. Meshes that are too small to be simplified are not stored.
+// Loads pyramids from `folder`; builds and stores the missing pyramids. Creates the folder if it is missing, with mode
+// 0700. With an empty `folder`, builds all pyramids and stores none. A failure to store is not an error; after the
+// first failure, no further pyramid is stored. Pyramids of meshes too small to be simplified are not stored.
 CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const std::filesystem::path& folder,
                               const PyramidOptions& options = {}, const Progress& progress = {});
 
@@ -33,8 +33,8 @@ CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const std::filesy
 std::optional<Pyramid> loadPyramid(const Mesh& mesh, const std::filesystem::path& folder,
                                    const PyramidOptions& options = {});
 
-// Stores the pyramid of one mesh. Throws Error if the file cannot be written; an incomplete file is removed. Throws
-// std::bad_alloc.
+// Stores the pyramid of one mesh. If the file cannot be written, removes the incomplete file and throws Error. Throws
+// std::bad_alloc if memory is exhausted.
 void storePyramid(const Pyramid& pyramid, const Mesh& mesh, const std::filesystem::path& folder,
                   const PyramidOptions& options = {});
 
@@ -42,8 +42,8 @@ struct CacheFile {
     std::filesystem::path path;
     std::uint64_t bytes = 0;
     std::filesystem::file_time_type written;
-    std::uint32_t triangles = 0;  // triangles of the mesh
-    bool pending = false;         // the file is being written, or its process was killed
+    std::uint32_t triangles = 0;  // triangle count of the mesh
+    bool pending = false;         // the file is still being written, or the writing process was killed
 };
 
 // Lists the cache files in `folder`, newest first. Cache files are recognised by name and first bytes. Returns an empty

@@ -18,11 +18,10 @@ namespace {
 
 // ---- growing: assignment of triangles to clusters
 
-constexpr float coneWeight = 0.75f;     // weight of similar normals relative to a compact shape, 0 … 1
-constexpr float minTurn = 1e-3f;        // lower bound of the cost factor for a differing normal
-constexpr std::size_t seedsAhead = 64;  // max neighbours of earlier clusters that are tested as seeds
-// Max number of triangles around a vertex that one cluster considers. Files may have millions of triangles at one
-// vertex.
+constexpr float coneWeight = 0.75f;     // weight of orientation relative to distance, 0 to 1
+constexpr float minTurn = 1e-3f;        // min cost factor for a difference in orientation
+constexpr std::size_t seedsAhead = 64;  // max unassigned triangles kept as candidates for a cluster's first triangle
+// Max number of triangles at one vertex that a cluster considers. Files may have millions of triangles at one vertex.
 constexpr std::size_t maxNeighbours = 1024;
 
 struct Facet {
@@ -43,7 +42,7 @@ struct ClusterGrowth {
     // with more than maxNeighbours corners.
     std::unordered_map<LocalNumber, std::size_t> firstOpen;
     Numbered<TriangleNumber, Facet> facets;
-    float radius = 0;  // radius of a full cluster on a flat, uniform mesh
+    float radius = 0;  // radius of a full cluster on a flat mesh with equal triangles
 
     Numbered<LocalNumber, std::uint32_t> open;         // per position, the number of corners of unassigned triangles
     Numbered<LocalNumber, ClusterNumber> lastCluster;  // last cluster that contains the position
@@ -178,8 +177,8 @@ TriangleNumber nextInside(ClusterGrowth& g) {
     return closestMatch(g, g.touching);
 }
 
-// Returns the unassigned neighbour of the full cluster with the fewest unassigned neighbours of its own. Such a
-// triangle might otherwise be left isolated.
+// Returns the unassigned neighbour of the full cluster with the fewest unassigned neighbours of its own. This triangle
+// might otherwise be left isolated.
 TriangleNumber seedBeside(const ClusterGrowth& g) {
     TriangleNumber best;
     std::uint32_t fewest = std::numeric_limits<std::uint32_t>::max();
@@ -195,8 +194,8 @@ TriangleNumber seedBeside(const ClusterGrowth& g) {
     return best;
 }
 
-// Returns the unassigned neighbour of earlier clusters that is nearest to `place`, among the most recent neighbours.
-// Returns the first unassigned triangle if there is no such neighbour.
+// Of the unassigned triangles most recently found beside earlier clusters, returns the one nearest to `place`. Returns
+// the first unassigned triangle of the primitive if there is none.
 TriangleNumber seedElsewhere(ClusterGrowth& g, const glm::vec3& place) {
     while (!g.left.empty() && g.taken[g.left.back()] != 0) g.left.pop_back();
     TriangleNumber best;
@@ -214,8 +213,8 @@ TriangleNumber seedElsewhere(ClusterGrowth& g, const glm::vec3& place) {
     return g.unseen;
 }
 
-// Finishes the cluster. Keeps at most `seedsAhead` unassigned neighbours per list as seeds, because a vertex can have
-// any number of triangles.
+// Finishes the cluster. From each list, keeps at most `seedsAhead` unassigned neighbours to start later clusters,
+// because a vertex can have any number of triangles.
 void close(ClusterGrowth& g) {
     for (auto* const list : {&g.touching, &g.beside, &g.hanging, &g.closed}) {
         keepOpen(g, *list);
@@ -264,14 +263,13 @@ glm::vec3 finitePosition(const glm::vec3& position) {
     return isFinite(position) ? position : glm::vec3(0);
 }
 
-// A primitive's triangles with positions numbered from 0, so that the cost does not depend on the size of the mesh.
+// A primitive's triangles with positions numbered from 0, so that the cost depends only on the size of the primitive.
 struct LocalTriangles {
     Numbered<TriangleCorner, LocalNumber> corners;
     Numbered<LocalNumber, glm::vec3> positions;
 };
 
-// Returns a primitive's triangles. All entries of `localOf` must be invalid; the function makes them invalid again
-// before it returns.
+// Returns a primitive's triangles. All entries of `localOf` must be invalid before the call, and are invalid after it.
 template <typename Vertex>
 LocalTriangles localTriangles(std::span<const Vertex> indices, std::span<const glm::vec3> positions,
                               const Numbered<Vertex, PositionNumber>& places,
@@ -318,7 +316,7 @@ Cluster measured(std::span<const Vertex> indices, std::span<const glm::vec3> pos
         sum += triangle.cross;
     }
 
-    // Bounding sphere, and normal cone around the area-weighted mean normal.
+    // Compute the bounding sphere, and the normal cone around the area-weighted mean normal.
     Cluster cluster;
     cluster.centre = glm::vec3(0.5 * (glm::dvec3(min) + glm::dvec3(max)));
     const glm::dvec3 centre(cluster.centre);

@@ -1,6 +1,6 @@
 #pragma once
 // Groups triangles into clusters for culling (see Cluster). A cluster grows by one triangle at a time until it is full.
-// The next triangle touches the cluster, adds few vertices, and is similar in position and orientation. meshoptimizer
+// Each added triangle touches the cluster, adds few vertices, and is similar in position and orientation. meshoptimizer
 // builds its meshlets by similar criteria. Triangles may have any shape and order.
 
 #include <glm/vec3.hpp>
@@ -15,7 +15,7 @@ namespace defocus::engine {
 using LocalNumber = Number<struct LocalKind>;  // index of a distinct position within one primitive
 
 struct GrownClusters {
-    std::vector<TriangleNumber> triangles;  // cluster by cluster; consecutive triangles are mostly neighbours
+    std::vector<TriangleNumber> triangles;  // grouped by cluster; consecutive triangles are mostly neighbours
     std::vector<std::uint32_t> sizes;       // number of triangles per cluster
 };
 
@@ -25,9 +25,9 @@ GrownClusters growClusters(const Numbered<TriangleCorner, LocalNumber>& corners,
                            const Numbered<LocalNumber, glm::vec3>& positions, std::uint32_t max);
 
 // Reorders the triangles of each primitive into clusters. Consecutive clusters are mostly neighbours, and so are
-// consecutive triangles within a cluster. `positions` and `places` have one entry per vertex. Entries of `places` are
-// below `placeCount`; vertices with equal entries have the same position. The index ranges of the clusters start at the
-// level's first index and are contiguous. Deterministic.
+// consecutive triangles within a cluster. `positions` has the position of each vertex, and `places` has its position
+// number, below `placeCount`. Vertices with equal numbers have the same position. The index ranges of the clusters
+// start at the level's first index and are contiguous. Deterministic.
 template <typename Vertex>
 std::vector<Cluster> clusterTriangles(TriangleSet<Vertex>& level, std::span<const glm::vec3> positions,
                                       const Numbered<Vertex, PositionNumber>& places, std::size_t placeCount);

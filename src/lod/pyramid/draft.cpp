@@ -10,7 +10,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double enough = 1.5;  // max ratio of the resulting to the requested number of triangles
+constexpr double enough = 1.5;  // max ratio of the resulting to the requested triangle count
 
 std::vector<std::uint32_t> simplified(const std::vector<glm::vec3>& positions,
                                       const std::vector<std::uint32_t>& indices, double share) {

@@ -10,8 +10,8 @@
 namespace defocus::engine {
 
 // Builds a pyramid with one level of about `triangles` triangles, at most 1.5 times as many. The level's vertices are a
-// subset of the mesh's vertices (see Pyramid::source), with joints and morph targets. A mesh with fewer triangles is
-// kept unchanged. A primitive that is smaller than a grid cell may be lost.
+// subset of the mesh's vertices (see Pyramid::source), with their joints and morph targets. A mesh with fewer triangles
+// is kept unchanged. A primitive that is smaller than a grid cell may disappear.
 Pyramid draftPyramid(const Mesh& mesh, std::uint32_t triangles);
 
 }  // namespace defocus::engine

@@ -10,8 +10,8 @@
 
 namespace defocus::engine {
 
-// Structured bindings name all members of a struct, including unused members. A new member then causes a compile error,
-// as a reminder to add the member to the key or the file.
+// Structured bindings name all members of a struct, including unused ones. Adding a member then causes a compile error,
+// as a reminder to include the member in the key or the file.
 
 static_assert(std::has_unique_object_representations_v<IndexRange>);
 static_assert(sizeof(PyramidFileHeader) == 208 && sizeof(PyramidFileLevel) == 120 && sizeof(Cluster) == 48,
@@ -243,7 +243,7 @@ std::uint64_t meshHash(const Mesh& mesh) {
 }
 
 PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options) {
-    // The build system's hash of the sources in src/lod invalidates all cache files when the algorithm changes.
+    // Hash of the sources in src/lod, set by the build system. A changed algorithm thus invalidates all cache files.
     constexpr std::uint64_t sources[1] = {DEFOCUS_PYRAMID_SOURCES};
     const std::uint64_t own = meshHash(mesh) ^ (options.finishes == nullptr ? 0 : options.finishes->hash(mesh));
     return {hashBytes(std::as_bytes(std::span(sources)), own), options};

@@ -23,7 +23,7 @@ std::uint64_t meshHash(const Mesh& mesh);
 
 // Cache key: all inputs that a pyramid depends on.
 struct PyramidKey {
-    // meshHash, combined with hashes of the mesh's finishes and of the source files in src/lod.
+    // meshHash, combined with hashes of the mesh's simplified materials (finish.h) and of the source files in src/lod.
     std::uint64_t mesh = 0;
     PyramidOptions options;
 };
@@ -32,8 +32,8 @@ PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options);
 
 struct PyramidFileHeader {
     static constexpr std::uint64_t expectedMagic = 0x3150445053554644ull;  // "DFUSPDP1"
-    // Version of the file format. Changes of buildPyramid need no new version, because they change the key
-    // (pyramidKey).
+    // Version of the file format. Changes of buildPyramid need no new version, because the key (pyramidKey) contains a
+    // hash of the source files.
     static constexpr std::uint32_t expectedVersion = 7;
 
     std::uint64_t magic = expectedMagic;
@@ -46,7 +46,7 @@ struct PyramidFileHeader {
     std::uint64_t indexCount = 0;
     std::uint32_t primitiveCount = 0;
     std::uint32_t vertexCount = 0;
-    std::uint32_t triangleCount = 0;  // triangles of level 0
+    std::uint32_t triangleCount = 0;  // triangle count of level 0
     std::uint32_t repairedFaces = 0;
     std::uint32_t end = 0;       // value of PyramidEnd
     std::uint32_t vertices = 0;  // value of LevelVertices

@@ -17,7 +17,7 @@ constexpr float dielectric = 0.04f;  // reflectance at normal incidence, as defi
 
 using Decoding = std::array<float, 256>;
 
-// Returns a table of the linear values of all 256 byte values of a texel channel.
+// Returns a table that maps each byte value of a texel channel to its linear value.
 const Decoding& decoding(bool srgb) {
     const auto made = [](const auto& decode) {
         Decoding values{};

@@ -1,7 +1,7 @@
 #pragma once
-// Simplified materials of a scene's meshes, used for the pictures that measure the error of levels (picture.h).
-// Finishes follow glTF's metallic-roughness model. Normal maps, occlusion maps, transparency, clear coat and sheen are
-// ignored for all levels.
+// Finishes are simplified materials of a scene's meshes, used for the pictures that measure the error of levels
+// (picture.h). They follow glTF's metallic-roughness model, without normal maps, occlusion maps, transparency, clear
+// coat and sheen.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +25,7 @@ struct FinishImage {
     int width = 0;
     int height = 0;
     bool srgb = false;
-    std::vector<glm::u8vec3> texels;  // in the encoding of the file, row by row from the top
+    std::vector<glm::u8vec3> texels;  // sRGB-encoded if `srgb` is set, else linear; row by row from the top
 };
 
 struct FinishMap {
@@ -34,13 +34,13 @@ struct FinishMap {
     Wrap wrapT = Wrap::repeat;
     int uvSet = 0;
     glm::mat3 uvTransform{1.0f};
-    // Returns the map's linear value, interpolated between texels. The arguments are both sets of texture coordinates;
-    // uvSet selects a set. Returns 1 if there is no image.
+    // Returns the map's linear value, interpolated between texels. uvSet selects one of the two sets of texture
+    // coordinates. Returns 1 if there is no image.
     [[nodiscard]] glm::vec3 at(const glm::vec2& uv0, const glm::vec2& uv1) const;
 };
 
-// Simplified material. The default is white and matt, tinted by vertex colours only; it is used for meshes without a
-// scene.
+// Simplified material. The default is white and matt, tinted by vertex colours only. Meshes without a scene use this
+// default.
 struct Finish {
     bool unlit = false;
     glm::vec3 baseColor{1.0f};
@@ -49,12 +49,12 @@ struct Finish {
     float reflectance = 0;  // reflectance of non-metals at normal incidence
     glm::vec3 emission{0.0f};
     FinishMap baseColorMap = {};
-    FinishMap metallicRoughnessMap = {};  // channel y: roughness, z: metallic
+    FinishMap metallicRoughnessMap = {};  // y (green): roughness, z (blue): metallic
     FinishMap emissionMap = {};
 };
 
 // Creates the finishes of a scene, which must outlive this object. An image is downsampled when a finish first needs
-// it, and kept as long as a finish uses it. Thread-safe.
+// it, and kept as long as any finish uses it. Thread-safe.
 class Finishes {
 public:
     explicit Finishes(const Scene& scene);

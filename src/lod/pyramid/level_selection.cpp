@@ -11,12 +11,12 @@ namespace defocus::engine {
 namespace {
 
 constexpr double referenceSamples = 64;
-constexpr LodThresholds referenceSize{0.25, 3.3};     // `blur` and `size` at 64 samples; target: mean edge in px
-constexpr LodThresholds referenceError{0.018, 0.18};  // `blur` and `size` at 64 samples; target: max distance in px
+constexpr LodThresholds referenceSize{0.25, 3.3};     // blur and size at 64 samples, for target edge lengths in px
+constexpr LodThresholds referenceError{0.018, 0.18};  // blur and size at 64 samples, for target errors in px
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double sampleErrorExponent = 0.65;
 constexpr double lightOfSampleError = 6.7;   // default of LodThresholds::light for one sample, px
-constexpr double sampleErrorShareMax = 0.3;  // max level error / sampling error; adds at most 4 % to the total error
+constexpr double sampleErrorShareMax = 0.3;  // max level error / sampling error; raises their RMS sum by at most 4.4 %
 constexpr double largestFactor = 2;          // max factor on the blur threshold for few samples; limits outline errors
 
 // Returns whether the metric compares edge lengths with the target.
@@ -28,9 +28,9 @@ double storedSize(const PyramidLevel& level, LodMetric metric) {
     return bySize(metric) ? level.meanEdge : level.error;
 }
 
-// Returns the position of `target` between the sizes of two levels, 0 to 1. Edge lengths are interpolated
-// logarithmically, because halving the triangles multiplies them by a constant. Errors start at 0 and are interpolated
-// linearly.
+// Returns where `target` lies between the sizes of two levels: 0 at the finer level, 1 at the coarser level. Edge
+// lengths are interpolated logarithmically, because halving the triangles multiplies them by a constant. Errors start
+// at 0 and are interpolated linearly.
 double between(double fine, double coarse, double target, LodMetric metric) {
     const double fraction = bySize(metric) && fine > 0 ? std::log(target / fine) / std::log(coarse / fine)
                                                        : (target - fine) / (coarse - fine);

@@ -15,24 +15,24 @@ namespace defocus::engine {
 const char* lodModeName(LodMode mode);
 const char* lodMetricName(LodMetric metric);
 
-// Thresholds that a request sets. For the metrics `size` and `error`, the target is max(blur · c, size) px for a circle
-// of confusion of c px. For `proportional`, `blur` is the level of an object whose circle of confusion is as large as
-// its bounding box. For `measured`, a level's error is at most light / edge for edges of `edge` px. The error is
-// dimensionless: in standard deviations of the object's light within its blur. `light`, the product of error and edge
-// length, is therefore in px. An unset threshold depends on the sample count, so that long renders converge to full
-// detail.
+// Thresholds set by the user; unset thresholds have defaults that depend on the sample count, so that long renders
+// converge to full detail. For the metrics `size` and `error`, the target is max(blur · c, size) px for a circle of
+// confusion of c px. For `proportional`, `blur` is the level of an object whose circle of confusion is as large as its
+// bounding box. For `measured`, a level's error is at most light / edge for edges of `edge` px. This error is
+// dimensionless, because it is relative to the standard deviation of the object's radiance within its blur. `light` is
+// therefore in px.
 struct GivenThresholds {
-    std::optional<double> blur = {};   // target in px per px of CoC; number of levels for `proportional`; ≥ 0
-    std::optional<double> size = {};   // min target in px, ≥ 0; only for LodMetric::size and LodMetric::error
-    std::optional<double> light = {};  // limit in px, ≥ 0; only for LodMetric::measured, which ignores the other two
+    std::optional<double> blur = {};   // target edge length or error per CoC diameter; levels for `proportional`; ≥ 0
+    std::optional<double> size = {};   // min target edge length or error in px, ≥ 0; for LodMetric::size and ::error
+    std::optional<double> light = {};  // max error · edge length, px, ≥ 0; the only threshold of LodMetric::measured
 };
 
 // Resolves LodMetric::automatic to a concrete metric; returns any other metric unchanged.
 LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given);
 
 struct LodThresholds {
-    double blur = 0;  // target in px per px of CoC; number of levels for `proportional`
-    double size = 0;  // min target in px
+    double blur = 0;  // target edge length or error per CoC diameter; number of levels for `proportional`
+    double size = 0;  // min target edge length or error in px
     // Max product of a level's edge length in px and its error in standard deviations of the radiance within the blur.
     // Only for LodMetric::measured; see measuredLimit.
     double light = 0;
@@ -41,13 +41,13 @@ struct LodThresholds {
 // Returns the given thresholds, completed from defaultThresholds. Thresholds that the metric ignores are 0.
 LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, std::uint32_t sampleCount);
 
-// Returns the error of N lens samples relative to the error of one sample: N^(−0.65). All sequences except the random
-// one converge at this rate on rendered scenes (bench/results/llvmpipe-sequences.txt).
+// Returns the error of N lens samples relative to the error of one sample: N^(−0.65). All sample sequences except the
+// random one converge at this rate on rendered scenes (bench/results/llvmpipe-sequences.txt).
 double expectedSampleError(std::uint32_t sampleCount);
 
 // Level of an object whose circle of confusion is as large as its projected bounding box, for the metric
-// `proportional`. Jeong, Kim and Lee 2011 state no value. This value is the largest of 10 · 2ⁿ for which the levels
-// raise the FLIP of the built-in school at 32 samples by at most 2 % (docs/reference.md).
+// `proportional`. Jeong, Kim and Lee 2011 state no value. Of the values 10 · 2ⁿ, this is the largest for which the
+// levels raise the FLIP error of the built-in school of fish at 32 samples by at most 2 % (docs/reference.md).
 inline constexpr double proportionalLevels = 10;
 
 // Returns the thresholds of a metric for N = `sampleCount` lens samples.
@@ -79,8 +79,9 @@ LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 double measuredLimit(double light, double edge);
 
 struct LevelQuery {
-    // Projected px per object unit: largestScale · W / (2 tan(θx/2) · z). z is the nearest depth of the object; for
-    // LodMetric::score, it is the depth of the bounding box's centre.
+    // Pixels per object unit: s · W / (2 tan(θx/2) · z), with the object's largest scale s, the image width W and the
+    // horizontal field of view θx. z is the nearest depth of the object; for LodMetric::score, it is the depth of the
+    // bounding box's centre.
     double pixelsPerUnit = 0;
     double boxSize = 0;  // longer side of the projected bounding box, px, ≥ 0; only for LodMetric::proportional
     double coc = 0;      // lower bound of the CoC diameter over the object, px, ≥ 0

@@ -22,14 +22,14 @@ constexpr int narrow = 8;  // row ranges of at most this number of cells are tes
 
 constexpr int lanes = 4;
 
-// Returns the first cell in [first, end] whose centre is at or after `place`.
+// Returns the first cell in [first, end] whose centre is at or after the coordinate `place`.
 int firstAt(float place, int first, int end) {
     const float bounded = std::min(std::max(static_cast<float>(first), place - 0.5f), static_cast<float>(end));
     const int truncated = static_cast<int>(bounded);
     return truncated + (static_cast<float>(truncated) < bounded ? 1 : 0);
 }
 
-// Computes the range of a row in which the barycentric weights of a triangle are positive.
+// Computes the cells of a row at which the barycentric weights of a triangle are positive.
 class RowBounds {
 public:
     explicit RowBounds(const Weights& weights)
@@ -37,7 +37,7 @@ public:
         for (std::size_t k = 0; k < 3; ++k) inverse_[k] = 1 / steps_[k].x;
     }
 
-    // Returns the range of cells in [left, right) that may lie in the triangle, slightly enlarged.
+    // Returns the range of cells in [left, right) of row y that may lie in the triangle, slightly enlarged.
     [[nodiscard]] std::array<int, 2> within(int y, int left, int right) const {
         const float dy = static_cast<float>(y) + 0.5f - origin_.y;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -140,7 +140,7 @@ void Painter::drawTriangle(std::uint32_t first) {
 void Painter::draw(std::size_t number, Picture& picture) {
     const PyramidLevel& level = pyramid_.levels[number];
     const CellBox& box = eye_.box;
-    // padding, because SIMD access to the last cells reaches past the end
+    // Pad the array, because SIMD access to the last cells reaches past the end.
     depths_.assign(box.count() + lanes, nothing);
     firsts_.resize(box.count() + lanes);
     places_.clear();

@@ -1,7 +1,7 @@
 #pragma once
-// Renders pictures of a level by parallel projection, without a lens. Each grid cell contains the surface that is
-// nearest to the eye at the cell's centre. The lighting is a uniform sky and the default lights of scenes without
-// lights (scene/defaults.h).
+// Renders pictures of a level by parallel projection, without a lens. Each grid cell shows the surface that is nearest
+// to the eye at the cell's centre. The lighting is a uniform sky and the default lights of scenes without lights
+// (scene/defaults.h).
 
 #include <cstddef>
 #include <cstdint>
@@ -45,14 +45,14 @@ struct Eye {
 Eye eyeAlong(const Pyramid& pyramid, const glm::dvec3& towards, int resolution);
 
 struct Picture {
-    // Linear radiance of the cells in the eye's box. 0 means a cell without a surface; black surfaces have a tiny
+    // Linear radiance of the cells in Eye::box. 0 means a cell without a surface; black surfaces have a tiny positive
     // value.
     LargeVector<glm::vec3> light;
     std::size_t covered = 0;  // number of covered cells
     double sum = 0;           // sum over all cells of the mean of the three channels
 };
 
-// Renders several levels in succession and reuses its memory. `finishes` has one finish per primitive of the mesh.
+// Renders levels one after another, with one finish (simplified material) per primitive. Reuses its memory.
 class Painter {
 public:
     Painter(const Pyramid& pyramid, const Eye& eye, std::span<const Finish> finishes);
@@ -65,7 +65,7 @@ private:
     const Eye& eye_;
     std::span<const Finish> finishes_;
     std::vector<glm::vec3> places_;  // projected vertices of the level
-    // Depth and triangle of the surface nearest to the eye, for the centre of each cell of the box.
+    // Depth and triangle of the nearest surface at the centre of each cell of Eye::box.
     LargeVector<float> depths_;          // depth z; −∞ for empty cells
     LargeVector<std::uint32_t> firsts_;  // offset of the triangle's first index in Pyramid::indices
 };

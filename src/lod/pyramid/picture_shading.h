@@ -1,6 +1,6 @@
 #pragma once
 // Shading of picture cells. Private to picture.cpp. The shading model is the same as in shaders/include/shading.glsl,
-// which names the sources.
+// which cites the sources.
 
 #include <algorithm>
 #include <array>
@@ -56,14 +56,15 @@ struct SurfacePoint {
     glm::vec3 diffuse{0}, specular{0};
     float roughness = 1;
     glm::vec3 normal{0};
-    float agreement = 1;  // length of the mean of the unit normals that `normal` replaces
+    float agreement = 1;  // length of the mean of the unit normals that `normal` represents
 };
 
 struct DistantLight {
     glm::vec3 toLight{0};
     glm::vec3 illuminance{0};  // illuminance divided by π
-    // Terms that depend only on light and eye. lv: cosine of the angle between both directions. sum2: squared length of
-    // their sum. vh: half the length of the sum. grazing: Fresnel weight of reflectance at grazing incidence.
+    // Terms that depend only on the light and the eye. lv: cosine of the angle between the two directions. sum2:
+    // squared length of their sum. vh: half the length of the sum. grazing: Fresnel weight of reflectance at grazing
+    // incidence.
     float lv = 0, sum2 = 0, vh = 0, grazing = 0;
 };
 
@@ -86,7 +87,7 @@ inline std::vector<DistantLight> lightsFor(const Eye& eye) {
 
 // Visible part of the normal distribution that a single mean normal represents.
 struct SeenNormals {
-    float spread = 0;              // normalSpread()
+    float spread = 0;              // value of normalSpread() for these normals
     float shown = 0;               // mean cosine between eye direction and visible normals
     float along = 1, towards = 0;  // mean visible normal: along · normal + towards · toEye, as in seenNormal()
 };
@@ -103,7 +104,7 @@ inline SeenNormals seenNormals(float nv, float agreement) {
     return seen;
 }
 
-// Returns 2·(n·l)·V with the masking term V, like unmasked() in shading.glsl.
+// Returns 2·(n·l)·V with the shadowing-masking term V, like unmasked() in shading.glsl.
 inline float unmasked(float nl, float nv, float width2) {
     if (nl <= 0 || nv <= 0) return 0;
     const float masking =
@@ -134,7 +135,7 @@ struct Gloss {
         const float cosines2 = cosines * cosines;
         const float sum2 = light.sum2;
         const float base = std::max(cosines2 * (alpha2 - 1) + sum2, alpha2 * sum2);
-        float result = alpha2 / (base * base) * unmasked(cosine, nv, width2);  // GGX
+        float result = alpha2 / (base * base) * unmasked(cosine, nv, width2);  // GGX distribution and masking
         if (share > 0) {
             const float away = std::max(cosines2, 1e-4f * sum2);
             const float beckmann = std::exp(-std::max(sum2 - away, 0.0f) / (away * alpha2)) / (alpha2 * away * away);
@@ -189,7 +190,7 @@ public:
     // Adds a cell. The normal may have any length.
     void add(std::size_t number, const glm::vec3& diffuse, const glm::vec3& emission, const glm::vec3& normal,
              float agreement) {
-        // Assign each value separately: copying a complete Cell would stall until all values are available.
+        // Assign each value separately: copying a complete Cell would stall until all its values are available.
         Cell& cell = cells_[count_];
         cell.number = number;
         for (glm::length_t c = 0; c < 3; ++c) {
@@ -216,7 +217,7 @@ public:
     }
 
 private:
-    // The loops of normalise(), look() and shadeBy() are simple, so that compilers vectorise them.
+    // The loops of normalise(), look() and shadeBy() are kept simple, so that compilers vectorise them.
     void normalise() {
         float* const x = normal_[0].data();
         float* const y = normal_[1].data();
@@ -266,7 +267,7 @@ private:
     std::array<std::vector<float>, 3> normal_;  // normals of the cells, one array per coordinate
     std::vector<float> agreement_;
     std::vector<float> spread_, along_, towards_;  // see SeenNormals
-    std::vector<std::vector<float>> shares_;       // per light: the mean cosine of incidence at each cell
+    std::vector<std::vector<float>> shares_;       // per light, the mean cosine of the angle of incidence at each cell
 };
 
 // Computes the visible radiance of surface points. Surfaces without a finish are matt, without specular reflection.

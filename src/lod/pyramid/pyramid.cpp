@@ -27,8 +27,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double minEdgeGrowth = 1.05;   // min ratio of the mean edges of consecutive levels
-constexpr double minEdgeToError = 2;     // min ratio of a level's mean edge to its error
+constexpr double minEdgeGrowth = 1.05;   // min ratio of the mean edge lengths of consecutive levels
+constexpr double minEdgeToError = 2;     // min ratio of a level's mean edge length to its error
 constexpr double minErrorGrowth = 1.25;  // min ratio of the errors of consecutive levels, from level 1 on
 constexpr double errorFloor = 1e-6;      // min error, relative to the bounding box's diagonal
 // Number of points on each of two surfaces for measuring the distance between a level and level 0. It equals the number
@@ -36,7 +36,7 @@ constexpr double errorFloor = 1e-6;      // min error, relative to the bounding 
 constexpr std::size_t minErrorPoints = 256;
 constexpr std::size_t maxErrorPoints = 1024;
 constexpr double errorPercentile = 0.99;
-// Sufficient for 2³² triangles, because each level has at most three quarters of the triangles of the next finer level.
+// Enough levels for 2³² triangles, because each level has at most ¾ of the triangles of the next finer level.
 constexpr std::size_t maxPossibleLevels = 128;
 
 TriangleSet<MeshVertexNumber> allTriangles(const Mesh& mesh, const Numbered<FileVertexNumber, MeshVertexNumber>& ids) {
@@ -70,14 +70,14 @@ bool isIdentity(const Numbered<MeshVertexNumber, FileVertexNumber>& first, std::
     return true;
 }
 
-// Returns whether so few of `count` vertices are duplicates that a copy without duplicates needs more memory than it
-// saves.
+// Returns whether `equal` duplicates among `count` vertices are so few that a copy without them needs more memory than
+// it saves.
 bool areFew(std::size_t equal, std::size_t count) {
     return equal < count / 4;
 }
 
-// Restores the vertex numbers of the file, so that each file vertex is a mesh vertex. Triangles still use only the
-// first vertex of several equal ones.
+// Restores the vertex numbers of the file, so that each file vertex is a mesh vertex. Of several equal vertices,
+// triangles still use only the first.
 void leaveApart(WeldedVertices& unique, TriangleSet<MeshVertexNumber>& triangles, std::size_t count) {
     for (MeshVertexNumber& v : triangles.indices) v = {unique.first[v].value};
     unique.first.resize(count);
@@ -117,8 +117,8 @@ PyramidLevel appendLevel(Pyramid& pyramid, const TriangleSet<MeshVertexNumber>& 
     return level;
 }
 
-// Returns the rank k for a conservative estimate: the k-th largest of `count` random samples is at least the true 99th
-// percentile. The margin is two standard deviations of the number of samples beyond the percentile.
+// Returns a rank k for a conservative estimate: the k-th largest of `count` random samples is very likely at least the
+// true 99th percentile. The margin is two standard deviations of the number of samples beyond the percentile.
 std::size_t percentileRank(std::size_t count) {
     const auto number = static_cast<double>(count);
     const double deviation = std::sqrt(errorPercentile * (1 - errorPercentile) * number);
@@ -164,8 +164,8 @@ FittedLevel fitted(const FitSource& source, SimplifiedLevel level) {
     return result;
 }
 
-// Returns the level with the original attributes of its vertices. Both vertices of a pair of twins (copies of a vertex)
-// have the same attributes.
+// Returns the level with the original attributes of its vertices. A twin (copy of a vertex) has the attributes of its
+// original.
 FittedLevel surviving(const Vertices& vertices, SimplifiedLevel level) {
     FittedLevel result;
     const auto own = [&]<typename T>(const std::vector<T>& values, Numbered<LevelVertexNumber, T>& kept) {
@@ -192,8 +192,8 @@ double diagonalOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>&
     return bounds.empty() ? 0 : glm::length(bounds.size());
 }
 
-// Returns an upper bound on the distance from the removed components to the level. It is also at least the size of
-// every removed component.
+// Returns an upper bound on the distance from the removed components to the level. The bound is also at least the size
+// of every removed component.
 double removedError(const std::vector<Ball>& removed, const Surface& level) {
     double error = 0;
     for (const Ball& ball : removed)
@@ -222,8 +222,8 @@ void cluster(FittedLevel& level, const WeldedPositions& positions) {
     level.own = {};
 }
 
-// Returns values for the first `count` vertices in the order of `sources`: the fitted value if the level has one, else
-// the original.
+// Returns an attribute of the first `count` vertices in the order of `sources`: the fitted value if the level has one,
+// else the original value.
 template <typename T>
 std::vector<T> inOrder(const std::vector<T>& own, const Numbered<LevelVertexNumber, T>& fitted,
                        const Numbered<PyramidVertexNumber, LevelVertexNumber>& fittedAt,
@@ -236,7 +236,7 @@ std::vector<T> inOrder(const std::vector<T>& own, const Numbered<LevelVertexNumb
     return result;
 }
 
-// Returns one finish per primitive; empty without a scene.
+// Returns one finish (simplified material) per primitive; empty without a scene.
 std::vector<Finish> finishesOf(const Mesh& mesh, const PyramidOptions& options) {
     std::vector<Finish> finishes;
     if (options.finishes == nullptr) return finishes;
@@ -244,7 +244,7 @@ std::vector<Finish> finishesOf(const Mesh& mesh, const PyramidOptions& options) 
     return finishes;
 }
 
-// Returns the fractions of vertices of the levels after level 0; empty if each level halves the triangles.
+// Returns the fraction of the vertices that each level after level 0 keeps; empty if each level halves the triangles.
 std::vector<double> vertexShares(LevelVertices vertices) {
     return vertices == LevelVertices::quarters ? std::vector{0.75, 0.5} : std::vector<double>();
 }
@@ -252,11 +252,10 @@ std::vector<double> vertexShares(LevelVertices vertices) {
 // Approximate fraction of the work that is complete after each stage. On one core, collapsing takes half of the time.
 constexpr double shareOfCollapses = 0.6, shareUntilFitted = 0.7, shareUntilMeasured = 0.8, shareUntilClustered = 0.85;
 
-// Returns why the pyramid has only level 0, without an attempt to collapse edges; nullopt if further levels may save
-// time.
+// Returns the reason to build only level 0 without trying any collapse; nullopt if coarser levels may save time.
 std::optional<PyramidEnd> endWithoutCollapses(const Mesh& mesh, const PyramidOptions& options) {
     if (options.maxLevels <= 1) return PyramidEnd::maxLevels;
-    if (options.vertices == LevelVertices::quarters) return {};  // levels with a fixed number of vertices
+    if (options.vertices == LevelVertices::quarters) return {};  // levels keep given fractions of the vertices
     if (mesh.triangleCount() <= options.minTriangles) return PyramidEnd::minTriangles;
     if (mesh.triangleCount() < minTrianglesPerPrimitive * mesh.primitives.size()) return PyramidEnd::smallSaving;
     return {};
@@ -297,7 +296,7 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
         simplification.end = *end;
     } else {
         const VertexGroups smoothing = smoothingGroups(vertices.normals, positions);
-        // Created only when level 1 is complete, because memory use peaks while the complete mesh collapses.
+        // Created only when level 1 is complete, because memory use peaks while the complete mesh is being collapsed.
         std::optional<FitSource> source;
         std::once_flag prepared;
         const auto prepare = [&] { source.emplace(prepareFit(vertices, positions, smoothing, levels[0].triangles)); };

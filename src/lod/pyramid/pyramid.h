@@ -32,10 +32,9 @@ struct IndexRange {
     std::uint32_t count = 0;  // number of indices, a multiple of 3
 };
 
-// A cluster is a run of triangles of one level that are close together and face similar directions. A frame skips the
-// complete run if no lens sample sees any of its triangles (plan/visible/visibility.h). All lengths are in object
-// units, measured at the level's own vertices. The bounds are rounded outwards, so that they hold for the exact planes
-// of the triangles.
+// A cluster is a run of triangles of one level that are close together and face similar directions. The renderer skips
+// all of them if no lens sample sees any (plan/visible/visibility.h). All lengths are in object units, measured at the
+// level's own vertices. The bounds are rounded outwards, so that they hold for the exact planes of the triangles.
 struct Cluster {
     IndexRange indices;       // index range within one primitive
     glm::vec3 centre{0};      // centre of a bounding sphere of the vertices
@@ -43,7 +42,7 @@ struct Cluster {
     glm::vec3 axis{0, 0, 1};  // unit axis of the cone that contains the unit normals n of the triangles
     float minCosine = -1;     // min cosine of the angle between a normal n and the axis
     float planes = 0;         // min of n·(p − centre) over the triangles, with p on the triangle's plane
-    // Min altitude of the triangles. Triangles with coinciding corners are ignored, because they draw nothing.
+    // Smallest altitude of any triangle. Triangles with coinciding corners are ignored, because they draw nothing.
     float minAltitude = 0;
 };
 
@@ -53,13 +52,13 @@ inline constexpr std::uint32_t maxClusterTriangles = 64;
 // than the triangles that further levels would save.
 inline constexpr std::size_t minTrianglesPerPrimitive = 4;
 
-// Table of the RMS of a radiance difference after averaging over square patches of growing size. Entry 0: per point,
-// without averaging. Entry i ≥ 1: patches with side 2^(i − 1) · Pyramid::smallestPatch. Values are relative to the mean
-// radiance of the mesh.
+// Table of the RMS of a radiance difference after averaging over square patches of growing size. Entry 0: single
+// points, without averaging. Entry i ≥ 1: patches with side 2^(i − 1) · Pyramid::smallestPatch. Values are relative to
+// the mean radiance of the mesh.
 inline constexpr std::size_t blurSizes = 10;
 using BlurTable = std::array<float, blurSizes>;
 
-// Background for the measurement of a mesh's radiance. The contrast of the outlines is high on black and low on a grey
+// Background for measuring the radiance of a mesh. Outlines have a high contrast on black, and a low contrast on a grey
 // of the mesh's mean radiance. A real background is between the two.
 enum class Surround { black, grey };
 inline constexpr std::array surrounds = {Surround::black, Surround::grey};
@@ -69,11 +68,11 @@ struct PyramidLevel {
     std::vector<IndexRange> primitives;  // one range per primitive of the mesh, in mesh order
     std::uint32_t vertexCount = 0;       // length of the vertex-buffer prefix that the level uses
     std::uint32_t triangleCount = 0;
-    std::vector<Cluster> clusters;  // sorted by index range; together they cover the ranges of all primitives
-    // Vertex attributes of the level, fitted to level 0; level 0 and LevelVertices::surviving have the values of the
-    // mesh. Fitted positions lie inside the bounds of level 0. Vertices at the same position stay at the same position.
-    // Fitted normals have length ≤ 1. A shorter normal represents level 0 normals that differ more, so that a matt
-    // surface reflects less light.
+    std::vector<Cluster> clusters;  // sorted by index range; together they contain all triangles of the level
+    // Vertex attributes of the level, fitted to level 0. Level 0 and levels of LevelVertices::surviving have the mesh's
+    // own attributes. Fitted positions lie inside the bounds of level 0. Vertices at the same position stay at the same
+    // position. Fitted normals have length ≤ 1. A shorter normal stands for normals of level 0 that diverge more, so
+    // that a matt surface reflects less light.
     std::vector<glm::vec3> positions;  // vertexCount entries
     std::vector<glm::vec3> normals;    // vertexCount entries
     std::vector<glm::vec4> colors;     // vertexCount entries; empty without colours; may lie outside [0, 1]
@@ -101,26 +100,26 @@ struct Pyramid {
     // are the normals of level 0. A few vertices are stored twice, for coarser levels that need two normals at one
     // position.
     Vertices vertices;
-    std::vector<std::uint32_t> source;   // for each vertex, its index in Mesh::vertices; morph targets use it
+    std::vector<std::uint32_t> source;   // index of each vertex in Mesh::vertices, used for morph targets
     std::vector<std::uint32_t> indices;  // indices of all levels, level by level
-    std::vector<PyramidLevel> levels;    // at least one; an empty mesh has one empty level
+    std::vector<PyramidLevel> levels;    // finest first, at least one; an empty mesh has one empty level
     Bounds bounds;                       // bounding box of level 0's triangles, in object units
     // For each joint, the bounding box of the vertices that it moves at any level, in object units; empty without
     // joints.
     std::vector<Bounds> jointBounds;
-    // For each morph target, the bounding box of its displacements and the origin, in object units.
+    // For each morph target, the bounding box of its displacements, extended to the origin, in object units.
     std::vector<Bounds> morphBounds;
     double smallestPatch = 0;  // smallest patch side, in object units; 0 if there is only level 0
     // Standard deviation of level 0's radiance within patches; see blurred_error.h.
     BlurTables contrast{};
-    // Faces that had to be repaired for the half-edge structure, see manifold.h; 0 if the mesh needs no such structure
-    // because it has only level 0.
+    // Number of faces that had to be repaired to build a manifold for collapses (manifold.h); 0 if no collapse was
+    // attempted.
     std::uint32_t repairedFaces = 0;
     PyramidEnd end = PyramidEnd::maxLevels;
 };
 
 struct PyramidOptions {
-    // Halving stops at this number of triangles; the last collapse may remove an extra triangle.
+    // Levels stop at this number of triangles; the last collapse may remove one triangle more.
     std::uint32_t minTriangles = 64;
     int maxLevels = 24;  // max number of levels, including level 0
     LevelVertices vertices = LevelVertices::fitted;
@@ -132,9 +131,9 @@ const char* levelVerticesName(LevelVertices vertices);  // name on the command l
 
 // Builds a mesh's pyramid. Deterministic: equal meshes give bit-identical pyramids. Level 0 keeps every triangle of the
 // mesh. The pyramid ends where a further level would save less than a quarter of the triangles. Throws Error if an
-// index is out of range, and if the memory limit is too low (build_memory.h). `helpers` is the number of threads that
-// fit and measure levels while the calling thread collapses edges. `step` receives the completed fraction of the work,
-// in [0, 1], in steps of about 0.01. It is called on the calling thread.
+// index is out of range or the memory limit is too low (build_memory.h). `helpers` is the number of threads that fit
+// and measure levels while the calling thread collapses edges. `step` receives the completed fraction of the work, in
+// [0, 1], in steps of about 0.01. It is called on the calling thread.
 Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options = {}, std::size_t helpers = 0,
                      const std::function<void(double)>& step = {});
 
@@ -143,7 +142,7 @@ class PyramidProgress {
 public:
     // Keeps references to both arguments, which must outlive this object.
     PyramidProgress(const std::vector<Mesh>& meshes, const Progress& progress);
-    // Records that the fraction `share` of the pyramid of mesh `mesh` is built, in [0, 1].
+    // Records that a fraction `share`, in [0, 1], of the pyramid of mesh `mesh` is built.
     void reached(std::size_t mesh, double share);
 
 private:
@@ -152,15 +151,15 @@ private:
     std::mutex mutex_;
     std::vector<double> shares_;
     std::size_t finished_ = 0;
-    double total_ = 0;    // triangles of all meshes, plus one per mesh
+    double total_ = 0;    // number of triangles of all meshes, plus one per mesh
     double reached_ = 0;  // finished part of `total_`
 };
 
 // Returns the total number of triangles of the meshes.
 std::uint64_t trianglesOf(std::span<const Mesh> meshes);
 
-// Returns the number of helper threads for one of several pyramids that are built in parallel, in proportion to the
-// mesh's triangles. `all` is the total number of triangles of all meshes.
+// Returns the number of helper threads for one of several pyramids that are built in parallel. The number is
+// proportional to the mesh's triangle count. `all` is the total triangle count of all meshes.
 std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all);
 
 // Builds one pyramid per mesh, in the order of buildLargestFirst (build_memory.h).

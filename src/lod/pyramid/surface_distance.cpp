@@ -136,7 +136,7 @@ void buildNodes(Surface& surface) {
 }
 
 // Returns lower bounds of the squared distances from `p` to the node's four boxes. `slack` is the max rounding error of
-// a coordinate.
+// a coordinate difference.
 Four squaredDistances(const BoxNode& node, const glm::vec3& p, float slack) {
     const Four zero{};
     Four sums{};
@@ -160,8 +160,8 @@ struct Nearest {
     std::size_t triangle = 0;
 };
 
-// Returns the triangle that is closest to `p`. `guess` is a triangle that is probably close. The search stops at the
-// first triangle with a squared distance of at most `enough`.
+// Returns the triangle that is closest to `p`. The search starts with the triangle `guess`, which is probably close,
+// and stops at the first triangle with a squared distance of at most `enough`.
 Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t guess, double enough) {
     struct Entry {
         float squaredDistance;
@@ -209,7 +209,7 @@ glm::dvec3 pointOf(const Triangle& t, double u, double v) {
     return (1 - root) * glm::dvec3(t[0]) + root * (1 - v) * glm::dvec3(t[1]) + root * v * glm::dvec3(t[2]);
 }
 
-// Visits the sample points of sampleDistances.
+// Calls visit(point) for each sample point that sampleDistances uses.
 template <typename Visit>
 void forEachSample(const Surface& surface, std::size_t count, const Visit& visit) {
     std::size_t triangle = 0;

@@ -3,9 +3,9 @@
 // Simplified Surfaces). Points are distributed evenly over the area of one surface. The closest point of the other
 // surface is found with a bounding volume hierarchy.
 //
-// Lengths are in object units. Triangles without area and triangles with NaN or infinite corners are ignored. A surface
-// may be empty: it yields no sample points, and every distance to it is infinite. Deterministic. Scaling both surfaces
-// by a power of two scales the distances by exactly the same factor.
+// Lengths are in object units. Triangles without area and triangles with NaN or infinite corners are ignored. An empty
+// surface has no sample points, and every distance to it is infinite. Deterministic. Scaling both surfaces by a power
+// of two scales the distances by exactly the same factor.
 
 #include <array>
 #include <cstddef>
@@ -30,7 +30,7 @@ struct BoxNode {
 // threads.
 struct Surface {
     LargeVector<std::array<glm::vec3, 3>> triangles;  // in Morton order: neighbours in memory are close in space
-    LargeVector<double> areas;                        // cumulative areas, each including its own triangle
+    LargeVector<double> areas;                        // cumulative areas; each entry includes its own triangle
     // Complete 4-ary tree: the root is node 0, and the children of node i are 4i + 1 … 4i + 4. Child indices beyond the
     // last node denote leaves. The leaves divide the triangles evenly in their order, with up to 4 triangles each.
     LargeVector<BoxNode> nodes;
@@ -55,8 +55,8 @@ double distanceTo(const Surface& surface, const glm::dvec3& point);
 std::vector<double> sampleDistances(const Surface& from, const Surface& to, std::size_t count);
 
 // Returns the `rank`-th largest (from 1) distance of sampleDistances, but at least `min`. Returns `min` if there are
-// fewer distances. Faster than sampleDistances: the search for a closest point stops as soon as it cannot affect the
-// result.
+// fewer than `rank` distances. Faster than sampleDistances, because the search for a closest point stops as soon as it
+// cannot affect the result.
 double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double min);
 
 struct Distances {
@@ -68,11 +68,11 @@ struct Distances {
 struct SurfaceDistance {
     Distances forward;   // distances from the first surface to the second
     Distances backward;  // distances from the second surface to the first
-    Distances both;      // max of both directions, value by value, like the two-sided Hausdorff distance
+    Distances both;      // each value is the larger of both directions, like the two-sided Hausdorff distance
 };
 
-// Measures from `count` points on each surface. The error of the mean falls approximately as 1 / count. The maximum
-// covers only these points, so that it is a lower bound of the Hausdorff distance.
+// Measures the distance from `count` points on each surface. The error of the mean falls approximately as 1 / count.
+// The maximum covers only these points, so that it is a lower bound of the Hausdorff distance.
 SurfaceDistance surfaceDistance(const Surface& first, const Surface& second, std::size_t count);
 
 }  // namespace defocus::engine

@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double maxSpread = 2;  // max mean difference of vertex indices, in units of √(vertex count)
+constexpr double maxSpread = 2;  // max mean index difference of the vertices, in units of √(vertex count)
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void sortSpatially(WeldedVertices& unique, const std::vector<glm::vec3>& positio
 
 void sortSpatially(TriangleSet<MeshVertexNumber>& triangles) {
     std::size_t first = 0;
-    std::vector<std::array<MeshVertexNumber, 4>> sorted;  // sort key, then the triangle's corners
+    std::vector<std::array<MeshVertexNumber, 4>> sorted;  // sort key, followed by the triangle's corners
     for (const std::uint32_t count : triangles.primitiveIndexCounts) {
         MeshVertexNumber* const indices = triangles.indices.data() + first;
         sorted.clear();
@@ -60,7 +60,7 @@ void sortSpatially(TriangleSet<MeshVertexNumber>& triangles) {
 
 SurvivalOrder sortBySurvival(const std::vector<TriangleSet<MeshVertexNumber>>& levels,
                              const WeldedPositions& positions) {
-    // Linked lists of the used vertices at each position; `head` holds their first elements.
+    // One linked list of the used vertices per position; `head` holds the first vertex of each list.
     const std::size_t vertexCount = positions.id.size();
     Numbered<MeshVertexNumber, std::uint8_t> used(vertexCount, 0);
     for (const TriangleSet<MeshVertexNumber>& level : levels)

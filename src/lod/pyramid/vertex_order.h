@@ -10,7 +10,7 @@
 
 namespace defocus::engine {
 
-// Returns whether vertices of one triangle and of consecutive triangles are so far apart in memory that caches help
+// Returns whether the vertices of one triangle and of consecutive triangles are so far apart in memory that caches help
 // little. For comparison, neighbours in a grid of n vertices stored in rows are √n apart.
 bool isScattered(const TriangleSet<MeshVertexNumber>& triangles, std::size_t vertexCount);
 // Renumbers vertices so that vertices that are close in space are close in memory. `positions` are the positions of the
@@ -20,7 +20,7 @@ void sortSpatially(WeldedVertices& unique, const std::vector<glm::vec3>& positio
 void sortSpatially(TriangleSet<MeshVertexNumber>& triangles);
 
 struct SurvivalOrder {
-    Numbered<PyramidVertexNumber, MeshVertexNumber> vertices;  // the vertices that any level uses
+    Numbered<PyramidVertexNumber, MeshVertexNumber> vertices;  // vertices that at least one level uses
     Numbered<MeshVertexNumber, PyramidVertexNumber> numbers;   // inverse of `vertices`; invalid for unused vertices
     std::vector<std::uint32_t> vertexCounts;                   // for each level, the length of the prefix that it uses
 };

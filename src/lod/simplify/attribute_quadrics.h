@@ -1,5 +1,5 @@
 #pragma once
-// Attribute quadrics of all wedges of a mesh: a dense and a sparse representation with the same interface.
+// Attribute quadrics of all wedges (wedges.h), in a dense and in a sparse representation with the same interface.
 
 #include <array>
 #include <cstddef>
@@ -48,8 +48,8 @@ private:
     LargeVector<AttributeQuadric<n>> all_;
 };
 
-// Attribute quadrics for meshes with mostly constant attributes per face, such as flat-shaded meshes. The quadric of
-// such a face does not depend on position. Such quadrics and their sums need a quarter of the memory.
+// Attribute quadrics for meshes whose attributes are mostly constant over each face, such as flat-shaded meshes. The
+// quadric of such a face does not depend on position. Such quadrics and their sums need a quarter of the memory.
 template <std::size_t n>
 class SparseQuadrics {
 public:

@@ -17,7 +17,7 @@ namespace {
 constexpr double minTurnCosine = 0.2588;  // cosine of 75°, the max rotation of a face's normal
 constexpr double sliverQuality = 0.02;    // twice the area / sum of squared edges; 0.29 for an equilateral triangle
 
-// Classifies a face with corners a, b and c after corner a moves to `target`.
+// Classifies the change of a face with corners a, b and c when corner a moves to `target`.
 Fit judgeMovedFace(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& target) {
     const glm::dvec3 before = glm::cross(b - a, c - a);
     const glm::dvec3 after = glm::cross(b - target, c - target);
@@ -70,8 +70,8 @@ Sides sidesOf(const SurfaceMesh& mesh, HalfedgeHandle along) {
     return sides;
 }
 
-// Returns the survivor's wedge that is most similar to `wedge`, among the wedges for which admitted(face, wedge) is
-// true; invalid if there is none.
+// Returns the surviving vertex's wedge that is most similar to `wedge`, among the wedges for which admitted(face,
+// wedge) is true. Returns an invalid number if there is none.
 template <typename Admitted>
 WedgeNumber nearestWedge(const Sides& sides, WedgeNumber wedge, const Admitted& admitted) {
     WedgeNumber nearest;
@@ -97,11 +97,11 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
     const WedgeTable& wedges = sides.mesh.wedges;
     const auto inPrimitive = [&](FaceHandle face, WedgeNumber) { return sides.mesh.primitive(face) == primitive; };
 
-    // The survivor's wedge beside the collapsing edge, in the corner's chart.
+    // Wedge of the surviving vertex beside the collapsing edge, on the same side of each seam as the corner.
     WedgeNumber across;
     WedgeNumber exact;     // wedge like `across`, but also on the same side of every crease
-    bool torn = false;     // a seam crosses the edge at the survivor
-    bool creased = false;  // a crease crosses the edge at the survivor
+    bool torn = false;     // a seam crosses the edge at the surviving vertex
+    bool creased = false;  // a crease crosses the edge at the surviving vertex
     for (const EdgeSide& side : sides.both) {
         if (!side.face.is_valid() || sides.mesh.primitive(side.face) != primitive) continue;
         if (!wedges.sameChart(side.from, wedge)) continue;
@@ -119,8 +119,8 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
         return {nearestWedge(sides, wedge, inChart), Fit::good};
     }
 
-    // A seam ends at the survivor or starts at the removed vertex. Use the most similar wedge; the collapse is poor if
-    // this wedge is far away in texture space.
+    // A seam ends at the surviving vertex or starts at the removed vertex. Use the most similar wedge. The collapse is
+    // poor if this wedge is far away in texture space.
     const WedgeNumber nearest = nearestWedge(sides, wedge, inPrimitive);
     if (nearest.isValid()) {
         bool leaves = sides.jumps(wedge, nearest);
@@ -131,13 +131,12 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
     return {nearestWedge(sides, wedge, [](FaceHandle, WedgeNumber) { return true; }), Fit::bad};
 }
 
-// Weight of the squared edge length relative to squared distances. On flat regions, only this term differs between
-// collapses; it favours well-shaped triangles.
+// Weight of the squared edge length relative to squared distances to planes. In flat regions, collapses differ only in
+// this term, which favours well-shaped triangles.
 constexpr float edgeWeight = 1e-4f;
 
-// Max number of spokes (outgoing half-edges) of a vertex around the edge. OpenMesh's collapse searches for borders
-// around all four vertices of the edge's faces. For the hub of a fan, this would take time quadratic in the number of
-// faces.
+// Max number of half-edges at a vertex of the edge's faces. OpenMesh's collapse searches for borders around all four
+// vertices of these faces. For the hub of a fan of triangles, this would take time quadratic in the number of faces.
 constexpr std::size_t maxSpokes = 8192;
 
 // Returns whether the half-edge borders a triangular hole. OpenMesh allows a collapse along it if a second edge joins
@@ -193,7 +192,7 @@ bool ShapeModule::keepsTopology(HalfedgeHandle along) {
         if (surface.to_vertex_handle(spoke) == to) ++edgesBetween;
     });
     if (edgesBetween != 1) return false;
-    // Reject the collapse of a tetrahedron, or of a tip that consists of three faces like the tip of a tetrahedron.
+    // Reject the collapse between two interior vertices of three faces each, which would leave two faces back to back.
     const bool inside = !surface.is_boundary(from) && !surface.is_boundary(to);
     return !(inside && valence == 3 && surface.valence(to) == 3);
 }
@@ -302,7 +301,7 @@ float QuadricModule::cost(HalfedgeHandle along, float max) {
     float sum = own.at(step) + surface.data(to).quadric.c + own.weight * edgeWeight * glm::dot(step, step);
     if (!(sum < max)) return sum;
 
-    // Attribute costs on both sides of the edge; equal pairs of wedges count once.
+    // Add the attribute costs on both sides of the edge; if both sides have the same pair of wedges, add the cost once.
     WedgeNumber leftFrom, leftTo;
     if (!surface.is_boundary(along)) {
         leftFrom = surface.wedge(along);
@@ -317,7 +316,7 @@ float QuadricModule::cost(HalfedgeHandle along, float max) {
 }
 
 Candidate QuadricModule::cheapest(VertexHandle v) {
-    // Prefetch all data first, because successive collapses are scattered over the mesh.
+    // Prefetch the data of all neighbours first, because successive collapses are scattered over the mesh.
     const SurfaceMesh& surface = mesh();
     spokes_.clear();
     forEachSpoke(surface, v, [&](HalfedgeHandle spoke) {

@@ -1,6 +1,6 @@
 #pragma once
-// Evaluates a half-edge collapse: its effect on the surface, its effect on the wedges, and its cost. Each of the three
-// is a module of OpenMesh's decimater.
+// Evaluates a half-edge collapse: its effect on the surface, its effect on the wedges (wedges.h), and its cost. Each of
+// the three is computed by a module of OpenMesh's decimater.
 
 #include <span>
 #include <string>
@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 // Decides whether the surface allows a collapse, and classifies the effect on surrounding faces. The link condition is
 // OpenMesh's is_collapse_ok (Dey, Edelsbrunner, Guha and Nekhayev 1999, Topology Preserving Edge Contraction). As a
-// decimater module, it accepts good and poor collapses.
+// decimater module, it accepts good and poor collapses (simplify.h).
 class ShapeModule final : public CollapseModule {
 public:
     explicit ShapeModule(SurfaceMesh& surface);
@@ -31,7 +31,7 @@ public:
 private:
     [[nodiscard]] bool besideHub(HalfedgeHandle along);
 
-    std::vector<VertexHandle> hubs_;  // vertices with too many half-edges; no edge of their faces may collapse
+    std::vector<VertexHandle> hubs_;  // vertices with more than 8,192 half-edges; no edge of their faces may collapse
 };
 
 // A corner of a remaining face, and the wedge of the surviving vertex that the corner receives.
@@ -41,8 +41,8 @@ struct Handover {
 };
 
 // Transfers wedges in a half-edge collapse (Hoppe 1998, Efficient Implementation of Progressive Meshes). Each remaining
-// corner of the removed vertex receives a wedge of the survivor. As a decimater module, it accepts good and poor
-// collapses.
+// corner of the removed vertex receives a wedge of the surviving vertex. As a decimater module, it accepts good and
+// poor collapses (simplify.h).
 class WedgeModule final : public CollapseModule {
 public:
     explicit WedgeModule(SurfaceMesh& surface) : CollapseModule(surface, true) {}
@@ -51,8 +51,8 @@ public:
     float collapse_priority(const CollapseInfo& collapse) override;
     // Assigns each corner its new wedge, and adds the quadrics of the old wedges to the quadrics of the new wedges.
     void preprocess_collapse(const CollapseInfo& collapse) override;
-    // OpenMesh replaces a half-edge beside the removed face by a half-edge of that face. Copies the wedge to the
-    // replacement.
+    // Copies a wedge after the collapse, because OpenMesh replaces a half-edge beside the removed face by a half-edge
+    // of that face.
     void postprocess_collapse(const CollapseInfo& collapse) override;
 
     // Selects a wedge of the surviving vertex for each remaining corner of the removed vertex, and classifies the
@@ -65,30 +65,30 @@ public:
 
 private:
     std::vector<Handover> handovers_;
-    HalfedgeHandle judged_;  // the half-edge that `handovers_` belongs to
+    HalfedgeHandle judged_;  // half-edge whose collapse judge() evaluated last
 };
 
-// Computes the cost of a collapse: the quadric errors of both vertices at the survivor, plus a small term for edge
-// length. The quadric errors are position errors (Garland and Heckbert 1997) and attribute errors (Hoppe 1999). As a
-// decimater module, it returns the cost as priority.
+// Computes the cost of a collapse: the quadric errors of both vertices at the surviving vertex, plus a small term for
+// edge length. The quadric errors are position errors (Garland and Heckbert 1997) and attribute errors (Hoppe 1999). As
+// a decimater module, it returns the cost as priority.
 class QuadricModule final : public CollapseModule {
 public:
     explicit QuadricModule(SurfaceMesh& surface) : CollapseModule(surface, false) {}
 
     [[nodiscard]] const std::string& name() const override;
     float collapse_priority(const CollapseInfo& collapse) override;
-    // Adds the position quadric of the removed vertex to the position quadric of the survivor. WedgeModule moves the
-    // wedges' quadrics.
+    // Adds the position quadric of the removed vertex to the quadric of the surviving vertex. WedgeModule does the same
+    // for attribute quadrics.
     void postprocess_collapse(const CollapseInfo& collapse) override;
 
     // Returns the cost of collapsing a half-edge, ≥ 0. If the cost is at least `max`, any value from `max` to the cost
     // may be returned.
     [[nodiscard]] float cost(HalfedgeHandle along, float max);
-    // Returns the vertex's cheapest collapse, allowed or not; the first in case of a tie.
+    // Returns the vertex's cheapest collapse, whether it is allowed or not; the first in case of a tie.
     [[nodiscard]] Candidate cheapest(VertexHandle v);
 
 private:
-    std::vector<HalfedgeHandle> spokes_;  // temporary storage of cheapest()
+    std::vector<HalfedgeHandle> spokes_;  // half-edges of the vertex, used by cheapest()
 };
 
 // The modules that evaluate each collapse of a surface and its cost, and update the surface's wedges and quadrics.

@@ -1,7 +1,7 @@
 #pragma once
-// Priority queue of the vertices to collapse: bad collapses last, then by cost, then by vertex number. A 4-ary heap
-// with update, in which every vertex occurs at most once (Johnson 1975, Priority Queues with Update and Finding Minimum
-// Spanning Trees).
+// Priority queue of the vertices to collapse: bad collapses last, then by cost, then by vertex number. The queue is a
+// 4-ary heap with updates, in which every vertex occurs at most once (Johnson 1975, Priority Queues with Update and
+// Finding Minimum Spanning Trees).
 
 #include <algorithm>
 #include <bit>
@@ -52,7 +52,7 @@ public:
             sink(place, last);
     }
 
-    // Returns the vertex with the lowest cost; the queue must not be empty.
+    // Returns the vertex to collapse next. The queue must not be empty.
     [[nodiscard]] VertexHandle best() const { return VertexHandle(static_cast<int>(heap_.front() & 0xffffffffu)); }
     VertexHandle takeBest() {
         const VertexHandle vertex = best();
@@ -96,7 +96,7 @@ private:
         set(place, key);
     }
 
-    // Key: bad (1 bit), cost as float bits (31, which sort like the cost), vertex number (32).
+    // Each entry is a sort key: bad (1 bit), cost as float bits (31, which sort like the cost), vertex number (32).
     std::vector<std::uint64_t> heap_;
     std::vector<std::uint32_t> places_;  // position of each vertex in the heap
 };

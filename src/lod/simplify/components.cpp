@@ -1,7 +1,7 @@
-// Components of a mesh that touch no other part, such as stones of a heap or leaves of a tree. Collapses cannot
-// simplify a component beyond a tetrahedron or a triangle. Then complete components are removed, the smallest first.
-// Their neighbours grow to preserve the visible area (Cook, Halstead, Planck and Ryu 2007, Stochastic Simplification of
-// Aggregate Detail).
+// Components of a mesh that share no vertex position with the rest, such as stones of a heap or leaves of a tree.
+// Collapses cannot simplify a component beyond a tetrahedron or a triangle. Complete components are then removed, the
+// smallest first. Their neighbours grow to preserve the visible area (Cook, Halstead, Planck and Ryu 2007, Stochastic
+// Simplification of Aggregate Detail).
 
 #include <algorithm>
 #include <array>
@@ -19,10 +19,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double largestRatio = 1.2;  // max ratio of sizes that count as equal in the order of removal
+constexpr double largestRatio = 1.2;  // max size ratio of components that are removed in random order
 constexpr double maxEnlargement =
     4;                              // max size of the neighbour that replaces a component, relative to the component
-constexpr double manyShare = 0.25;  // fraction of faces above which manyAreSmallest() is true
+constexpr double manyShare = 0.25;  // manyAreSmallest() is true above this fraction of faces
 constexpr std::uint32_t fewestFaces = 4;  // min faces of a component after collapses: a tetrahedron
 
 // Disjoint sets of vertices (union-find).
@@ -61,7 +61,7 @@ Forest joinedByFaces(const SurfaceMesh& mesh) {
     return forest;
 }
 
-// Joins vertices that are connected by faces, by collapses or by an equal position.
+// Joins vertices that are connected by a face, by a collapse or by an equal position.
 Forest joinedVertices(const Simplifier& s) {
     Forest forest = joinedByFaces(*s.mesh);
     for (const VertexHandle v : s.survivors.numbers()) forest.join(v, s.survivors[v]);
@@ -83,7 +83,7 @@ double areaOf(const Vertices& vertices, std::span<const MeshVertexNumber, 3> cor
     return std::isfinite(area) ? area : 0;
 }
 
-// Measures bounding sphere and area of each component in the original mesh, before any collapse.
+// Measures the bounding sphere and the area of each component in the original mesh, before any collapse.
 void measureComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangles) {
     const Vertices& vertices = s.origin->vertices;
     const Numbered<MeshVertexNumber, SurfaceVertexNumber>& firstVertex = s.origin->firstVertex;
@@ -107,7 +107,7 @@ void measureComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& trian
     for (const Component& component : s.components) s.area += component.area;
 }
 
-// Counts each component's remaining faces and vertices with a good or poor collapse.
+// For each component, counts the remaining faces and the vertices with a good or poor collapse.
 void countComponents(Simplifier& s) {
     const SurfaceMesh& mesh = *s.mesh;
     forEachFace(mesh, [&](FaceHandle face) { ++s.componentAt(firstVertexOf(mesh, face)).faces; });
@@ -122,12 +122,12 @@ void countComponents(Simplifier& s) {
 // A component that may be removed.
 struct Removable {
     ComponentNumber component;
-    std::size_t size = 0;  // size class, ascending; equal for components of similar size
+    std::size_t size = 0;  // rank by size, ascending; equal for components of similar size
     std::vector<FaceHandle> faces;
 };
 
-// Returns the removable components, smallest first. Neither the largest component is removable, nor a component that
-// edge collapses can still simplify.
+// Returns the removable components, smallest first. The largest component and components that edge collapses can still
+// simplify are not removable.
 std::vector<Removable> removableComponents(const Simplifier& s) {
     const SurfaceMesh& mesh = *s.mesh;
     Numbered<ComponentNumber, Removable> all(s.components.size());
@@ -198,8 +198,8 @@ void removeComponent(Simplifier& s, const Removable& removable) {
     component.removed = true;
 }
 
-// k-d tree of component centres for nearest-neighbour queries with a condition. For 50,000 centres, nanoflann takes two
-// thirds of the time of a simple median-split tree.
+// k-d tree of component centres that finds the nearest component with a given property. For 50,000 centres, nanoflann
+// takes two thirds of the time of a simple median-split tree.
 class CentreTree {
 public:
     // Builds the tree of all components that have not been removed. Keeps a reference to `components`.
@@ -208,8 +208,8 @@ public:
     CentreTree(const CentreTree&) = delete;
     CentreTree& operator=(const CentreTree&) = delete;
 
-    // Returns the nearest component for which counts(component) is true; else invalid. `point` is in object units. The
-    // search ends after maxVisits, so that it may miss a component if many others fail the condition.
+    // Returns the nearest component for which counts(component) is true, or an invalid number. `point` is in object
+    // units. The search ends after maxVisits components, so that it may miss one if many others fail the condition.
     template <typename Counts>
     [[nodiscard]] ComponentNumber nearest(const glm::dvec3& point, const Counts& counts) const {
         Search<Counts> search(centres_.numbers, counts);
@@ -239,7 +239,7 @@ private:
         }
     };
 
-    // Result set of a nanoflann search: receives the points that are closer than the best point so far.
+    // Result set of a nanoflann search. nanoflann passes it the points that are closer than the best point so far.
     template <typename Counts>
     struct Search {
         const std::vector<ComponentNumber>& numbers;
@@ -290,7 +290,7 @@ void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangle
     if (!s.components.empty()) return;
     SurfaceMesh& mesh = *s.mesh;
     Forest forest = joinedVertices(s);
-    // component of the root vertex of each tree of `forest`
+    // Component of the root vertex of each tree in `forest`.
     Numbered<VertexHandle, ComponentNumber> numbers(mesh.n_vertices());
     forEachFace(mesh, [&](FaceHandle face) {
         ComponentNumber& number = numbers[forest.root(firstVertexOf(mesh, face))];
@@ -328,7 +328,7 @@ void removeComponents(Simplifier& s, std::size_t target) {
     std::vector<Removable> rest = removableComponents(s);
     const CentreTree tree(s.components);
 
-    // Process components of similar size together, the smallest first. A component that has replaced another stays
+    // Process components of similar size together, the smallest first. A component that has replaced another is kept
     // until all components of similar size have been considered. Removals are therefore spread evenly.
     for (std::size_t begin = 0; begin < rest.size() && s.liveFaces > target;) {
         std::size_t end = begin;

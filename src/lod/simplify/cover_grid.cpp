@@ -11,10 +11,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double gridMargin = 1.04;  // grid side relative to the box's diagonal; levels may protrude slightly
+constexpr double gridMargin = 1.04;  // grid side relative to the bounding box's diagonal; levels may protrude slightly
 
-// Returns the first cell whose centre is at or after `place`, at most `end`, where cell centres are 0, 1, …. Returns 0
-// for NaN.
+// Returns the index of the first cell whose centre is at or after `place`, at most `end`. Cell i has its centre at i.
+// Returns 0 for NaN.
 template <typename T>
 int firstAt(T place, int end) {
     const T bounded = std::min(std::max(T{0}, place), static_cast<T>(end));
@@ -22,7 +22,7 @@ int firstAt(T place, int end) {
     return truncated + (static_cast<T>(truncated) < bounded ? 1 : 0);
 }
 
-// Returns a mask of the bits [low, high).
+// Returns a mask with the bits [low, high) set.
 std::uint64_t bitsBetween(int low, int high) {
     return (~std::uint64_t{0} >> (wordBits - (high - low))) << low;
 }
@@ -107,7 +107,7 @@ bool CoverGrid::isMarked(int firstRow, int endRow, int first, int end) {
 }
 
 void CoverGrid::cover(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
-    // Skip triangles between cell centres or on cells that are already covered: most triangles of a fine mesh.
+    // Skip most triangles of a fine mesh: those that contain no cell centre, or only cells that are already covered.
     const int firstRow = firstAt(std::min(std::min(a.y, b.y), c.y), resolution_);
     const int endRow = firstAt(std::max(std::max(a.y, b.y), c.y), resolution_);
     if (firstRow >= endRow) return;

@@ -6,9 +6,9 @@
 
 namespace defocus::engine {
 
-// Returns x of (M + damping·d·I) x = b by Cholesky decomposition, where d is the mean of M's diagonal. M is symmetric
-// positive semi-definite and stored as n × n values in row-major order. Only the lower triangle is read. damping > 0.
-// Returns zeros if M is zero.
+// Solves (M + damping·d·I) x = b by Cholesky decomposition, where d is the mean of M's diagonal, and returns x. M is
+// symmetric positive semi-definite and stored as n × n values in row-major order. Only the lower triangle is read.
+// damping > 0. Returns zeros if M is zero.
 std::vector<double> dampedSolution(std::span<const double> matrix, std::span<const double> b, double damping);
 
 }  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #pragma once
-// Data shared by the fits of a level: the area and normal per anchor (level_fit.h), and the least-squares equations for
-// groups of vertices with a common value. Private to level_fit.cpp and texture_fit.cpp.
+// Data shared by the fits of a level: the area and normal per anchor (point on the level, see level_fit.h), and the
+// least-squares equations for groups of vertices with a common value. Private to level_fit.cpp and texture_fit.cpp.
 
 #include <array>
 #include <cstddef>
@@ -23,13 +23,13 @@ struct Coordinates {
 
 Coordinates coordinatesOf(const Vertices& vertices, MeshVertexNumber v);
 
-// Sums over the vertices that an anchor (a point on the level) represents: its owner and the vertices that share it.
+// Sums over the mesh vertices that one anchor (a point on the level) represents.
 struct Anchored {
     float area = 0;
     glm::vec3 normal{0};  // area-weighted mean
 };
 
-// Values per vertex; undefined for a vertex without an anchor of its own.
+// Values per mesh vertex; undefined for vertices that use the anchor of another vertex.
 struct AnchoredValues {
     Numbered<MeshVertexNumber, Anchored> values;
     Numbered<MeshVertexNumber, glm::vec4> colors;  // area-weighted means; empty without colours
@@ -41,15 +41,15 @@ AnchoredValues anchoredValues(const FitSource& source, const Numbered<MeshVertex
 // triangle without area is zero.
 Numbered<TriangleNumber, glm::vec3> unitNormals(const std::vector<glm::vec3>& positions, const LevelMesh& level);
 
-// Returns the effective area of an anchor: the projection of `area` onto the anchor's triangle, but at least 2 % of
-// `area`. `normal` is the normal of the area; `face` is the unit normal of the triangle. Returns the full area if the
-// anchor lies at a corner or the triangle has no area.
+// Returns the effective area of an anchor (a point on the level): the projection of `area` onto the anchor's triangle,
+// but at least 2 % of `area`. `normal` is the normal of the area; `face` is the unit normal of the triangle. Returns
+// the full area if the anchor lies at a corner or the triangle has no area.
 float foreshortened(float area, const Anchor& anchor, const glm::vec3& face, const glm::vec3& normal);
 
 // Groups of the level's vertices that share one value.
 struct Grouping {
     Numbered<LevelVertexNumber, UnknownNumber> of;
-    Numbered<UnknownNumber, MeshVertexNumber> sources;  // per group, the mesh vertex with the group's initial value
+    Numbered<UnknownNumber, MeshVertexNumber> sources;  // mesh vertex that provides each group's initial value
     [[nodiscard]] std::size_t count() const { return sources.size(); }
 
     // Returns for each group the sum of value(vertex), starting from `zero`.
@@ -69,7 +69,7 @@ private:
 };
 
 // Groups the level's vertices by leaderOf(mesh vertex), the vertex that represents a group. `count` is the number of
-// mesh vertices. With `sidesApart`, vertices with LevelMesh::apart set form separate groups.
+// mesh vertices. With `sidesApart`, vertices on the back of a thin sheet (LevelMesh::apart) form separate groups.
 template <typename LeaderOf>
 Grouping grouped(const LevelMesh& level, std::size_t count, const LeaderOf& leaderOf, bool sidesApart) {
     Numbered<MeshVertexNumber, UnknownNumber> numbers(count);
@@ -87,8 +87,8 @@ Grouping grouped(const LevelMesh& level, std::size_t count, const LeaderOf& lead
     return groups;
 }
 
-// Returns least-squares equations for the groups; the solution is initialised to zero. weight(v) and value(v) return
-// the sums of weights and of weighted targets at vertex v of the level.
+// Returns least-squares equations with one unknown per group; the solution is initialised to zero. weight(v) and
+// value(v) return the sums of weights and of weighted targets at vertex v of the level.
 template <std::size_t channels, typename Weight, typename Value>
 LeastSquares equations(const LevelMesh& level, std::span<const TriangleSums> triangles, const Grouping& groups,
                        const Weight& weight, const Value& value) {

@@ -31,14 +31,14 @@ struct LeastSquares {
 
     std::span<const TriangleSums> triangles;
     Numbered<TriangleCorner, UnknownNumber> corners;
-    Numbered<UnknownNumber, float> weights;      // Σ share·weight; 0: the unknown keeps its initial value
-    Rows sums;                                   // Σ share·weight·target
+    Numbered<UnknownNumber, float> weights;      // sums of the weights; 0: the unknown keeps its initial value
+    Rows sums;                                   // sums of the weighted targets
     Rows solution;                               // input: initial value and prior; output: solution
     Numbered<UnknownNumber, std::uint8_t> held;  // 1: the unknown keeps its initial value; may be empty
 
     static constexpr int iterations = 4;  // number of iterations; more cause no visible change
-    // Strength of the pull towards the prior, relative to an unknown's weight. Prevents overshoot of unknowns with few
-    // points.
+    // Strength of the pull towards the prior, relative to an unknown's weight. It prevents overshoot of unknowns with
+    // few points.
     static constexpr float pull = 0.01f;
 
     // Solves the system; overwrites `sums`.

@@ -15,15 +15,15 @@ namespace defocus::engine {
 
 namespace {
 
-// Lower bound of the mean cosine between normals: normals that differ more have no meaningful mean.
+// Lower bound of the mean cosine between normals. Below this value, the mean normal is meaningless.
 constexpr float minAgreement = 0.125f;
 
-// Sums over the anchors at each level vertex, in the notation of least_squares.h: share · weight, and share · weight ·
-// value.
+// Sums over the anchors (points on the level) at each level vertex: share · weight, and share · weight · value, in the
+// notation of least_squares.h.
 struct AnchorSums {
     using Three = std::array<double, 3>;
     Numbered<LevelVertexNumber, double> weights;
-    Numbered<LevelVertexNumber, Three> gaps;  // offsets from the anchor's point on the level to the original vertex
+    Numbered<LevelVertexNumber, Three> gaps;  // offsets from the anchor to the original vertex
     Numbered<LevelVertexNumber, Three> normals;
     Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // empty without colours
     Numbered<TriangleNumber, TriangleSums> triangles;
@@ -154,7 +154,7 @@ Numbered<UnknownNumber, float> agreements(const FitSource& source, const LevelMe
     return result;
 }
 
-// Fits normals as vectors, so that their means are shorter than 1 where normals differ. Clears the normals in `sums`.
+// Fits normals as vectors, so that the results are shorter than 1 where normals diverge. Clears the normals in `sums`.
 LeastSquares::Rows meanNormals(const FitSource& source, const LevelMesh& level, const Grouping& groups,
                                AnchorSums& sums) {
     const std::vector<glm::vec3>& own = source.vertices.normals;
@@ -166,8 +166,8 @@ LeastSquares::Rows meanNormals(const FitSource& source, const LevelMesh& level, 
     return std::move(fit.solution);
 }
 
-// Fits normals. A fitted normal on the back side of the surrounding triangles, whose vertices are at `positions`, is
-// replaced by the triangles' mean unit normal.
+// Fits normals. `positions` are the fitted vertex positions. A fitted normal that is very short or points to the back
+// of the surrounding triangles is replaced by their mean unit normal.
 Numbered<LevelVertexNumber, glm::vec3> fitNormals(const FitSource& source, const LevelMesh& level,
                                                   const Numbered<MeshVertexNumber, Anchor>& anchors, AnchorSums& sums,
                                                   const Numbered<LevelVertexNumber, glm::vec3>& positions) {
@@ -218,7 +218,7 @@ Numbered<LevelVertexNumber, glm::vec4> fitColors(const FitSource& source, const 
     return fitted;
 }
 
-// A component of a level and its scaling.
+// Area and bounding box of a component of a level, and the scaling that enlarges it.
 struct Grown {
     double area = 0;
     Bounds box;
@@ -241,7 +241,7 @@ void chooseGrowth(Grown& grown, const Growth& growth, const Bounds& limits) {
                   glm::min(glm::dvec3(0), limits.maximum - grown.place(grown.box.maximum, growth.centre));
 }
 
-// Enlarges the components with less area than required by LevelMesh::growths. The result stays inside `limits`.
+// Enlarges the components whose area is below their area in LevelMesh::growths. The result stays inside `limits`.
 void growComponents(Numbered<LevelVertexNumber, glm::vec3>& positions, const LevelMesh& level, const Bounds& limits) {
     if (level.growthsOf.empty()) return;
     Numbered<ComponentNumber, Grown> grown(level.growths.size());
@@ -265,8 +265,8 @@ void growComponents(Numbered<LevelVertexNumber, glm::vec3>& positions, const Lev
 // Max triangle count of levels whose reflected light is corrected. Finer levels match the reflected light of level 0
 // without correction.
 constexpr std::size_t maxLitTriangles = 16'384;
-// Max triangle count of levels whose outline is corrected. Thin parts already lose area at the first level; meshes with
-// more triangles would take too long.
+// Max triangle count of levels whose outline is corrected. Even level 1 may need the correction, because thin parts
+// lose area; levels with more triangles would take too long.
 constexpr std::size_t maxOutlinedTriangles = 131'072;
 
 void conserveOutline(const FitSource& source, const LevelMesh& level, LevelFit& fit) {

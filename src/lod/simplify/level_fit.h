@@ -1,9 +1,9 @@
 #pragma once
-// Fits positions, normals, colours and texture coordinates of a coarser level. The original values of the remaining
-// vertices would preserve single spots of a pattern and single bumps of a relief. A level with vertices on a convex
-// surface would also be too small. Therefore, the linear interpolation over the level is fitted to all vertices of
-// level 0 by least squares. Positions are fitted in this way by Hoppe et al. 1993, Mesh Optimization. The solver is the
-// Jacobi-preconditioned conjugate gradient method (Hestenes and Stiefel 1952).
+// Fits positions, normals, colours and texture coordinates of a coarser level. Copies of the remaining vertices'
+// attributes would alias: single spots of a pattern or single bumps of a relief would cover large areas. A level with
+// its vertices on a convex surface would also be too small. Therefore, the linear interpolation over the level is
+// fitted to all vertices of level 0 by least squares. Hoppe et al. 1993, Mesh Optimization, fit positions in this way.
+// The solver is the Jacobi-preconditioned conjugate gradient method (Hestenes and Stiefel 1952).
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -19,7 +19,7 @@
 
 namespace defocus::engine {
 
-// Data of level 0 that all levels are fitted to: vertices, groups of vertices with common values, and properties to
+// Data of level 0 to which all levels are fitted: vertices, groups of vertices with common values, and properties to
 // conserve.
 struct FitSource {
     const Vertices& vertices;
@@ -32,7 +32,7 @@ struct FitSource {
     Numbered<MeshVertexNumber, std::uint8_t> seams;
     Numbered<MeshVertexNumber, float> areas;  // area of each vertex, relative to the mean over all vertices
     Bounds bounds;                            // bounding box of level 0's triangles
-    // Values of level 0 that conserve() preserves.
+    // Properties of level 0 that conserve() preserves.
     glm::dvec4 meanColor{0};
     std::vector<CoverGrid> outlines;
     LightMeans light{};
@@ -43,13 +43,13 @@ FitSource prepareFit(const Vertices& vertices, const WeldedPositions& positions,
                      const TriangleSet<MeshVertexNumber>& triangles);
 
 // Position of a level 0 vertex on a coarser level: a point of a triangle, in barycentric coordinates. If all weights
-// are 0, the vertex has no anchor of its own.
+// are 0, the vertex has no point of its own.
 struct Anchor {
     TriangleNumber triangle;
     float weight[3] = {0, 0, 0};
 
-    // Returns the anchor of a vertex without its own anchor. The vertex's area, colour and normal are added to the
-    // anchor of `near`.
+    // Returns the anchor of a vertex that has no point of its own. The vertex's area, colour and normal are added to
+    // the anchor of `near`.
     static Anchor sharedWith(MeshVertexNumber near) { return {{near.value}}; }
     [[nodiscard]] bool isUnused() const { return weight[0] == 0 && weight[1] == 0 && weight[2] == 0; }
     // Returns the vertex whose anchor is shared; invalid if there is none.
@@ -58,8 +58,8 @@ struct Anchor {
     }
 };
 
-// Growth of a component after fitting. The component is scaled about `centre` until it has `area`. `area` is the
-// component's original area plus the areas of the components that it replaces. The scale is in [1, `maxFactor`].
+// Growth of a component after fitting, to replace removed components. The component is scaled about `centre` until it
+// has `area`, the sum of its original area and the areas that it replaces. The scale is in [1, `maxFactor`].
 struct Growth {
     glm::dvec3 centre{0};  // object units
     double area = 0;       // object units squared
@@ -68,32 +68,32 @@ struct Growth {
 
 struct LevelMesh {
     TriangleSet<LevelVertexNumber> triangles;
-    Numbered<LevelVertexNumber, MeshVertexNumber> sources;  // mesh vertex with the original attributes; never a copy
+    Numbered<LevelVertexNumber, MeshVertexNumber> sources;  // mesh vertex with the original attributes; never a twin
     // 1: the vertex belongs to the back of a thin sheet, where the other vertices at its position belong to the front.
     // A back vertex shares its normal and colour only with other back vertices.
     Numbered<LevelVertexNumber, std::uint8_t> apart;
     Numbered<ComponentNumber, Growth> growths;
-    Numbered<LevelVertexNumber, ComponentNumber> growthsOf;  // component of each vertex; empty if there are no growths
+    Numbered<LevelVertexNumber, ComponentNumber> growthsOf;  // component of each vertex; empty if no component grows
 };
 
 // Fitted attributes of each vertex of a LevelMesh.
 struct LevelFit {
     Numbered<LevelVertexNumber, glm::vec3> positions;
-    Numbered<LevelVertexNumber, glm::vec3> normals;   // length ≤ 1; shorter where the normals of level 0 differ more
+    Numbered<LevelVertexNumber, glm::vec3> normals;   // length ≤ 1; shorter where the normals of level 0 diverge more
     Numbered<LevelVertexNumber, glm::vec4> colors;    // may lie outside [0, 1]; empty without colours
     Numbered<LevelVertexNumber, glm::vec2> uv0, uv1;  // empty without texture coordinates
 };
 
-// Fits a level. Each mesh vertex is weighted by its area, foreshortened on the triangle of its anchor. Level vertices
+// Fits a level. Each mesh vertex is weighted by its area, foreshortened on its anchor's triangle. Level vertices
 // without any anchor on their triangles keep their original values. No triangle rotates by more than 60°, and all stay
-// inside level 0's bounding box. Vertices at the same position stay together. Vertices whose normals agree within one
-// degree share a normal; if their colours are equal, they share a colour. This prevents gaps and visible seams.
+// inside level 0's bounding box. Vertices at the same position stay together. To prevent gaps and visible seams,
+// vertices whose normals agree within one degree share a normal; if their colours are equal, they also share a colour.
 LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<MeshVertexNumber, Anchor> anchors);
 
 // Corrects a fitted level so that it preserves the properties of level 0 that remain visible after a wide blur:
 // - the covered area, if the level is coarse: vertices at outlines are moved (outline.h);
 // - the mean colour over the area, including alpha: all colours are shifted by the same amount;
-// - the light that a matt surface reflects, from any direction: normals are rotated slightly (light.h).
+// - the light that a matt surface reflects in each light direction: normals are rotated slightly (light.h).
 // The guarantees of fitLevel still hold, except that a triangle may rotate by up to 60° more.
 void conserve(const FitSource& source, const LevelMesh& level, LevelFit& fit);
 

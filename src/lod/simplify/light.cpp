@@ -40,7 +40,8 @@ struct LitPoint {
     float light = 0;  // area times the mean of the colour channels
 };
 
-// Calls visit(corners, point) for sample points of the surface. Returns the area of the surface.
+// Calls visit(corners, point) for sample points, with the vertex indices of the point's triangle. Returns the surface
+// area.
 template <typename Visit>
 double forEachLitPoint(const LitSurface& surface, std::size_t minPoints, const Visit& visit) {
     const std::size_t triangles = surface.indices.size() / 3;
@@ -81,14 +82,14 @@ double forEachLitPoint(const LitSurface& surface, std::size_t minPoints, const V
 constexpr std::size_t pairCount = lightCount / 2;  // number of pairs of opposite lights
 using PairRow = std::array<float, pairCount>;
 
-// Derivatives of the mean radiance under each light with respect to x, y and z of a normal.
+// Derivatives of the mean radiance under each light with respect to the x, y and z coordinates of a normal.
 struct LightSlopes {
     LightRow x, y, z;
 };
 
-// Derivatives of the mean radiance under each light with respect to the normal of a group, split into two parts. For a
-// light direction d, the first part, odd · d with a symmetric matrix `odd`, changes sign with d. The second part is the
-// same for opposite lights.
+// Derivatives of the mean radiance under each light with respect to the normal of a vertex group, as a sum of two
+// parts. For a light direction d, the first part is odd · d with a symmetric matrix `odd`; it changes sign with d. The
+// second part is the same for opposite lights.
 struct GroupSlopes {
     float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // elements of the matrix `odd`
     PairRow x{}, y{}, z{};
@@ -122,7 +123,7 @@ struct GroupSlopes {
 // Returns the derivatives of meanCosine() for a point whose normal rotates. Derivatives along the normal are 0.
 // `values` receives the values of meanCosine().
 GroupSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& values) {
-    constexpr float minRoot = 0.02f;  // limits the derivative where light grazes a surface with uniform normals
+    constexpr float minRoot = 0.02f;  // bounds the derivative at grazing light if normals hardly diverge
     const glm::vec3& n = point.normal;
     const float half = 0.5f * point.agreement;
     const float spread = normalSpread(point.agreement);
@@ -154,7 +155,7 @@ struct FollowingMeans {
     LargeVector<GroupSlopes> slopes;
 };
 
-// Computes the mean radiance under each light and its derivatives. Reuses the memory of `result`, which may be large.
+// Computes the mean radiance under each light and its derivatives. Reuses the memory of `result`.
 void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, std::size_t minPoints,
             FollowingMeans& result) {
     const Lights from = lights();
@@ -208,7 +209,7 @@ std::vector<glm::vec3> smallestChange(const FollowingMeans& at, const LightMeans
     return change;
 }
 
-// Adds a change to the normals of each group; lengths are preserved.
+// Adds `change` to the normals of each group and restores the lengths of the normals.
 void turn(std::span<const glm::vec3> before, std::span<const std::uint32_t> groups, std::span<const glm::vec3> change,
           std::span<glm::vec3> after) {
     for (std::size_t v = 0; v < before.size(); ++v) {
@@ -219,7 +220,7 @@ void turn(std::span<const glm::vec3> before, std::span<const std::uint32_t> grou
     }
 }
 
-// Returns the area-weighted RMS of the change of the groups' normals.
+// Returns the area-weighted RMS of the difference between two sets of normals.
 double turned(std::span<const glm::vec3> before, std::span<const glm::vec3> after,
               std::span<const std::uint32_t> groups, const FollowingMeans& at) {
     double sum = 0;
@@ -267,8 +268,8 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
               std::span<glm::vec3> normals) {
     constexpr int maxRounds = 8;
     constexpr double enough = 5e-4;
-    // Rotating normals changes the shading at each point, which remains visible under a narrow blur. The RMS change is
-    // therefore limited to this multiple of the improvement of the mean radiance.
+    // Rotating normals changes the shading at each point, which remains visible under a narrow blur. The RMS change of
+    // the normals is therefore limited to this multiple of the improvement of the mean radiance.
     constexpr double maxTurn = 16;
     const std::vector<glm::vec3> original(normals.begin(), normals.end());
     std::vector<glm::vec3> best = original;
@@ -302,7 +303,7 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
             followNormals();
             damping *= 10;
         } else {
-            return;  // stop, because the misfit is NaN
+            return;  // The misfit is NaN.
         }
         turn(best, groups, smallestChange(at, wanted, damping), normals);
     }

@@ -17,14 +17,14 @@ namespace defocus::engine {
 inline constexpr std::size_t lightCount = 26;
 std::array<glm::dvec3, lightCount> directionsToLights();
 
-// Mean radiance under a light of illuminance π, for each light direction. Shadows are ignored, and the mean of the
-// three channels replaces a colour.
+// Mean radiance under a light of illuminance π, for each light direction. Shadows are ignored. Colours are averaged
+// over their three channels.
 using LightMeans = std::array<double, lightCount>;
 
 // normalSpread() and meanCosine() compute the light that a distribution of normals reflects. They match the functions
 // in shaders/include/shading.glsl. `agreement`, in [0, 1], is the length of the mean of the unit normals. `mean` is
-// agreement · cosine if the distribution is symmetric about the mean normal. In that case, the average of the result
-// over all light directions is 1/4.
+// agreement · cosine if the distribution is symmetric about the mean normal. The average of meanCosine() over all light
+// directions is then 1/4.
 inline float normalSpread(float agreement) {
     const float lost = 1 - agreement;
     const float root = std::sqrt(lost);
@@ -43,21 +43,21 @@ struct LitSurface {
     std::span<const glm::vec3> normals;
     std::span<const glm::vec4> colors;  // empty: white
     std::span<const std::uint32_t> indices;
-    bool coarse = true;  // true: normals shorter than 1 represent differing normals, as in shading.glsl
+    bool coarse = true;  // true: a normal shorter than 1 stands for diverging normals, as in shading.glsl
 };
 
-// Returns the light that a matt surface reflects, averaged over its area. It uses at least three points per triangle
+// Returns the light that a matt surface reflects, averaged over its area. Samples at least three points per triangle
 // and at least `minPoints` points in total.
 LightMeans lightMeans(const LitSurface& surface, std::size_t minPoints);
 
 // Min number of points for which lightMeans() has an error of at most 5e-4.
 inline constexpr std::size_t pointsOfLight = 12'000;
 
-// Rotates the normals of a coarse surface until the mean for each light is within 5e-4 of `target`. Uses a few rounds
-// of the Levenberg–Marquardt method (Levenberg 1944, Marquardt 1963), which may end before this accuracy is reached.
-// The RMS of the change over the area is minimal. The RMS is at most 16 times the improvement of the mean radiance,
-// because a change is visible at each point. Lengths of normals are preserved, so that roughness does not change.
-// Vertices with equal values in `groups` (below positions.size()) share a normal before and after.
+// Rotates the normals of a coarse surface until the mean radiance under each light is within 5e-4 of `target`. Uses a
+// few rounds of the Levenberg–Marquardt method (Levenberg 1944, Marquardt 1963), which may end before this accuracy is
+// reached. The change has the smallest RMS over the area. The RMS is at most 16 times the improvement of the mean
+// radiance, because a change is visible at each point. Lengths of normals are preserved, so that roughness does not
+// change. Vertices with equal values in `groups` (below positions.size()) share a normal before and after.
 void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> colors,
               std::span<const std::uint32_t> indices, std::span<const std::uint32_t> groups, const LightMeans& target,
               std::span<glm::vec3> normals);

@@ -20,12 +20,12 @@ namespace {
 // Max number of faces at one edge that are paired. At edges with more faces, all faces are separated, in linear time.
 constexpr std::size_t maxFacesToPair = 32;
 
-// Flags for the repairs of a face.
+// Flags for the kinds of repairs of a face.
 constexpr std::uint8_t turnedRepair = 1;
 constexpr std::uint8_t cutRepair = 2;
 constexpr std::uint8_t splitRepair = 4;
 
-// Surface under construction. Its faces are the kept input triangles.
+// Surface under construction. Its faces are the input triangles that were kept.
 struct PairedSurface {
     const Numbered<PositionNumber, glm::dvec3>& points;
     Numbered<SurfaceCorner, PositionNumber> at;
@@ -56,9 +56,9 @@ Numbered<SurfaceFaceNumber, TriangleNumber> properFaces(const TriangleSet<Positi
                                                               return std::min({p[0], p[1], p[2]});
                                                           });
 
-    // Equal faces have the same smallest position number, so only faces that share this number are compared.
+    // Equal faces have the same smallest position number. Only faces that share this number are compared.
     struct Key {
-        PositionNumber next, previous;  // the two corners after the one with the smallest number, in winding order
+        PositionNumber next, previous;  // the other two corners, in winding order
         PrimitiveNumber primitive;
         TriangleNumber triangle;
 
@@ -106,7 +106,7 @@ EdgeGroups groupEdges(const PairedSurface& surface) {
     EdgeGroups groups;
     groups.starts.reserve(edgeCount / 2 + edgeCount / 16);
     std::uint32_t seen = 0;
-    std::vector<std::pair<PositionNumber, SurfaceCorner>> keys;  // higher position, half-edge
+    std::vector<std::pair<PositionNumber, SurfaceCorner>> keys;  // pairs of higher position number and half-edge
     for (const PositionNumber p : byLow.keys()) {
         keys.clear();
         const std::span<SurfaceCorner> edges = byLow[p];
@@ -123,8 +123,8 @@ EdgeGroups groupEdges(const PairedSurface& surface) {
     return groups;
 }
 
-// Reverses the minority of faces in each component, so that neighbours at edges of two faces have consistent
-// orientation. A Möbius band cannot be consistent; it stays cut at one edge.
+// Reverses the minority of faces in each component, so that faces at edges of two faces are consistently oriented. A
+// Möbius band cannot be oriented consistently; it stays cut at one edge.
 void orient(PairedSurface& surface, const EdgeGroups& groups) {
     Numbered<SurfaceCorner, SurfaceCorner> across(surface.at.size());
     for (std::size_t g = 0; g < groups.count(); ++g) {
@@ -173,8 +173,8 @@ glm::dvec3 faceNormal(const PairedSurface& surface, SurfaceFaceNumber face) {
     return length > 0 ? normal / length : glm::dvec3(0);
 }
 
-// Pairs the half-edges at one edge. Criteria in this order: same primitive, flat angle, input order. A face and its
-// reverse form a two-sided sheet. The two are paired only if no other face continues either of them.
+// Pairs the half-edges at one edge. Criteria in this order: same primitive, smallest angle between the normals, input
+// order. A face and its reverse form a two-sided sheet; they are paired only if no other face continues either of them.
 void pairEdges(PairedSurface& surface, std::span<const SurfaceCorner> edges) {
     struct Candidate {
         double score;
@@ -217,8 +217,8 @@ void pairAllEdges(PairedSurface& surface, const EdgeGroups& groups) {
     }
 }
 
-// Assigns vertices to fans: corners connected by paired edges share one vertex. Union-find with the smallest corner as
-// root.
+// Assigns one vertex to each fan of faces: corners connected by paired edges share a vertex. Uses union-find with the
+// smallest corner as root.
 void numberVertices(PairedSurface& surface, Manifold& manifold) {
     Numbered<SurfaceCorner, SurfaceCorner> parent(surface.at.size());
     for (const SurfaceCorner corner : parent.numbers()) parent[corner] = corner;

@@ -1,6 +1,6 @@
 #pragma once
-// Converts any set of triangles to an oriented manifold with boundary, the only surface that half-edges can represent.
-// Every edge has at most one face on each side. The faces around a vertex form a single fan.
+// Converts any set of triangles to an oriented manifold with boundary, because half-edges can represent no other
+// surface. Every edge has at most one face on each side. The faces around a vertex form a single fan.
 //
 // Only two kinds of faces are removed. Degenerate faces have two corners at the same position. Duplicates repeat a face
 // of the same primitive exactly. Faces with a winding opposite to their neighbours are reversed and marked as turned.
@@ -20,19 +20,19 @@ namespace defocus::engine {
 // unchanged; coarser levels are made from the repaired surface.
 struct Repairs {
     std::uint32_t faces = 0;    // total number of repaired faces
-    std::uint32_t dropped = 0;  // degenerate or duplicate faces, which are removed
+    std::uint32_t dropped = 0;  // degenerate or duplicate faces; the only faces that are removed
     std::uint32_t turned = 0;   // faces reversed because their winding was opposite to their neighbours
     std::uint32_t cut = 0;      // faces cut off at an edge of three or more faces, or of two with conflicting winding
     std::uint32_t split = 0;    // faces separated from others at a vertex where several fans meet
 };
 
-// A half-edge has the number of the corner where it starts. Corners are numbered in the order of the input.
+// A half-edge has the number of the corner where it starts. Corners are numbered in input order.
 using SurfaceCorner = CornerNumber<SurfaceFaceNumber>;
 
 struct Manifold {
     Numbered<SurfaceFaceNumber, TriangleNumber> faces;  // the input triangle of each face
     Numbered<SurfaceCorner, SurfaceVertexNumber> corners;
-    Numbered<SurfaceFaceNumber, std::uint8_t> turned;  // 1: the face has the opposite winding of its input triangle
+    Numbered<SurfaceFaceNumber, std::uint8_t> turned;  // 1: the face is reversed relative to its input triangle
     Numbered<SurfaceCorner, SurfaceCorner> twins;      // the opposite half-edge; invalid if there is none
     Numbered<SurfaceVertexNumber, PositionNumber> positions;
     Repairs repairs;

@@ -18,7 +18,7 @@
 
 namespace defocus::engine {
 
-// Index of an element of the type `Kind`, from 0; invalid by default.
+// Typed index, from 0. The tag type `Kind` separates indices of different arrays. Invalid by default.
 template <typename Kind>
 struct Number {
     static constexpr std::uint32_t none = 0xffffffffu;
@@ -29,8 +29,8 @@ struct Number {
 };
 
 using FileVertexNumber = Number<struct FileVertexKind>;  // index into Mesh::vertices
-// Vertex of the mesh to simplify; equal file vertices share one number. Twins, which are copies of vertices (see
-// Simplification), have the numbers after the mesh's own vertices.
+// Index of a vertex of the mesh to simplify; equal file vertices share one number. Twins, which are copies of vertices
+// (see Simplification), have the numbers after the mesh's own vertices.
 using MeshVertexNumber = Number<struct MeshVertexKind>;
 using PositionNumber = Number<struct PositionKind>;            // a position, which several vertices may share
 using SurfaceVertexNumber = Number<struct SurfaceVertexKind>;  // vertex of the manifold before any collapse
@@ -42,7 +42,7 @@ using TriangleNumber = Number<struct TriangleKind>;            // index into a T
 using LevelVertexNumber = Number<struct LevelVertexKind>;      // vertex of one level, numbered by first use
 using PyramidVertexNumber = Number<struct PyramidVertexKind>;  // index into Pyramid::vertices
 
-// Kind of the corners of faces. Corner 3·f + i is corner i of face f.
+// Tag type for corners of faces. Corner 3·f + i is corner i of face f.
 template <typename Face>
 struct CornerOf;
 template <typename Face>
@@ -132,7 +132,7 @@ public:
 template <typename Key, typename Item>
 class Buckets {
 public:
-    // Groups the items 0 … itemCount − 1. Items with an invalid key are left out; valid keys are below keyCount.
+    // Groups the items 0 … itemCount − 1 by keyOf(item) < keyCount. Items with an invalid key are left out.
     template <typename KeyOf>
     Buckets(std::size_t keyCount, std::size_t itemCount, const KeyOf& keyOf) : first_(keyCount + 1, 0) {
         const auto items = numbersBelow<Item>(itemCount);

@@ -21,34 +21,34 @@ constexpr int minResolution = 128;
 constexpr int maxResolution = 512;
 constexpr double cellsPerEdge = 16;  // approximate grid cells per triangle edge, for evenly sized triangles
 
-constexpr double maxUnseen = 5e-3;   // relative area difference up to which no vertex is moved
-constexpr int localRounds = 2;       // number of rounds that move each outline edge towards level 0's outline
-constexpr int maxGlobalRounds = 12;  // max number of rounds that match the covered area in each direction
-// Accepted relative area differences. Levels with many triangles are slow to fit and mostly cover enough area, so that
-// the looser value applies to them.
+constexpr double maxUnseen = 5e-3;   // max relative area difference that needs no correction
+constexpr int localRounds = 2;       // rounds that move each outline edge towards level 0's outline
+constexpr int maxGlobalRounds = 12;  // max rounds that match the covered area in each direction
+// Accepted relative area differences. Levels with many triangles use the looser value, because they are slow to fit and
+// mostly cover enough area.
 constexpr double goodEnough = 1.5e-3;
 constexpr double passable = 3.5e-3;
 constexpr std::size_t fewTriangles = 2048;
-constexpr int maxVainRounds = 4;  // rounds without improvement before the search ends
-constexpr double maxWay = 48;     // max distance in cells to level 0's outline; farther outlines belong to another part
+constexpr int maxVainRounds = 4;  // max consecutive rounds without improvement
+constexpr double maxWay = 48;     // max distance to level 0's outline in cells; farther outlines belong to another part
 constexpr int maxEdgePoints = 24;
-constexpr double stiffness = 0.1;      // damping of moves, relative to the weight of the outline points
-constexpr double maxMoveShare = 0.25;  // max move per round, relative to the mean length of the vertex's edges
+constexpr double stiffness = 0.1;      // damping of displacements, relative to the weight of the outline points
+constexpr double maxMoveShare = 0.25;  // max displacement per round, relative to the vertex's mean edge length
 constexpr double constraintSlack = 1e-3;
 
-// An edge with one or two of its faces.
+// An edge with up to two of its faces.
 struct Edge {
-    std::uint32_t a = 0, b = 0;  // vertex groups, a < b
-    std::uint32_t third = 0;     // third vertex group of the first face
+    std::uint32_t a = 0, b = 0;  // vertex groups at the ends, a < b
+    std::uint32_t third = 0;     // vertex group at the first face's third corner
     std::uint32_t face[2] = {0, 0};
     // Direction of each face along the edge. 1: from a to b; −1: from b to a; 0: no face.
     std::int8_t way[2] = {0, 0};
-    bool closed = false;  // the edge has two faces; further faces are separate open edges
+    bool closed = false;  // the edge has two faces; Edges::more has entries for further faces
 };
 
 struct Edges {
     std::vector<Edge> all;   // one edge per pair of vertex groups
-    std::vector<Edge> more;  // one edge per face after the second at an edge
+    std::vector<Edge> more;  // one edge for each face after the first two faces at an edge
 };
 
 Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {
@@ -100,7 +100,7 @@ Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {
 struct OutlinePoint {
     std::uint32_t a = 0, b = 0;  // vertex groups at the ends of the edge
     double share = 0;            // interpolation weight of b
-    double length = 0;           // length of the outline that the point represents, object units
+    double length = 0;           // outline length that the point represents, object units
     glm::dvec2 start{0};         // position in cells
     glm::dvec2 across{0};        // outward unit normal of the outline
 };
@@ -174,8 +174,8 @@ public:
         move(moves);
     }
 
-    // Applies the smallest moves that match the area in each direction to first order. Returns false if all areas agree
-    // within `enough` or recent rounds brought no improvement.
+    // Applies the smallest displacements that match the area in each direction to first order. Returns false if all
+    // areas agree within `enough` or recent rounds brought no improvement.
     bool matchAreas(double enough) {
         const std::size_t count = outlines_.size();
         gradients_.assign(count * places_.size(), glm::vec3(0));
@@ -266,8 +266,8 @@ private:
         return area;
     }
 
-    // Returns x with (G Gᵀ) x = b, slightly damped. Row d of G is the gradient of the covered area in direction d. The
-    // matrix is summed over the vertices, skipping zero gradients, because most vertices are on few outlines.
+    // Solves (G Gᵀ) x = b, slightly damped. Row d of G is the gradient of the covered area in direction d. The matrix
+    // is summed over the vertices; zero gradients are skipped, because most vertices lie on few outlines.
     static std::vector<double> solved(const std::vector<glm::vec3>& gradients, const std::vector<double>& b) {
         const std::size_t n = b.size();
         std::vector<double> matrix(n * n, 0);
@@ -301,16 +301,16 @@ private:
     std::vector<glm::vec3> original_;
     std::vector<std::uint32_t> corners_;
     Edges edges_;
-    std::vector<double> maxMove_;  // max move per round of each vertex group
+    std::vector<double> maxMove_;  // max displacement of each vertex group per round
     std::span<const CoverGrid> outlines_;
-    std::vector<double> areas_;  // areas of `outlines_`
+    std::vector<double> areas_;  // covered areas in `outlines_`, object units squared
     const Bounds& box_;
     std::vector<glm::vec3> best_;                                 // positions with the smallest misfit
     double minMisfit_ = std::numeric_limits<double>::infinity();  // sum of squared relative area differences
     double worstOfBest_ = std::numeric_limits<double>::infinity();
     int vainRounds_ = 0;                // rounds since the last improvement
-    std::vector<glm::vec3> gradients_;  // area gradients: for each vertex group, one per direction
-    // State for the direction of the last cover().
+    std::vector<glm::vec3> gradients_;  // gradients of the covered area: for each vertex group, one per direction
+    // Temporary data of cover(), for one direction.
     EdgeFill fill_;
     std::vector<glm::dvec2> cells_;   // projected position of each vertex group
     std::vector<std::int8_t> turns_;  // per face: 1 counterclockwise, −1 clockwise, 0 edge-on

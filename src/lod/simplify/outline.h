@@ -1,7 +1,7 @@
 #pragma once
-// Measures and fits the area that a surface covers in parallel projection. A coarse level with vertices on a convex
-// surface covers too little area. A thin fin shrinks at its rim. Blur hides neither error. The outlines of coarse
-// levels are therefore fitted to those of level 0, on grids of sample points for several directions.
+// Measures and fits the area that a surface covers in parallel projection. A coarse level covers too little area if its
+// vertices lie on a convex surface, and thin fins shrink at their rims. Blur hides neither error. The outlines of
+// coarse levels are therefore fitted to those of level 0, on grids of sample points for several directions.
 
 #include <array>
 #include <cstdint>
@@ -25,8 +25,8 @@ std::vector<CoverGrid> outlinesOf(std::span<const glm::vec3> positions, std::spa
 
 // Moves vertices along the outlines of a level until it covers approximately the area that level 0 covers in
 // `outlines`. Does nothing if the areas already agree within 0.5 % in every direction. Displacements are as small as
-// possible and stay within `box`. Vertices with equal values in `places` (below positions.size()) stay together. No
-// triangle rotates by more than 60°.
+// possible and stay within `box`. Vertices with equal values in `places` (below positions.size()) have the same
+// position before and after. No triangle rotates by more than 60°.
 void fitOutlines(std::span<glm::vec3> positions, std::span<const std::uint32_t> indices,
                  std::span<const std::uint32_t> places, std::span<const CoverGrid> outlines, const Bounds& box);
 

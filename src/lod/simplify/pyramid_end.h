@@ -6,12 +6,12 @@
 namespace defocus::engine {
 
 enum class PyramidEnd : std::uint32_t {
-    minTriangles,  // the last level has reached the min triangle count
-    smallSaving,   // even the smallest possible level would save less than a quarter of the triangles
-    topology,      // no topology-preserving collapse is left: handles, cuts and borders need all triangles
+    minTriangles,  // the last level has reached the minimum triangle count
+    smallSaving,   // even the coarsest possible level would save less than a quarter of the triangles
+    topology,      // no collapse preserves the topology any more: handles, cuts and borders need all triangles
     largestParts,  // only components with a large part of the area could be simplified further
     noSurface,     // all triangles are degenerate
-    maxLevels,     // the max number of levels is reached
+    maxLevels,     // the maximum number of levels is reached
 };
 constexpr PyramidEnd lastPyramidEnd = PyramidEnd::maxLevels;
 

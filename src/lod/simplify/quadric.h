@@ -30,7 +30,7 @@ struct Quadric {
         weight += planeWeight;
     }
 
-    // Adds squareWeight · (gᵀd)²; `weight` is unchanged.
+    // Adds squareWeight · (gᵀd)² to the sum; `weight` is unchanged.
     void addSquare(const glm::vec3& g, float squareWeight) {
         const glm::vec3 weighted = squareWeight * g;
         xx += weighted.x * g.x;
@@ -95,14 +95,15 @@ AttributeGradients<n> attributeGradients(const glm::dvec3* const* p, const Attri
 
 template <std::size_t n>
 struct AttributeQuadric {
-    // Σ w·(g·d + e − s)² over faces and attributes. g is the gradient, e the face's deviation at the vertex, and s the
-    // attribute. `squares` holds the terms without s, and its weight is Σ w. The other members hold Σ w·g and Σ w·e per
-    // attribute.
+    // Σ w·(g·d + e − s)² over faces and attributes. w is the face's weight, g the attribute's gradient over the face, e
+    // the face's value at the vertex minus the vertex's own value, and s the attribute offset. `squares` holds the
+    // terms without s, and its weight is Σ w. The other members hold Σ w·g and Σ w·e per attribute.
     Quadric squares;
     AttributeGradients<n> gradients{};
     AttributeRow<n> offset{};
 
-    // Adds a face that contains the vertex, with the vertex's own attributes at that corner.
+    // Adds a face at the vertex. The face has the vertex's own attributes at this corner, so that `offset` is
+    // unchanged.
     void addFace(const AttributeGradients<n>& face, float faceWeight) {
         squares.weight += faceWeight;
         for (std::size_t j = 0; j < n; ++j) {
@@ -113,7 +114,7 @@ struct AttributeQuadric {
         }
     }
 
-    // Adds a quadric of the same vertex that consists only of original faces, so that its offset is zero.
+    // Adds a quadric of the same vertex to which only faces were added, so that its offset is zero.
     void addFaces(const AttributeQuadric& other) {
         squares.add(other.squares, glm::vec3(0));
         for (std::size_t j = 0; j < n; ++j) {

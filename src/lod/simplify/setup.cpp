@@ -1,4 +1,4 @@
-// Builds the surface at unit size with its quadrics. Boundary constraints follow Garland and Heckbert 1997.
+// Builds the surface, scaled to unit size, and its quadrics. Boundary constraints follow Garland and Heckbert 1997.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ namespace {
 // squared edge length. (The plane of a face is weighted by the face's area.)
 constexpr double borderWeight = 10;  // open borders and material borders
 constexpr double seamWeight = 0.5;   // discontinuities of uv or colour
-constexpr double rimWeight = 1;      // where the surface folds back onto itself; lower for smaller angles
+constexpr double rimWeight = 1;      // edges that bend by more than 60°; scaled by the bend
 
 glm::dvec3 faceCross(const SurfaceMesh& mesh, FaceHandle face) {
     const FaceCorners corner = cornersOf(mesh, face);
@@ -41,7 +41,7 @@ bool endsAt(const Crosses& crosses, FaceHandle beyond) {
     return !(glm::dot(cross, cross) > 0);
 }
 
-// Returns the weight of the constraint at half-edge `e`, on the side of its face, due to a seam or border.
+// Returns the weight that a seam or border adds at half-edge `e`, on the side of the half-edge's face.
 double seamConstraint(const SurfaceMesh& mesh, HalfedgeHandle e) {
     const HalfedgeHandle twin = mesh.opposite_halfedge_handle(e);
     if (mesh.is_boundary(twin) || mesh.primitive(mesh.face_handle(e)) != mesh.primitive(mesh.face_handle(twin)))
@@ -109,8 +109,8 @@ void buildQuadrics(SurfaceMesh& mesh) {
             const glm::dvec3 upright = glm::cross(mesh.step(a, b), normal);
             const double length = glm::length(upright);
             if (!(length > 0)) continue;
-            // A short border edge of a long face, such as the end of a strip, is weighted by the face's area. With a
-            // weight by length only, shortening the strip would be cheaper than thinning out its interior.
+            // A short border edge of a long face, such as the end of a strip, is weighted by the face's area. If only
+            // its length counted, shortening the strip would be cheaper than removing vertices in its interior.
             const double area = border ? std::max(length * length, doubleArea) : length * length;
             const glm::vec3 constraint(upright / length);
             mesh.data(a).quadric.addPlane(constraint, static_cast<float>(weight * area));
@@ -130,7 +130,7 @@ Frame frameOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& tri
     return longest > 0 ? Frame{bounds.centre(), 1 / longest} : Frame{};
 }
 
-// Returns the scale from uv to lengths in the unit frame that preserves the total area of the mesh.
+// Returns the factor from texture coordinates to lengths on the mesh of unit size. It preserves the total area.
 float uvScaleOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& triangles, const Frame& frame) {
     double area = 0;
     double uvArea = 0;
@@ -200,7 +200,7 @@ void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPosi
     s.survivors.reserve(mesh.n_vertices());
     for (const auto v : numbersBelow<VertexHandle>(mesh.n_vertices())) s.survivors.push_back(v);
     s.current.assign(s.survivors.begin(), s.survivors.end());
-    s.modules.emplace(mesh);  // modules of the complete mesh
+    s.modules.emplace(mesh);
 }
 
 }  // namespace defocus::engine

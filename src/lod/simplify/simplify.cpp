@@ -1,7 +1,7 @@
-// Source: Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics. The candidate of each vertex
-// is its cheapest collapse. A candidate is tested against the rules only just before it is collapsed. For meshes with
-// many faces, sweeps over memory perform the collapses below an increasing cost limit. Later, a priority queue orders
-// them. Deleted elements are removed at each level.
+// Source: Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics. Each vertex has a candidate:
+// its cheapest collapse. A candidate is checked against the rules only just before its collapse is performed. Meshes
+// with many faces are swept in memory order, with an increasing limit for the cost of collapses. With fewer faces, a
+// priority queue orders the collapses. Deleted elements are removed at each level.
 
 #include "lod/simplify/simplify.h"
 
@@ -19,22 +19,22 @@ namespace {
 // Factor on the cost of poor collapses.
 constexpr float poorPenalty = 10;
 constexpr std::size_t minFacesToReport = 1000;  // meshes with fewer faces report no progress
-// Up to this number of faces, the costs of all candidates are always up to date, because errors are most visible at
-// coarse levels.
+// Up to this number of faces, the costs of all candidates (planned collapses) are always up to date, because errors are
+// most visible at coarse levels.
 constexpr std::size_t maxFacesToFollow = 8192;
-// While at least this number of faces must remain, collapses are made in sweeps.
+// Levels with at least this number of faces are made in sweeps over all vertices.
 constexpr std::size_t minFacesToSweep = 16'384;
-constexpr std::size_t sweepsPerLevel = 8;   // a sweep makes about 1/8 of the remaining collapses of a level
+constexpr std::size_t sweepsPerLevel = 8;   // a sweep makes about 1/8 of the collapses that a level still needs
 constexpr std::size_t minSweepShare = 128;  // a sweep makes at least one collapse per 128 faces, if possible
 constexpr std::size_t costSample = 8192;    // number of vertices sampled to estimate the distribution of costs
 // Max ratio of the triangle counts of a level and the next finer level: each level must save a quarter of the
 // triangles.
 constexpr double largestShare = 0.75;
-// Min fraction of the reducible faces that a level keeps. If many components are as small as possible, halving the
-// total would otherwise take too many faces from the few large components.
+// Min fraction of the reducible faces that a level keeps. If many components are already as small as possible, halving
+// the total would otherwise take too many faces from the few large components.
 constexpr double minShareOfMovable = 0.25;
-// Components that can still be simplified keep a fraction of their even share of the faces (evenShare). `keptShare` is
-// the preferred fraction. `minKeptShare` applies if components would otherwise have to be removed.
+// Fraction that reducible components keep of their even share of the faces (evenShare). `keptShare` is preferred;
+// `minKeptShare` applies if components would otherwise have to be removed.
 constexpr double keptShare = 0.5;
 constexpr double minKeptShare = 0.25;
 
@@ -60,7 +60,7 @@ void enqueue(Simplifier& s, VertexHandle v, const Candidate& candidate) {
         s.queue.take(v);
 }
 
-// Sets the vertex's candidate to its cheapest collapse, without testing whether it is allowed.
+// Sets the vertex's candidate to its cheapest collapse, without testing whether the collapse is allowed.
 void enqueueCheapest(Simplifier& s, VertexHandle v) {
     enqueue(s, v, s.modules->quadrics.cheapest(v));
 }
@@ -94,10 +94,10 @@ void startQueue(Simplifier& s) {
     forEachVertex(*s.mesh, [&](VertexHandle v) { enqueue(s, v, Candidate(s.mesh->data(v).candidate)); });
 }
 
-// Updates the candidates of the survivor and of affected neighbours after a collapse. A neighbour is affected if its
-// candidate led to the survivor or to the removed vertex, or if it had no good candidate. With many faces, candidates
-// are only marked as outdated. Their costs have mostly risen, except for the few vertices that are closer to the
-// survivor than to the removed vertex.
+// After a collapse, updates the candidates (planned collapses) of the surviving vertex and of affected neighbours. A
+// neighbour is affected if its candidate led to the surviving or the removed vertex, or if it had no good candidate.
+// With many faces, candidates are only marked as outdated. Their costs have mostly risen, except for the few vertices
+// that are closer to the surviving vertex than to the removed vertex.
 void requeueAround(Simplifier& s, VertexHandle survivor) {
     SurfaceMesh& mesh = *s.mesh;
     const bool atOnce = s.liveFaces <= maxFacesToFollow;
@@ -112,7 +112,7 @@ void requeueAround(Simplifier& s, VertexHandle survivor) {
     forEachSpoke(mesh, survivor, [&](HalfedgeHandle spoke) {
         const VertexHandle v = mesh.to_vertex_handle(spoke);
         const Candidate& candidate = mesh.data(v).candidate;
-        // Half-edges to the removed vertex lead to the survivor after the collapse.
+        // Half-edges that led to the removed vertex lead to the surviving vertex after the collapse.
         const bool known =
             candidate.possible() && candidate.fit == Fit::good && mesh.to_vertex_handle(candidate.along) != survivor;
         if (!known) return outdate(v);
@@ -155,8 +155,8 @@ void collapseTo(Simplifier& s, std::size_t floor, std::size_t target, double sha
     bool collapsed = true;
     while (s.liveFaces > floor) {
         if (s.queue.empty()) {
-            // A collapse can make another collapse two rings away possible, but does not update that candidate. Retry
-            // all vertices once.
+            // A collapse can make another collapse possible two edges away, where candidates are not updated. Retry all
+            // vertices once.
             if (!collapsed) return;
             collapsed = false;
             fillQueue(s);
@@ -179,7 +179,7 @@ void collapseTo(Simplifier& s, std::size_t floor, std::size_t target, double sha
     }
 }
 
-// Returns approximately the cost of the `rank`-th cheapest good or poor collapse.
+// Returns the approximate cost of the `rank`-th cheapest good or poor collapse.
 float costAtRank(const SurfaceMesh& mesh, std::size_t rank) {
     std::vector<float> costs;
     const std::size_t stride = 1 + mesh.n_vertices() / costSample;
@@ -200,7 +200,7 @@ bool sweep(Simplifier& s, std::size_t target, float max) {
     const auto* const vertices = &s.mesh->data(VertexHandle(0));
     const auto count = static_cast<int>(s.mesh->n_vertices());
     for (int i = 0; i < count && s.liveFaces > target; ++i) {
-        // skip the many candidates that are too expensive
+        // Skip the many candidates that are too expensive.
         while (i < count && !(vertices[i].candidate.cost <= max)) ++i;
         if (i == count) break;
         const VertexHandle v(i);
@@ -232,13 +232,13 @@ bool sweepTo(Simplifier& s, std::size_t target) {
     return true;
 }
 
-// Returns whether `faces` exceeds `min` by too little for a separate level at `min`.
+// Returns whether `faces` exceeds `min` so little that a level with `min` faces would save less than a quarter.
 bool isJustAbove(std::size_t faces, std::size_t min) {
     return faces > min && largestShare * static_cast<double>(faces) < static_cast<double>(min);
 }
 
 // Returns the target number of faces of the next level: half of the current number. Returns `minTriangles` if half is
-// below it, or so close that no further level fits between.
+// below it, or so little above it that no further level fits between.
 std::size_t nextTarget(const Simplifier& s, std::size_t minTriangles) {
     const std::size_t half = s.liveFaces / 2;
     return half <= minTriangles || isJustAbove(half, minTriangles) ? minTriangles : half;
@@ -335,7 +335,7 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
         const auto picture = std::make_shared<Snapshot>(snapshot(s, triangles.primitiveIndexCounts.size()));
         tasks.add([origin = s.origin, picture, take, anchors = options.anchors, l = result.levelCount++] {
             SimplifiedLevel level = described(*origin, *picture, anchors);
-            *picture = {};  // free memory before the largest allocations
+            *picture = {};  // free the snapshot before the largest allocations
             take(l, std::move(level));
         });
     };
@@ -364,8 +364,8 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
             break;
         }
 
-        // If components of min size leave too few faces to the other components, remove complete components before
-        // collapsing.
+        // Components of minimum size may leave too few faces for the other components. In that case, remove complete
+        // components before collapsing.
         if (s.liveFaces <= maxFacesToFollow && !isConnected(s)) findComponents(s, triangles);
         if (collapseFloor(s, target, minKeptShare) > max) {
             findComponents(s, triangles);

@@ -32,7 +32,7 @@
 
 namespace defocus::engine {
 
-// Min triangle count from which freed memory is returned to the operating system.
+// Min triangle count of meshes for which freed memory is returned to the operating system.
 constexpr std::size_t fewestToGiveBack = 16'384;
 
 struct SimplifyOptions {
@@ -43,7 +43,7 @@ struct SimplifyOptions {
     // If not empty, replaces halving: the fraction of the mesh's positions that each level keeps, in decreasing order.
     // Vertices at the same position count once.
     std::vector<double> vertexShares = {};
-    // Receives the fraction of the triangles removed so far, in [0, 1]. Called repeatedly on the calling thread; may be
+    // Called repeatedly on the calling thread with the fraction of the triangles removed so far, in [0, 1]. May be
     // empty.
     std::function<void(double)> lost = {};
 };

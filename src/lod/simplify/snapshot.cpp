@@ -30,7 +30,7 @@ constexpr int rounds = 3;  // iterations of k-means with two clusters
 
 struct CornerNormal {
     TriangleCorner corner;
-    // Face normal in mesh winding. Its length is initially twice the face's area, later the angle at the corner.
+    // Face normal in mesh winding. Its length is twice the face's area at first, and later the angle at the corner.
     glm::dvec3 normal;
 };
 
@@ -38,8 +38,8 @@ double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// Returns true if all face normals are within 60° of the first normal; the mean is then long enough for any corner
-// angles.
+// Returns true if all face normals are within 60° of the first normal. Their mean is then long enough to keep the
+// wedge, whatever the corner angles are.
 bool surelyAgree(std::span<const CornerNormal> corners) {
     const glm::dvec3& first = corners[0].normal;
     const double limit = minResultant * minResultant * glm::dot(first, first);
@@ -49,7 +49,7 @@ bool surelyAgree(std::span<const CornerNormal> corners) {
     });
 }
 
-// Positions of a corner, its next and its previous corner, in mesh winding.
+// Positions of a corner and of the next and previous corner of its face, in mesh winding.
 struct CornerPlaces {
     glm::dvec3 own, next, previous;
 };
@@ -125,8 +125,8 @@ CornersByNormal groupCorners(const Simplifier& s, const Corners& corners) {
     return {count, corners.size(), [&](TriangleCorner corner) { return groupOf[s.mesh->wedge(corners[corner])]; }};
 }
 
-// The mesh vertex at each corner. If faces that share a vertex normal face in opposite directions, the faces of one
-// side form the back. A mesh vertex on both sides is split.
+// The mesh vertex at each corner. If faces that share a vertex normal face in opposite directions, one side is chosen
+// as the back. A mesh vertex that belongs to both sides is split.
 struct Creases {
     Numbered<TriangleCorner, MeshVertexNumber> drawn;
     std::vector<MeshVertexNumber> behind;  // vertices of `drawn` whose corners are all on the back; sorted
@@ -171,16 +171,16 @@ Creases creases(Simplifier& s, const Corners& corners) {
 
 // ---- anchors
 
-// Finds the positions of the mesh's vertices on the simplified surface. Each removed vertex has a survivor, from which
-// the search for the closest face starts.
+// Finds the positions of the mesh's vertices on the simplified surface. The search for the closest face starts at the
+// vertex onto which a removed vertex has collapsed.
 
 constexpr std::size_t maxSteps = 12;          // max number of vertices visited on the way to the closest face
-constexpr std::size_t maxFacesAround = 1024;  // vertices with more faces are skipped by the search
-constexpr double noDistance = 1e-24;          // squared distance; lower values are rounding errors in a mesh of size 1
-// A point lies above a face if the squared cosine between the face's normal and the offset to the point is larger.
+constexpr std::size_t maxFacesAround = 1024;  // the search skips vertices with more faces
+constexpr double noDistance = 1e-24;          // squared; smaller distances are rounding errors in a mesh of size 1
+// A point lies above a face if the squared cosine between the face's normal and the offset to the point exceeds this.
 constexpr double minUpright = 0.99;
-// Min number of anchors searched per surviving vertex. If many mesh vertices collapsed onto that vertex, anchors are
-// searched only for every second, fourth, … of them.
+// Min number of closest points searched per remaining vertex. If many mesh vertices collapsed onto a vertex, the search
+// is made only for every second, fourth, … of them.
 constexpr std::uint32_t enoughAnchors = 16;
 
 // The level's faces, and the corners at each vertex.
@@ -210,11 +210,12 @@ FaceRings faceRings(const Snapshot& level, const Frame& frame) {
 
 struct Closest {
     double squaredDistance = 0;
-    TriangleCorner corner;  // corner of the closest face; invalid: the vertex itself is the closest point
-    glm::dvec2 along{0};    // the closest point's coordinates along the edges to the next and the previous corner
+    TriangleCorner corner;  // corner of the closest face; invalid: the start vertex is the closest point
+    glm::dvec2 along{0};    // coordinates of the closest point along the edges to the next and the previous corner
 };
 
-// Returns the corner of `face` nearest to `p` that is not in `seen` and has at most maxFacesAround faces; else invalid.
+// Returns the corner of `face` nearest to `p` that is not in `seen` and has at most maxFacesAround faces; invalid if
+// there is none.
 VertexHandle nearestUnseen(const FaceRings& rings, TriangleNumber face, const glm::dvec3& p,
                            std::span<const VertexHandle> seen) {
     VertexHandle nearest;
@@ -231,9 +232,8 @@ VertexHandle nearestUnseen(const FaceRings& rings, TriangleNumber face, const gl
     return nearest;
 }
 
-// Returns whether a face's closest point to a query point is the foot of the perpendicular. `along` are the closest
-// point's coordinates; `offset` leads from there to the query point. `along` alone is unreliable for slivers because of
-// rounding.
+// Returns whether a query point lies perpendicularly above the interior of the face. `along` are the coordinates of the
+// face's closest point; `offset` leads from there to the query point. For slivers, rounding makes `along` unreliable.
 bool liesBelow(const FaceRings& rings, TriangleNumber face, const glm::dvec2& along, const glm::dvec3& offset) {
     if (!(along.x > 0 && along.y > 0 && along.x + along.y < 1)) return false;
     const glm::dvec3& normal = rings.normals[face];
@@ -243,7 +243,7 @@ bool liesBelow(const FaceRings& rings, TriangleNumber face, const glm::dvec2& al
 
 // Returns the point of the level's surface closest to `p`, starting near the vertex `start`. The search moves from the
 // faces around one vertex to the faces around the corners of the closest face. It stops when the distance no longer
-// decreases or the perpendicular foot lies in a face. Only faces oriented towards `side` count, because both sides of a
+// decreases or `p` lies perpendicularly above a face. Only faces oriented towards `side` count, because both sides of a
 // thin fin are at nearly the same position.
 Closest closestTo(const FaceRings& rings, const glm::dvec3& p, VertexHandle start, const glm::dvec3& side) {
     Closest result;
@@ -280,8 +280,8 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, VertexHandle star
     return result;
 }
 
-// Returns a stride n for each vertex of the level: every n-th of the mesh vertices that collapsed onto the vertex gets
-// its own anchor.
+// Returns a stride n for each vertex of the level. Of the mesh vertices that collapsed onto it, every n-th gets its own
+// anchor (closest point on the level).
 Numbered<VertexHandle, std::uint32_t> anchorStrides(const Origin& origin, const Snapshot& level) {
     Numbered<VertexHandle, std::uint32_t> strides(level.positions.size(), 0);
     for (const SurfaceVertexNumber v : origin.firstVertex)
@@ -290,8 +290,8 @@ Numbered<VertexHandle, std::uint32_t> anchorStrides(const Origin& origin, const 
     return strides;
 }
 
-// Returns the anchors of the mesh vertices: the closest points on the level, on faces of the same primitive. Some
-// vertices have no anchor of their own.
+// Returns the anchors of the mesh vertices: their closest points on the level, on faces of the same primitive. Some
+// vertices share the anchor of another vertex or have none.
 Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot& level) {
     const FaceRings rings = faceRings(level, origin.frame);
     Numbered<MeshVertexNumber, TriangleCorner> cornerOf(origin.firstVertex.size() + level.twins.size());
@@ -333,7 +333,7 @@ Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot&
     return result;
 }
 
-// Records the removed and the growing components in `level`, if any components grow.
+// Records in `level` which components were removed and which grow, if any component grows.
 void noteComponents(const Simplifier& s, Snapshot& level) {
     if (!s.grows) return;
     level.removed = removedBalls(s);

@@ -22,40 +22,40 @@ struct Origin {
     const Vertices& vertices;
     const VertexGroups& smoothing;
     Frame frame;
-    // surface vertex at the first corner that uses the mesh vertex; invalid if no corner uses it
+    // First surface vertex of each mesh vertex; invalid if no face uses the mesh vertex.
     Numbered<MeshVertexNumber, SurfaceVertexNumber> firstVertex;
-    Numbered<MeshVertexNumber, PrimitiveNumber> firstPrimitive;  // primitive of the mesh vertex's first corner
+    Numbered<MeshVertexNumber, PrimitiveNumber> firstPrimitive;  // primitive of the mesh vertex's first face
     Numbered<SurfaceVertexNumber, PositionNumber> places;
 };
 
-// A part of the mesh that shares no position with other parts; see components.cpp.
+// A part of the mesh that shares no vertex position with other parts; see components.cpp.
 struct Component {
     Ball ball;  // bounding sphere of the component in the original mesh
     // Area in object units squared: the component's area in the original mesh, plus the areas of components that it
     // replaces.
     double area = 0;
-    PrimitiveNumber primitive;  // primitive of one of its faces
+    PrimitiveNumber primitive;  // primitive of one of the component's faces
     std::size_t faces = 0;      // number of remaining faces
     // Number of vertices with a good or poor collapse (simplify.h), according to the tests made so far.
     std::size_t harmless = 0;
-    bool spent = false;     // true since `harmless` first reached 0
+    bool spent = false;     // true as soon as `harmless` has reached 0
     bool standsIn = false;  // the component replaces removed components
     bool removed = false;
 };
 
 struct Simplifier {
     std::shared_ptr<const Origin> origin;
-    std::unique_ptr<SurfaceMesh> mesh;       // surface; compact() removes its deleted elements
+    std::unique_ptr<SurfaceMesh> mesh;       // the surface; compact() removes its deleted elements
     std::optional<CollapseModules> modules;  // collapse modules that operate on `mesh`
-    // For each vertex, the vertex that it collapsed onto, or itself if it is not deleted. Invalid if its component was
+    // For each vertex, the vertex onto which it collapsed, or itself if it is not deleted. Invalid if its component was
     // removed.
     Numbered<VertexHandle, VertexHandle> survivors;
-    // For each vertex of the original surface, its survivor at the last compact().
+    // For each vertex of the original surface, the vertex that represented it at the last compact().
     Numbered<SurfaceVertexNumber, VertexHandle> current;
     CollapseQueue queue;
-    bool queued = false;  // `queue` is in use
+    bool queued = false;  // true while `queue` is in use
     std::size_t liveFaces = 0;
-    // Initial number of faces. `lost` receives the removed fraction of these faces in steps of 0.01.
+    // Initial number of faces. `lost` receives the removed fraction of these faces in steps of at least 0.01.
     std::size_t firstFaces = 0;
     std::size_t facesAtReport = 0;
     std::function<void(double)> lost;
@@ -76,8 +76,8 @@ struct Simplifier {
     [[nodiscard]] VertexHandle& survivor(VertexHandle v) { return survivors[v]; }
 };
 
-// Builds the manifold of the mesh and its quadrics, without candidates (setup.cpp). If all triangles are degenerate,
-// Simplifier::mesh stays empty.
+// Builds the manifold of the mesh and its quadrics, without candidates for collapses (setup.cpp). If all triangles are
+// degenerate, Simplifier::mesh stays empty.
 void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPositions& positions,
                        const VertexGroups& smoothing, const TriangleSet<MeshVertexNumber>& triangles);
 
@@ -89,27 +89,27 @@ Fit judgeFaces(Simplifier& s, HalfedgeHandle along);
 Fit judgeCollapse(Simplifier& s, HalfedgeHandle along, Fit worst);
 // Collapses the half-edge and notifies the modules. The topology must allow the collapse.
 void collapseEdge(Simplifier& s, HalfedgeHandle along);
-// Returns the final survivor of `v`, or `v` itself if it is not deleted. Invalid if its component was removed.
+// Returns the vertex that finally replaces `v`; `v` itself if not deleted, invalid if its component was removed.
 VertexHandle survivorOf(Simplifier& s, VertexHandle v);
 // Removes deleted elements from the mesh, renumbers the others in the same order, and frees the memory.
 void compact(Simplifier& s);
 
-// Returns whether shared vertices connect all faces (components.cpp). Vertices that share only a position do not
-// connect.
+// Returns whether all faces are connected through shared vertices (components.cpp). Separate vertices at the same
+// position do not connect faces.
 bool isConnected(const Simplifier& s);
 // Returns whether more than a quarter of the faces are isolated triangles or belong to tetrahedra. No collapse can
 // simplify these faces further.
 bool manyAreSmallest(const Simplifier& s);
 // Finds the components of the remaining mesh. Further calls have no effect.
 void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangles);
-// Marks the vertex's component as spent: it has no good or poor collapse left.
+// Marks the vertex's component as spent, because no good or poor collapse is left in it (simplify.h).
 void spend(Simplifier& s, VertexHandle v);
 // Returns the number of faces on `area` if `faces` faces were distributed evenly over the area of the mesh.
 double evenShare(const Simplifier& s, double area, std::size_t faces);
-// Returns whether the vertex's collapse of class `fit` must be skipped while simplifying to `target` faces. A bad
-// collapse is skipped if its component would fall below its even share of these faces (evenShare). Other collapses are
-// restricted only if spent components own more than half of these faces. The other components must then keep the
-// fraction `share` of their even share.
+// Returns whether a collapse of the vertex, of class `fit` (good, poor or bad), must be skipped while simplifying to
+// `target` faces. A bad collapse is skipped if its component would fall below its even share of these faces
+// (evenShare). Other collapses are restricted only if spent components own more than half of these faces. The other
+// components must then keep the fraction `share` of their even share.
 bool isKept(const Simplifier& s, VertexHandle v, Fit fit, std::size_t target, double share);
 // Removes complete components until `target` faces are left or no further component may be removed.
 void removeComponents(Simplifier& s, std::size_t target);
@@ -118,22 +118,22 @@ std::vector<Ball> removedBalls(const Simplifier& s);
 // Computes LevelMesh::growths.
 Numbered<ComponentNumber, Growth> growths(const Simplifier& s);
 
-// A copy of a level, which other threads measure and fit while collapses continue.
+// A copy of a level that other threads measure and fit while collapses continue.
 struct Snapshot {
     TriangleSet<MeshVertexNumber> drawn;
     Numbered<TriangleCorner, VertexHandle> corners;       // vertices of the level's surface at the corners of `drawn`
     Numbered<VertexHandle, glm::vec3> positions;          // positions of the level's surface
     Numbered<SurfaceVertexNumber, VertexHandle> nearest;  // copy of Simplifier::current
     std::vector<MeshVertexNumber> twins;
-    std::vector<MeshVertexNumber> behind;               // vertices of `drawn` whose corners are all on the back; sorted
+    std::vector<MeshVertexNumber> behind;               // vertices of `drawn` on the back of a thin sheet; sorted
     std::vector<Ball> removed;                          // see SimplifiedLevel::removed
     Numbered<ComponentNumber, Growth> growths;          // see LevelMesh::growths
-    Numbered<VertexHandle, ComponentNumber> growthsOf;  // LevelMesh::growthsOf; empty if nothing grows
+    Numbered<VertexHandle, ComponentNumber> growthsOf;  // LevelMesh::growthsOf; empty if no component grows
 };
 
 // Copies the current level (snapshot.cpp). compact() must have been called.
 Snapshot snapshot(Simplifier& s, std::size_t primitiveCount);
-// Makes a level from its copy `picture`. Anchors are computed only if `withAnchors` is set.
+// Makes a level from its copy `picture`. Computes anchors (level_fit.h) only if `withAnchors` is set.
 SimplifiedLevel described(const Origin& origin, const Snapshot& picture, bool withAnchors);
 
 }  // namespace defocus::engine

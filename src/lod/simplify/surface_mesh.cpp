@@ -18,7 +18,7 @@ void linkBorders(SurfaceMesh& mesh) {
             mesh.set_next_halfedge_handle(border, mesh.halfedge_handle(mesh.to_vertex_handle(border)));
 }
 
-// Assigns new indices, in order, to the elements for which isKept is true; the other elements become invalid. Returns
+// Assigns consecutive new indices to the elements for which isKept is true; the other elements become invalid. Returns
 // the number of kept elements.
 template <typename Handle, typename IsKept>
 std::size_t number(Numbered<Handle, Handle>& numbers, std::size_t count, const IsKept& isKept) {
@@ -67,8 +67,8 @@ void linkFaces(SurfaceMesh& mesh, const Manifold& manifold, const TriangleSet<Me
         const auto face = itemAt<FaceHandle>(indexOf(f));
         const bool turned = manifold.turned[f] != 0;
         mesh.data(face).primitiveAndTurn = primitives[manifold.faces[f]].value << 1 | (turned ? 1 : 0);
-        // A reversed face has the corner order 0, 2, 1. Half-edge 2 leads from 2 to 0 in the manifold, and from 0 to 2
-        // in the mesh.
+        // A reversed face has the corner order 0, 2, 1. Half-edge 2 leads from corner 2 to corner 0 in the manifold,
+        // and from 0 to 2 in the mesh.
         const std::uint32_t cornerOrder[3] = {0, turned ? 2u : 1u, turned ? 1u : 2u};
         const HalfedgeHandle sides[3] = {halfedges[cornerAt(f, turned ? 2 : 0)], halfedges[cornerAt(f, 1)],
                                          halfedges[cornerAt(f, turned ? 0 : 2)]};
@@ -128,7 +128,7 @@ std::unique_ptr<SurfaceMesh> livingCopy(SurfaceMesh& mesh, Numbered<VertexHandle
         copy->set_halfedge_handle(faceNumber(face), numberOf(mesh.halfedge_handle(face)));
     });
 
-    // An outdated candidate may refer to a deleted edge. Any other half-edge of the vertex can replace it.
+    // An outdated candidate may refer to a deleted edge. Any other half-edge of the vertex can replace this edge.
     forEachVertex(*copy, [&](VertexHandle v) {
         HalfedgeHandle& along = copy->data(v).candidate.along;
         if (!along.is_valid()) return;

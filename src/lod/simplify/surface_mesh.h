@@ -38,7 +38,7 @@ struct Frame {
     [[nodiscard]] glm::dvec3 point(const glm::vec3& position) const {
         return (glm::dvec3(position) - centre) * inverse;
     }
-    // Returns the vector between two positions, in units of the frame.
+    // Returns the vector from one position to another, in units of the frame.
     [[nodiscard]] glm::dvec3 step(const glm::vec3& from, const glm::vec3& to) const {
         return (glm::dvec3(to) - glm::dvec3(from)) * inverse;
     }
@@ -50,7 +50,7 @@ enum class Fit : std::uint8_t { good, poor, bad, impossible };
 
 // The planned collapse of a vertex, which removes the vertex.
 struct Candidate {
-    HalfedgeHandle along;  // from the vertex to the surviving vertex; invalid: no collapse is possible
+    HalfedgeHandle along;  // leads to the surviving vertex; invalid: no collapse is possible
     float cost = std::numeric_limits<float>::infinity();
     Fit fit = Fit::good;    // worst class found by the tests made so far
     bool outdated = false;  // the cost has changed, or another collapse may be cheaper
@@ -65,14 +65,14 @@ struct SurfaceTraits : OpenMesh::DefaultTraits {
     FaceAttributes(OpenMesh::Attributes::Status);
 
     template <class Base, class Refs>
-    struct alignas(64) VertexT : Base {  // one cache line
+    struct alignas(64) VertexT : Base {  // alignment to a cache line
         Quadric quadric;
         Candidate candidate;
-        ComponentNumber component;  // valid once components have been found
+        ComponentNumber component;  // valid once findComponents() has run
     };
     template <class Base, class Refs>
     struct HalfedgeT : Base {
-        WedgeNumber wedge;  // wedge of the corner; invalid on the outside of a border
+        WedgeNumber wedge;  // attributes of the corner; invalid for half-edges without a face
     };
     template <class Base, class Refs>
     struct FaceT : Base {
@@ -175,13 +175,13 @@ inline FaceCorners cornersOf(const SurfaceMesh& mesh, FaceHandle face) {
 }
 
 // Fills the mesh with the faces of the manifold; vertices and faces keep their numbers. Unlike add_face(), it accepts a
-// second edge between two vertices, which cutting non-manifold edges can create. `triangles` is the input of the
+// second edge between two vertices, which may result from cutting non-manifold edges. `triangles` is the input of the
 // manifold. The mesh vertices at its corners become the wedges of the corners.
 void linkFaces(SurfaceMesh& mesh, const Manifold& manifold, const TriangleSet<MeshVertexNumber>& triangles);
 
-// Copies all elements that are not deleted, renumbered in the same order. garbage_collection() would fill gaps from the
-// end, so that neighbours in space would be far apart in memory. The wedge table is moved to the copy, without wedges
-// that no corner uses. `vertexNumbers` receives the new number of each vertex, invalid for deleted vertices.
+// Copies all elements that are not deleted, renumbered in the same order. garbage_collection() would fill gaps with the
+// last elements, which would separate neighbours in memory. The wedge table is moved to the copy, without wedges that
+// no corner uses. `vertexNumbers` receives the new number of each vertex, invalid for deleted vertices.
 std::unique_ptr<SurfaceMesh> livingCopy(SurfaceMesh& mesh, Numbered<VertexHandle, VertexHandle>& vertexNumbers);
 
 }  // namespace defocus::engine

@@ -14,8 +14,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Max distance in texture space between an anchor and its triangle, relative to the triangle's longest side in texture
-// space. A more distant vertex belongs to another chart.
+// Max distance in texture space between a mesh vertex and its closest point on the level, relative to the longest side
+// of the level's triangle in texture space. A more distant vertex belongs to another chart.
 constexpr float maxTextureGap = 0.5f;
 
 // Returns whether the displacement `gap` in texture space leads from a triangle with these corners to another chart.
@@ -28,7 +28,7 @@ bool leavesChart(const glm::vec2& gap, const std::array<glm::vec2, 3>& corners) 
     return !(glm::dot(gap, gap) <= maxTextureGap * maxTextureGap * longest);
 }
 
-// Like AnchorSums, for displacements in texture space from the anchor's point on the level to the original vertex.
+// Sums for the fit, like AnchorSums, of displacements in texture space from the anchors to the mesh vertices.
 struct TextureSums {
     struct Vertex {
         double weight = 0;
@@ -101,7 +101,7 @@ void keepTextureUpright(Numbered<UnknownNumber, glm::vec2>& fitted, const Number
     }
 }
 
-// Returns one set of texture coordinates, displaced by two channels of the solution, starting at `channel`.
+// Returns one set of texture coordinates, displaced by the channels `channel` and `channel` + 1 of the solution.
 Numbered<LevelVertexNumber, glm::vec2> movedCoordinates(const std::vector<glm::vec2>& own, const Grouping& groups,
                                                         const LeastSquares& fit, std::size_t channel) {
     if (own.empty()) return {};

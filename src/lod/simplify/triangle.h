@@ -36,8 +36,7 @@ inline glm::dvec2 closestCoordinates(const glm::dvec3& p, const glm::dvec3& a, c
     const double alongAcFromC = glm::dot(ac, p - c);
     if (alongAcFromC >= 0 && alongAbFromC <= alongAcFromC) return {0, 1};
 
-    // Twice the triangle's area, times twice the signed area of the triangle of p and an edge; ≤ 0: p is beyond the
-    // edge.
+    // 4 · area(abc) · signed area(abp). If this product is ≤ 0, p lies beyond edge ab.
     const double overAb = alongAbFromA * alongAcFromB - alongAbFromB * alongAcFromA;
     if (overAb <= 0 && alongAbFromA >= 0 && alongAbFromB <= 0) return {alongAbFromA / (alongAbFromA - alongAbFromB), 0};
     const double overAc = alongAbFromC * alongAcFromA - alongAbFromA * alongAcFromC;
@@ -57,8 +56,8 @@ inline glm::dvec3 closestPoint(const glm::dvec3& p, const glm::dvec3& a, const g
 
 // Calls visit(weights, share) for the integration points of a triangle. The triangle is divided into parts² congruent
 // triangles with three points each, which integrate quadratic functions exactly (Strang and Fix 1973). No point lies on
-// an edge, because the normals of the two sides of a rim may cancel there. `weights` are barycentric coordinates; the
-// shares sum to 1.
+// an edge, because the normals on both sides of a sharp rim may cancel there. `weights` are barycentric coordinates;
+// the shares sum to 1.
 template <typename Visit>
 void forEachTrianglePoint(int parts, const Visit& visit) {
     const double step = 1.0 / parts;
@@ -77,7 +76,7 @@ void forEachTrianglePoint(int parts, const Visit& visit) {
 }
 
 // Moves corners back to their original positions until no triangle is rotated by more than 60°. In the worst case, all
-// corners return. cornersOf(t), for t below `triangles`, returns the indices of triangle t's corners in both arrays.
+// corners move back. cornersOf(t), for t below `triangles`, returns the indices of triangle t's corners in both arrays.
 template <typename Points, typename CornersOf>
 void keepFacesUpright(Points& fitted, const Points& original, std::size_t triangles, const CornersOf& cornersOf) {
     constexpr double minTurnCosine = 0.5;

@@ -1,6 +1,5 @@
 #pragma once
-// Triangle lists as used throughout `lod`: three corners per triangle, sorted by primitive. Also area-weighted means
-// over triangles.
+// Triangle lists: three corners per triangle, sorted by primitive. Also computes area-weighted means over triangles.
 
 #include <cmath>
 #include <cstddef>

@@ -19,13 +19,13 @@ namespace defocus::engine {
 
 // Weight of an attribute: the distance, in units of the mesh's longest side, that costs as much as a change of the
 // attribute by 1. Texture coordinates are scaled to surface lengths, so that the error measures how far the texture
-// slides. The weights come from a parameter sweep on the school of fish. Half or twice a weight costs up to 0.5 dB at
-// the same triangle count.
+// slides. The weights come from a parameter sweep on the school of fish. Halving or doubling a weight costs up to 0.5
+// dB of PSNR at the same triangle count.
 constexpr float normalWeight = 0.003f;
 constexpr float colorWeight = 0.005f;  // weight for colours in [0, 1]
 constexpr float uvWeight = 0.05f;
-// Weight of per-vertex blur, relative to the mesh's range of blur. The weight is four times the colour weight, so that
-// a level has blur at the same positions as the file.
+// Weight of per-vertex blur, relative to the mesh's range of blur. It is four times the colour weight, so that blur on
+// a level appears at the same positions as in the file.
 constexpr float blurWeight = 0.02f;
 
 class WedgeTable {
@@ -33,10 +33,10 @@ public:
     // Creates one wedge per vertex with the vertex's weighted attributes. `uvScale` converts uv to lengths in the unit
     // frame.
     void assign(const Vertices& vertices, float uvScale);
-    // Returns whether attributes vary over a face with these three wedges at its corners.
+    // Returns whether attributes vary over a face that has these three wedges at its corners.
     [[nodiscard]] bool changes(const WedgeNumber* corners) const;
-    // Gives each wedge an empty quadric. Must precede addFace(). `changing` tells for each wedge whether changes() is
-    // true for one of its faces.
+    // Gives each wedge an empty quadric. Must precede addFace(). `changing` tells for each wedge whether attributes
+    // vary over any of its faces.
     void startQuadrics(const std::vector<bool>& changing);
     // Keeps only the wedges in `order` (ascending) and renumbers them.
     void keep(std::span<const WedgeNumber> order);
@@ -68,7 +68,7 @@ public:
     [[nodiscard]] float cost(WedgeNumber from, WedgeNumber to, const glm::vec3& step) const;
     // Moves the quadric of the wedge `from` into the quadric of the wedge `to`, whose position differs by `step`.
     void moveQuadric(WedgeNumber from, WedgeNumber to, const glm::vec3& step);
-    // Prefetch memory: prefetchStart() for cost() of a survivor, prefetch() for moveQuadric().
+    // Prefetch memory: prefetchStart() for the argument `to` of cost(), prefetch() for moveQuadric().
     void prefetchStart(WedgeNumber w) const;
     void prefetch(WedgeNumber w) const;
 

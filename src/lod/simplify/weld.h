@@ -10,11 +10,11 @@
 
 namespace defocus::engine {
 
-// Equal vertices get the same id. Ids are assigned in order of first appearance.
+// Ids of vertices: equal vertices get the same id. Ids are assigned in order of first appearance.
 template <typename Vertex, typename Id>
 struct Welded {
     Numbered<Vertex, Id> id;
-    Numbered<Id, Vertex> first;  // the first vertex with this id
+    Numbered<Id, Vertex> first;  // first vertex with each id
 };
 using WeldedPositions = Welded<MeshVertexNumber, PositionNumber>;
 using WeldedVertices = Welded<FileVertexNumber, MeshVertexNumber>;
