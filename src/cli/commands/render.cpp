@@ -235,7 +235,7 @@ private:
     Clock::time_point copied_;
 };
 
-// Draws the frame. Parts that go to files are written as soon as they are finished. Returns false if a signal stops it.
+// Draws the frame. Writes parts that go to files as soon as they are finished. Returns false if a signal stops drawing.
 bool draw(FrameOutput& output, SceneDriver& driver, const Progress& progress, const RenderArguments& arguments) {
     const FrameDriver& frame = driver.driver();
     PartialCopies copies(output, driver, arguments.outputs);
@@ -272,7 +272,8 @@ void writeImages(const RenderArguments& arguments, const Image& image, SceneDriv
     }
 }
 
-// Writes the image of the samples so far if the user wants it. Throws Error with the message about the stop.
+// Writes the image of the samples drawn so far if RenderArguments::keepPartial is set. Always throws Error, with the
+// message about the stop.
 [[noreturn]] void endStopped(const RenderArguments& arguments, FrameOutput& output, SceneDriver& driver) {
     const std::optional<PartialImage> partial = partialImage(output, driver);
     if (!partial) fail("{}", output.stopMessage());
@@ -296,7 +297,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     FrameOutput output(driver, filesOf(arguments));
     output.start(progress);
 
-    // Print all warnings that are known before the frame is drawn.
+    // Print warnings early, before the frame is drawn.
     progress = {};  // ends the progress line
     WarningPrinter warnings(global);
     printCacheUse(driver.frame(), global);
