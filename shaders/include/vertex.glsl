@@ -31,8 +31,8 @@ Vertex vertexAt(vec2 moment, Posed rest, vec3 eye) {
 }
 #endif
 
-// Returns the vertex at `moment`: (index of a shutter time, fraction of the way to the next shutter time, time within
-// the exposure from 0 to 1). `eye` is the lens point (m) in view space.
+// Returns the vertex at a time within the exposure. `moment`: index of a shutter time, fraction of the way to the next
+// shutter time, time from 0 to 1. `eye`: lens point (m) in view space.
 Vertex vertexAt(vec3 moment, vec3 eye) { return vertexAt(moment.xy, Posed(positionIn, normalIn, tangentIn.xyz), eye); }
 
 // Returns the blur modifiers of the vertex, (factor, added fraction of the image's width), at a time in [0, 1].

@@ -2,8 +2,8 @@
 //
 // A surface of signed blur c px (diameter) at position q of the pinhole image appears in pixel p through the lens point
 // (u, v) if q = p − c/2·(u, v). The ray is therefore a line in the pinhole image, along which c grows with the
-// distance. In each pixel of a layer the surface is a plane, c = c₀ + slope·(q − centre). The ray hits the plane if the
-// ray is in front of the plane where it enters the pixel and behind the plane where it leaves, or vice versa.
+// distance. In each pixel of a layer the surface is a plane, c = c₀ + slope·(q − centre). The ray hits the plane if it
+// enters the pixel on one side of the plane (in front or behind) and leaves the pixel on the other side.
 //
 // Neighbouring pixels whose planes differ by less than a pixel of blur form one surface without a gap between them.
 // Rays start at a random position in their pixel, which smooths blurred surfaces and does not affect focused ones.
