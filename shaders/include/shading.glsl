@@ -52,7 +52,7 @@ struct SurfacePoint {
     float film;           // thickness of the film (nm)
     vec3 filmBase;        // F0 with which Schlick's term gives the film's reflectance towards the eye
     vec3 through;         // albedo of the diffuse light from behind; only if diffusesThrough
-    vec3 hidden;          // occluded irradiance of the environment, over π; only if shadowed
+    vec3 hidden;          // occluded irradiance of the environment, divided by π; only if shadowed
 };
 
 vec3 lightShares[lightCount + 1];   // fraction of each light that reaches the surface; only if shadowed
@@ -90,8 +90,8 @@ float normalSpread(float agreement) {
 // Returns the mean of the normals that a coarse level's normal represents, weighted by their visible area, because
 // normals that face the eye cover more pixels: Σ n·(n·v) / Σ (n·v). Seen along the mean normal, the weighted mean has
 // the length |n| = `agreement`. In other views it is tilted towards the eye by about (1 − |n|) / mean(n·v) times the
-// component of v perpendicular to the mean normal. At grazing angles few normals are visible, and a bound on the tilt
-// keeps the length within what |n| allows. The bound is fitted to the von Mises–Fisher distribution.
+// component of v perpendicular to the mean normal. At grazing angles few normals are visible, and an upper bound on the
+// tilt keeps the length possible for this |n|. The bound is fitted to the von Mises–Fisher distribution.
 vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     float nv = dot(normal, toEye);
     float seen = max(meanCosine(agreement * nv, nv, spread), 1e-3);
@@ -158,7 +158,7 @@ float meanSpread(Spread spread) { return 0.5 * (spread.along + spread.across); }
 struct Lobe {
     float width;          // width α of the GGX distribution
     float alpha2;         // α² + 2σ², with the mean of 2σ²
-    vec3 axis;            // Spread::axis
+    vec3 axis;            // direction of the larger variance (Spread::axis)
     vec2 widths2;         // α² + 2σ² along and across the axis
     float share;          // weight of Beckmann's distribution
     float shown;          // cosine between the eye and the normals of Beckmann's part: shown + shownOfH · v·h

@@ -2,7 +2,7 @@
 
 struct Attributes {
     vec4 position;   // position in m from the camera along the world's axes
-    vec4 normal;     // w: length of the mesh's normal, 1 except in coarse levels
+    vec4 normal;     // w: length of the mesh's normal; 1 except in coarse levels of detail
     vec4 color;
     vec4 uv;
     vec4 tangent;

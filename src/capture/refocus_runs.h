@@ -34,7 +34,7 @@ struct RefocusRuns {
 RefocusRuns refocusRuns(const Shot& shot, const SequenceBase& base, const FilmSettings& settings,
                         const FrameRange& frames, std::uint32_t samples);
 
-// Returns the run that contains a frame; null if there is none.
+// Returns the run of frames that contains a frame; null if there is none.
 const RefocusRun* runOf(const std::vector<RefocusRun>& runs, int frame);
 
 // Returns the memory in bytes of a run's lens images. `view`: the view of one of its frames.

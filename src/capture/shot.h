@@ -43,8 +43,8 @@ struct FocusTrack {
 
 struct CameraKeys {
     std::vector<Key<Place>> positions;
-    std::vector<Key<Place>> targets;  // points that the camera looks at; same frames as `positions`
-    std::vector<Key<double>> rolls;   // angles in degrees, counter-clockwise from behind; same frames as `positions`
+    std::vector<Key<Place>> targets;  // points that the camera looks at, keyed at the same frames as `positions`
+    std::vector<Key<double>> rolls;   // degrees, counter-clockwise seen from behind; same frames as `positions`
     Easing easing = Easing::smooth;
 };
 

@@ -172,7 +172,7 @@ void refuseEmptyNames(CLI::App& command) {
     for (CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; })) refuseEmptyNames(*below);
 }
 
-// Returns the message that standard output cannot be written, with the reason; empty if all of it was written.
+// Returns an error message with the reason if standard output couldn't be written; empty if all output was written.
 std::string outputFault() {
     std::cout.flush();  // writes the text of --help or --version
     errno = 0;

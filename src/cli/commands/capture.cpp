@@ -114,7 +114,7 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
 void settleMethod(CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base) {
     const MethodUse use = chosenMethod(arguments.request);
     if (use.method->name != automaticMethod) return;
-    // The choice depends only on bounding boxes, so no levels are needed.
+    // The choice depends only on bounding boxes, so no levels of detail are needed.
     const LodMode lod = std::exchange(prepared.settings.lod, LodMode::off);
     addPyramids(prepared);
     constexpr int maxPlanned = 16;

@@ -8,8 +8,8 @@
 
 namespace defocus::engine {
 
-// Returns the runs of the complete shot, so that a frame doesn't depend on --range and --shard. Throws Error if the
-// lens images of a run don't fit into half of the memory.
+// Returns the runs of frames in the complete shot, so that a frame doesn't depend on --range and --shard. Throws Error
+// if the lens images of a run don't fit into half of the memory.
 RefocusRuns chosenRuns(const Shot& shot, const SequenceBase& base, const FilmSettings& settings);
 
 // Returns a line that states how many lens samples --refocus saved.

@@ -183,7 +183,7 @@ void printChoices(const GlContext& context, const RenderReport& report) {
                  report.stats.renderMilliseconds);
 }
 
-// Image of the samples so far, with all that is needed to write it without the driver.
+// Image of the samples drawn so far, with the data that is needed to write it without the driver.
 struct PartialImage {
     Image image;
     WriteOptions options;
@@ -209,9 +209,9 @@ std::string writePartial(const std::vector<std::filesystem::path>& outputs, cons
                        partial.sampleTotal);
 }
 
-// Keeps a copy of the image of the samples so far, which is written if a signal arrives within a long draw. The copy is
-// renewed twice a second at most, because reading an image takes time; between short draws, the main thread handles the
-// signal itself.
+// Keeps a copy of the image of the samples drawn so far. If a signal arrives within a long draw, this copy is written.
+// It is renewed at most twice a second, because reading an image takes time. Between short draws, the main thread
+// handles the signal itself.
 class PartialCopies {
 public:
     PartialCopies(FrameOutput& output, SceneDriver& driver, const std::vector<std::filesystem::path>& outputs)

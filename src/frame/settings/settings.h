@@ -20,7 +20,7 @@ namespace defocus::engine {
 
 enum class SettingGroup { scene, camera, lens, samples, method, display, developer };
 
-// Which results change with a setting.
+// Kind of results that change with a setting.
 enum class SettingEffect {
     pixels,   // the linear image
     display,  // only the 8-bit output: PNG, JPEG and video
