@@ -1,4 +1,4 @@
-// Adds the sum of a finished block to the compensated sum of the frame.
+// Adds the sum of a finished block of lens samples to the compensated sum of the frame.
 #include "include/compensated.glsl"
 
 layout(binding = 0) uniform sampler2D blockSum;

@@ -1,5 +1,5 @@
-// Composites the layers of a wave (one per lens sample) over the environment, and adds them in the order of the samples
-// to the block's compensated sum.
+// Composites the layers of a wave (a batch of lens samples, one layer each) over the environment. Adds the layers, in
+// the order of the samples, to the compensated sum of the current block of samples.
 #include "accumulation/layer_light.glsl"
 
 layout(binding = 2) uniform sampler2D compensationSoFar;

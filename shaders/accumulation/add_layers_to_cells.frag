@@ -1,5 +1,5 @@
-// Adds the layers of a wave to the block's sum like add_layers.frag, and also to the sums of the blur classes of lens
-// cells (include/cells.glsl).
+// Adds the layers of a wave (a batch of lens samples) to the block's sum like add_layers.frag, and also to the sums of
+// the blur classes (groups of samples with similar blur; see include/cells.glsl).
 #include "accumulation/layer_light.glsl"
 #include "include/cells.glsl"
 

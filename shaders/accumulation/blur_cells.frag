@@ -1,4 +1,4 @@
-// Computes the block's sum, in which the image of each sample is blurred by its lens cell (include/cells.glsl). The
+// Computes the sum of a block of samples, each blurred by its lens cell, a part of the lens (include/cells.glsl). The
 // blur classes are composited from farthest to nearest, each blurred by linear interpolation of its means. Unblurred
 // samples are composited between the classes behind the focus plane and the classes in front of the focus plane. In
 // pixels where all samples show the blurred foreground, the foreground also replaces the unknown background.

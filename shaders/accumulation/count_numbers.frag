@@ -5,7 +5,7 @@
 
 layout(r32ui, binding = 0) uniform restrict uimage2DArray table;
 layout(location = 3) uniform bool startsFrame;
-layout(location = 4) uniform int channel;   // what is counted; 0: objects, 1: materials
+layout(location = 4) uniform int channel;   // 0: count objects; 1: count materials
 
 const uint largestCount = 0xffffu;
 

@@ -1,4 +1,4 @@
-// The layers of a wave (one per lens sample), composited over the environment.
+// Composites the layers of a wave (a batch of lens samples, one layer each) over the environment.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -34,18 +34,19 @@ vec4 bandOf(int layer) { return vec4(1.0, 1.0, 1.0, 0.0); }
 vec2 lensPointOf(int layer) { return vec2(0.0); }
 #endif
 
-// Returns the pixel of a layer that has a position of the pixel to sum. `position`: 0 to positions − 1.
+// Returns the texel of a layer for one of the pixel positions that are summed in this pixel. `position`: 0 to
+// positions − 1.
 ivec3 texelOf(int position, int layer) {
     ivec2 cell = ivec2(position % positionsPerAxis, position / positionsPerAxis);
     return ivec3(ivec2(gl_FragCoord.xy) * positionsPerAxis + firstPixel + cell, layer);
 }
 
-// Returns the point on the image plane at distance 1 for a place in the layers, in px from the bottom left.
+// Returns the point on the image plane at distance 1 for `place`, a position in the layers in px from the bottom left.
 vec2 onImagePlane(vec2 place) {
     return (2.0 * (place + frame.window.xy) / frame.window.zw - 1.0) / frame.projection.xy;
 }
 
-// Returns the same for the centre of the pixel to sum.
+// Returns the point on the image plane at distance 1 for the centre of this pixel of the sums.
 vec2 pixelOnImagePlane() {
     return onImagePlane(gl_FragCoord.xy * float(positionsPerAxis) + vec2(firstPixel));
 }

@@ -44,8 +44,8 @@ float pinholeCoc() {
 #endif
 
 #ifdef DEPTH_SLOT
-// Returns the premultiplied depth, alpha, and the CoC. Without the CoC, the layer has two channels. Blending reads alpha
-// from the fourth component even then.
+// Returns premultiplied depth, alpha, and CoC. If the layer has no CoC, it has two channels, but blending still reads
+// alpha from the fourth component.
 vec4 drawnDepth(float alpha) {
     float coc = 0.0;
 #ifdef DRAWS_COC
@@ -64,9 +64,9 @@ vec2 movement() {
 #endif
 
 #ifdef NUMBER_SLOT
-// Returns 1 if the lens sample shows the surface unless a nearer surface hides it, else 0. Blended surfaces that the
-// picture sorts are chosen by alpha, independently of each other. They are drawn from back to front, so the fraction of
-// samples with a surface's number is alpha · Π (1 − alpha of each nearer surface), its weight in the picture.
+// Returns 1 if the lens sample draws the surface's number, else 0. Alpha-blended surfaces are drawn with probability
+// alpha, independently of each other, from back to front. The fraction of samples with a surface's number is therefore
+// alpha · Π (1 − alpha of each nearer surface), the surface's weight in the picture.
 float chosen(float alpha) {
 #ifdef CHOOSES_BY_ALPHA
     if (alphaBlended) return alpha > alphaThreshold(pixelOfImage()) ? 1.0 : 0.0;
@@ -79,7 +79,7 @@ void main() {
     readSurface();
     layerOut = surfaceLight();
 #ifdef TRANSMISSIVE
-    float alpha = 1.0;   // data behind a transmissive surface are hidden
+    float alpha = 1.0;   // a transmissive surface hides the data behind it
 #else
     float alpha = alphaBlended ? surfaceBase.a : 1.0;
 #endif

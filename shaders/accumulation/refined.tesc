@@ -55,7 +55,7 @@ float partsOf(int first, int second) {
     vec3 q = unsheared[second].pinhole;
     vec2 ownP = unsheared[first].ownBlur;
     vec2 ownQ = unsheared[second].ownBlur;
-    // Only the part of the edge beyond the near plane is visible and counts.
+    // Measure only the visible part of the edge, beyond the near plane.
     float near = frame.projection.z;
     if (p.z <= near && q.z <= near) return 1.0;
     float begin = p.z < near ? (near - p.z) / (q.z - p.z) : 0.0;

@@ -23,8 +23,8 @@ void main() {
         for (int x = -6; x <= 6; ++x) {
             uint held = texelFetch(heldClasses, clamp(tile + ivec2(x, y), ivec2(0), last), 0).r;
             int away = max(abs(x), abs(y));
-            // Non-zero means lie up to 2 · 2^k px from the samples of blur class k, and their neighbours up to 3 · 2^k
-            // px.
+            // The means of blur class k are non-zero up to 2 · 2^k px from the samples of the class, and the adjacent
+            // squares end up to 3 · 2^k px from them.
             spread |= held & ofBothSides(away <= 1 ? 0x1fu : away <= 2 ? 0x18u : away <= 4 ? 0x10u : 0u);
             beside |= held & ofBothSides(away <= 2 ? 0x1fu : away <= 3 ? 0x18u : 0x10u);
         }

@@ -1,5 +1,5 @@
-// The pinhole image as the circular method reads it. With brackets (storage r10g10b10a2), radiance has ten bits per
-// channel from 0 to 1, and is clipped above 1.
+// Reads the pinhole image for the circular method. If `bracketed` (storage r10g10b10a2), radiance is clipped to [0, 1]
+// and rounded to ten bits per channel.
 
 layout(binding = 0) uniform sampler2D pinholeColor;
 

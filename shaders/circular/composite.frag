@@ -33,8 +33,8 @@ float coverageOf(float weight, vec2 place) {
     return clamp(weight, 0.0, 1.0);
 }
 
-// Returns the factor on the coverage for compositing a near field of radiance `before` over a background of radiance
-// `behind`.
+// Returns the factor by which the coverage is multiplied when a near field of radiance `before` is composited over a
+// background of radiance `behind`.
 float biasOf(float coverage, vec3 before, vec3 behind) {
     if (!biasByLuminance) return blendBias;
     // blendBias applies fully where the near field covers most of the pixel and is brighter than the background.

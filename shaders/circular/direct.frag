@@ -1,4 +1,5 @@
-// Blurs a field with the kernel of the separable passes as one direct 2D sum, a reference for tests and timings.
+// Blurs the near or far field with the kernel of the separable passes as one direct 2D sum, a reference for tests and
+// timings.
 #include "include/complex_kernel.glsl"
 
 layout(binding = 0) uniform sampler2D field;

@@ -1,5 +1,5 @@
-// Filters the rows of a field (premultiplied radiance and its weight) with `components` complex kernels. The result is
-// divided by the number of taps, because the sum of the complex taps nearly vanishes at some radii.
+// Filters the rows of the near or far field (premultiplied radiance and its weight) with `components` complex kernels.
+// The result is divided by the number of taps, not by the sum of the complex taps, which nearly vanishes at some radii.
 #include "include/complex_kernel.glsl"
 
 layout(binding = 0) uniform sampler2D field;

@@ -1,8 +1,8 @@
 // KHR_materials_anisotropy: GGX with different widths along the surface (Burley 2012, Physically-Based Shading at
 // Disney; masking: Heitz 2014, Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs).
 
-// Returns π·(n·l)·D·V for light from the unit direction `toLight`. `spread`: 2σ² of the slopes of the normals that the
-// sample represents, by which both squared widths grow. Masking uses the widths without this growth, as in lobeOf().
+// Returns π·(n·l)·D·V for light from the unit direction `toLight`. `spread`: 2σ², where σ² is the variance of the
+// normals' slopes over the sample's footprint. It is added to both squared widths, except for masking, as in lobeOf().
 float anisotropicReflection(SurfacePoint point, float nl, float nv, float spread, vec3 toLight) {
     if (nl <= 0.0 || nv <= 0.0) return 0.0;
     vec2 widths2 = point.widths * point.widths;
@@ -22,7 +22,7 @@ float anisotropicReflection(SurfacePoint point, float nl, float nv, float spread
 // albedo differs by at most 0.075.
 float isotropicRoughness(SurfacePoint point) { return sqrt(sqrt(0.5 * dot(point.widths, point.widths))); }
 
-// Returns the normal at which the environment is mirrored. It is bent along the direction in which highlights are
+// Returns the normal for reflections of the environment. The normal is bent along the direction in which highlights are
 // stretched, as in Khronos's glTF Sample Viewer (McAuley 2015, Rendering the World of Far Cry 4).
 vec3 stretchedNormal(SurfacePoint point, float strength) {
     vec3 inPlane = cross(cross(point.across, point.toEye), point.across);

@@ -14,7 +14,7 @@ const int drawnClasses = min(cellClasses, 7);
 
 // Side in px of the tiles for which a bit mask of the contained classes is recorded. Most tiles contain few classes.
 const int cellTile = 8;
-const int besideSpread = 16;   // bit at which the second class mask of spread_classes.frag begins
+const int besideSpread = 16;   // index of the first bit of the second mask in spread_classes.frag
 
 // Returns the blur variance of blur class k in px², like cellClassVariance() in src/plan/lens_cells/lens_cells.h. Class
 // −1 is unblurred.

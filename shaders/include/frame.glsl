@@ -3,11 +3,11 @@
 
 layout(std140, binding = 0) uniform FrameBlock {
     vec4 projection;      // 1/tan(θx/2), 1/tan(θy/2), near plane (m), unused
-    vec4 coc;             // a, b₁ of C; image width (px); b₂ of C   (src/lens/circle_of_confusion.h)
-    vec4 cocField;        // xy: tilt t of the focus plane; κ; g     (same source)
-    vec4 cocLimits;       // R₁, R₂; 1/k² (k: aspect ratio); max interpolation error of C in a triangle (px)
-    // a₂ of C; fraction of the image's width per mm on the sensor, for added vertex blur; coefficients A of astigmatism
-    // and B of coma (src/lens/aberrations.h).
+    vec4 coc;             // circle of confusion C (lens/circle_of_confusion.h): a, b₁; z: image width (px); w: b₂
+    vec4 cocField;        // xy: tilt t of the focus plane; z: field curvature κ; w: radial blur gain g
+    vec4 cocLimits;       // xy: blur limits R₁, R₂; z: 1/k² (k: aspect ratio); w: max error of C in a triangle (px)
+    // x: a₂ of the circle of confusion C; y: fraction of the image's width per mm on the sensor, for added vertex blur;
+    // zw: coefficients A of astigmatism and B of coma (src/lens/aberrations.h).
     vec4 cocOther;
     vec4 window;          // xy: position in the image of the layers' pixel (0, 0); zw: image size (px)
     mat4 worldFromView;   // rotation
@@ -19,10 +19,10 @@ layout(std140, binding = 0) uniform FrameBlock {
 struct Object {
     mat4 viewFromObject;
     mat3 normalMatrix;    // inverse transpose of the upper 3×3 of viewFromObject
-    // Fractional level of detail λ; fraction of the pixels of the boundary sample (the lens sample that mixes two
-    // levels) that draw the coarser level; object index; blur factor.
+    // x: fractional level of detail λ; y: fraction of the pixels that draw the coarser level in the boundary sample
+    // (the lens sample that mixes two levels); z: object index; w: blur factor.
     vec4 values;
-    // Texels per pose; number of joints; number of active morph targets; texels per attribute of a morph target.
+    // x: texels per pose; y: number of joints; z: number of active morph targets; w: texels per attribute of a target.
     ivec4 posing;
     // x: max deviation of the drawn levels from full detail (m); y: max number of parts of an edge (refined.tesc).
     vec2 levels;

@@ -28,8 +28,8 @@ vec3 waveColor(float path, vec3 shift) {
     return rec709 * (xyz / 1.0685e-7);
 }
 
-// Returns the reflectance of a film in air on a surface with reflectance `base` at normal incidence, for light at this
-// cosine of incidence. `thickness`: nm; films below 0.03 nm fade out.
+// Returns the reflectance of a film in air on a surface with reflectance `base` at normal incidence. `cosine`: cosine
+// of the angle of incidence. `thickness`: nm; films below 0.03 nm fade out.
 vec3 filmReflectance(float cosine, vec3 base, float filmIor, float thickness) {
     float ior = mix(1.0, filmIor, smoothstep(0.0, 0.03, thickness));
     float inside2 = 1.0 - (1.0 - cosine * cosine) / (ior * ior);
@@ -54,7 +54,7 @@ vec3 filmReflectance(float cosine, vec3 base, float filmIor, float thickness) {
     return max(sum, vec3(0.0));
 }
 
-// Returns the F0 with which Schlick's Fresnel term has this reflectance at this cosine.
+// Returns the F0 for which Schlick's approximation gives `reflectance` at the cosine of incidence `cosine`.
 vec3 schlickBase(vec3 reflectance, float cosine) {
     float rest = clamp(1.0 - cosine, 0.0, 1.0);
     float grazing = clamp(rest * rest * rest * rest * rest, 0.0, 0.9999);

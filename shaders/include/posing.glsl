@@ -1,6 +1,6 @@
-// Poses vertices: first morph targets, then joint matrices, like src/scene/posed_mesh.h on the CPU. skinInfluences: 4
-// or 8 joints per vertex for a skin, else 0. morphed: morph targets move positions, and also normals and tangents with
-// morphNormals and morphTangents. morphAttributes: number of morphed attributes, 1 … 3.
+// Poses vertices: applies morph targets, then joint matrices, like src/scene/posed_mesh.h on the CPU. skinInfluences:
+// number of joints per vertex, 4 or 8; 0 without a skin. morphed: whether morph targets change positions; morphNormals
+// and morphTangents: whether they also change normals and tangents. morphAttributes: number of these attributes, 1 … 3.
 //
 // A pose in the buffer `poses` begins with the three rows of the view-from-vertex matrix of each joint; without a skin,
 // the object is the only joint. Then follow (weight, index) of each active morph target. With cameraMoves, the pose
@@ -81,7 +81,7 @@ Posed morphedVertex(int firstTexel, Posed vertex) {
     return vertex;
 }
 
-// Returns the vertex `vertex`, which is in the rest pose, transformed to the pose with index `pose`.
+// Transforms `vertex` from the rest pose to the pose with index `pose`.
 Posed posedVertex(int pose, Posed vertex) {
     int firstTexel = pose * object.posing.x;
     if (morphed) vertex = morphedVertex(firstTexel, vertex);

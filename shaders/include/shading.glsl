@@ -10,9 +10,9 @@
 // (LightSums). This sum takes few operations per light, which matters on software rasterizers.
 
 layout(std140, binding = 6) uniform WaveBlock {
-    // Side in px of the square over which a texture lookup is filtered. With N samples per pixel (all up to the end of
-    // this block), its area is 1/(2N − 1) of the pixel; the mean over the samples filters the texture over the full
-    // pixel. The area is less than 1/N, because trilinear lookups average over more than their nominal area.
+    // Side in px of the square over which a texture lookup is filtered. The area of the square is 1/(2N − 1) px², where
+    // N is the frame's number of samples per pixel at the end of the current block of samples. The mean over the
+    // samples filters the texture over the full pixel. The area is below 1/N, because trilinear lookups cover more.
     float footprint;
     float mipBias;        // log2(footprint): bias on the mip level, which OpenGL chooses for a full pixel
 } wave;
@@ -23,7 +23,7 @@ layout(binding = 33) uniform sampler2D specularAlbedos;
 struct SurfacePoint {
     vec3 diffuse;         // albedo of the diffuse part
     vec3 specular;        // reflectance at normal incidence, F0
-    float roughness;      // perceptual
+    float roughness;      // perceptual roughness
     vec3 normal;          // unit vector in world axes, like all directions in this struct
     vec3 toEye;           // unit vector
     vec3 emission;        // emitted radiance; only if emissive
@@ -31,28 +31,28 @@ struct SurfacePoint {
     vec3 normalUp;        // change of the interpolated normal over one pixel up
     // The next three members are set only if coarseLevel.
     float agreement;      // length |n| of the mean of the unit normals that `normal` represents, in (0, 1]
-    float spread;         // normalSpread(agreement)
-    vec3 seen;            // seenNormal(…)
+    float spread;         // result of normalSpread(agreement)
+    vec3 seen;            // mean of the visible normals, see seenNormal()
     float grazing;        // reflectance at grazing angles, F90; used only if ownReflectance, otherwise 1
     vec3 transmitted;     // radiance from behind the surface, before the loss by reflection
     // The next two members are set only if the material has sheen.
-    vec3 sheen;           // colour
-    float sheenRoughness; // perceptual
+    vec3 sheen;           // colour of the sheen
+    float sheenRoughness; // perceptual roughness
     // The next three members are set only if the material has clearcoat.
     float coat;           // coated fraction of the surface
-    float coatRoughness;  // perceptual
+    float coatRoughness;  // perceptual roughness
     vec3 coatNormal;      // unit vector
     // The next four members are set only if anisotropic.
     vec3 stretch;         // unit vector along the surface in which highlights are stretched
     vec3 across;          // unit vector along the surface, perpendicular to `stretch`
-    vec2 widths;          // α along `stretch` and `across`
-    vec3 mirror;          // normal at which the environment is mirrored
+    vec2 widths;          // GGX widths α along `stretch` and `across`
+    vec3 mirror;          // normal for reflections of the environment
     // The next three members are set only if iridescent.
     float iridescence;    // fraction of the surface with a film
-    float film;           // thickness (nm)
+    float film;           // thickness of the film (nm)
     vec3 filmBase;        // F0 with which Schlick's term gives the film's reflectance towards the eye
     vec3 through;         // albedo of the diffuse light from behind; only if diffusesThrough
-    vec3 hidden;          // occluded irradiance of the environment, over π; only if shadowed
+    vec3 hidden;          // occluded irradiance of the environment, divided by π; only if shadowed
 };
 
 vec3 lightShares[lightCount + 1];   // fraction of each light that reaches the surface; only if shadowed
@@ -90,8 +90,8 @@ float normalSpread(float agreement) {
 // Returns the mean of the normals that a coarse level's normal represents, weighted by their visible area, because
 // normals that face the eye cover more pixels: Σ n·(n·v) / Σ (n·v). Seen along the mean normal, the weighted mean has
 // the length |n| = `agreement`. In other views it is tilted towards the eye by about (1 − |n|) / mean(n·v) times the
-// component of v perpendicular to the mean normal. At grazing angles few normals are visible, and a bound on the tilt
-// keeps the length within what |n| allows. The bound is fitted to the von Mises–Fisher distribution.
+// component of v perpendicular to the mean normal. At grazing angles few normals are visible, and an upper bound on the
+// tilt keeps the length possible for this |n|. The bound is fitted to the von Mises–Fisher distribution.
 vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     float nv = dot(normal, toEye);
     float seen = max(meanCosine(agreement * nv, nv, spread), 1e-3);
@@ -100,8 +100,8 @@ vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     return agreement * normal + turn * inversesqrt(1.0 + bound) * (toEye - nv * normal);
 }
 
-// Returns 2σ². σ² is the variance of the slopes of the fine normals that one normal of a coarse level averages: σ² ≈
-// (1 − |n|)/|n| (Toksvig 2005, Mipmapping Normal Maps).
+// Returns 2σ², where σ² is the variance of the slopes of the fine normals that one normal n of a coarse level averages:
+// σ² ≈ (1 − |n|)/|n| (Toksvig 2005, Mipmapping Normal Maps).
 float coarseSpread(SurfacePoint point) {
     return 2.0 * (1.0 - point.agreement) / point.agreement;
 }
@@ -156,9 +156,9 @@ float meanSpread(Spread spread) { return 0.5 * (spread.along + spread.across); }
 // Beckmann's cosine to the eye is therefore this mean, as n·v is for microfacets. Where the microfacets themselves are
 // rough, a fraction α of them reflects from the underlying normal, masked as usual.
 struct Lobe {
-    float width;          // α
+    float width;          // width α of the GGX distribution
     float alpha2;         // α² + 2σ², with the mean of 2σ²
-    vec3 axis;            // Spread::axis
+    vec3 axis;            // direction of the larger variance (Spread::axis)
     vec2 widths2;         // α² + 2σ² along and across the axis
     float share;          // weight of Beckmann's distribution
     float shown;          // cosine between the eye and the normals of Beckmann's part: shown + shownOfH · v·h
@@ -252,7 +252,7 @@ vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toL
 // Returns the normal for diffuse lighting by the environment.
 vec3 mattNormal(SurfacePoint point) { return coarseLevel ? point.seen : point.normal; }
 
-// Returns (x, y) for which the specular part reflects the fraction x·F0 + y·F90 of a white environment.
+// Returns (x, y) such that the specular part reflects the fraction x·F0 + y·F90 of a white environment.
 vec2 specularAlbedos2(SurfacePoint point, float nv) {
     float roughness = anisotropic && point.widths.x > 0.0 ? isotropicRoughness(point) : point.roughness;
     vec2 size = vec2(textureSize(specularAlbedos, 0));

@@ -7,10 +7,10 @@
 // is exact for planes. For concave surfaces, the receiver is offset along the facet's normal n by a quarter of a texel
 // plus the deviation of the level of detail from the surface.
 //
-// Where the facet descends towards the texel centre, its plane may reach below a neighbouring facet: a wall's plane
-// goes on below the floor at its foot, and the floor would shadow the wall. There, the comparison uses the depth at
-// which a facet would rise from the receiver as steeply as the receiver's own facet descends, and by at most 45°. This
-// never darkens the receiver, and it leaves facets that face the light unchanged.
+// Where the facet descends towards the texel centre, its plane may reach below a neighbouring facet. For example, a
+// wall's plane continues below the floor, and the floor would shadow the foot of the wall. There, the slope's sign is
+// reversed: the comparison uses the depth of a plane that rises from the receiver as steeply as the facet descends, but
+// by at most 45°. This never darkens the receiver, and it leaves facets that face the light unchanged.
 //
 // At grazing light the facet is steep in the map. Let θ be the angle between n and the light, and r half a texel's
 // diagonal. At distance r from the texel centre, the plane is r·tan θ nearer to the light. An offset d along n moves
@@ -59,7 +59,7 @@ vec3 litAt(int slot, Facet facet, vec3 toLight) {
     vec2 toMiddle = (vec2(at) + 0.5) * (2.0 / float(shadowSize)) - 1.0 - place;
     float rise = depthAlongFacet(texel, clip, facet.normal, width, toMiddle);
     vec4 diagonal = shadowDirection(texel, toLight * (0.5 * float(shadowSize) * length(toMiddle) * width));
-    // change of depth along a plane that rises at 45°
+    // depth change along a plane that rises at 45°
     float steepest = (diagonal.z - clip.z / clip.w * diagonal.w) / clip.w;
     float depth = clip.z / clip.w + (rise < 0.0 ? min(-rise, steepest) : rise);
     vec3 nearest = texelFetch(shadowMaps, ivec3(at, gl_Layer * (shadowPoints * shadowMapCount) + slot), 0).rgb;

@@ -37,7 +37,7 @@ uvec2 pixelOfImage() { return uvec2(gl_FragCoord.xy + frame.window.xy); }
 // Returns true if this pixel draws the coarser level in a boundary sample, the lens sample that mixes two levels.
 bool drawsCoarser() { return objectThreshold(pixelOfImage()) < object.values.y; }
 
-vec4 surfaceBase = vec4(0.0);   // base colour of the surface that surfaceLight() has lit
+vec4 surfaceBase = vec4(0.0);   // base colour of the fragment, set by surfaceLight()
 
 // Returns the premultiplied radiance and alpha of this fragment, or discards the fragment.
 vec4 surfaceLight() {

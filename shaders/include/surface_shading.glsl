@@ -19,7 +19,7 @@ vec3 bumpedNormal(vec3 normal, vec3 texel, float scale) {
     return normal;
 }
 
-vec3 shownNormal = vec3(0.0);     // normal and emission of the surface that shaded() has lit
+vec3 shownNormal = vec3(0.0);     // normal and emission of the surface, set by shaded()
 vec3 shownEmission = vec3(0.0);
 
 vec3 towardsViewer(vec3 normal) {

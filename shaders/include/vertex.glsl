@@ -18,7 +18,7 @@ struct Posed {
 struct Vertex {
     Posed view;     // vertex in the view space in the middle of the exposure
     vec3 eye;       // point on the lens (m) in the view space of `view`
-    vec3 pinhole;   // pinholePosition() in the view space at the time of the lens sample
+    vec3 pinhole;   // clip-space (x, y, w) through a pinhole, at the time of the lens sample
 };
 
 #ifdef POSED
@@ -31,8 +31,8 @@ Vertex vertexAt(vec2 moment, Posed rest, vec3 eye) {
 }
 #endif
 
-// Returns the vertex at `moment`: (index of a shutter time, fraction of the way to the next shutter time, time within
-// the exposure from 0 to 1). `eye` is the lens point (m) in view space.
+// Returns the vertex at a time within the exposure. `moment`: index of a shutter time, fraction of the way to the next
+// shutter time, time from 0 to 1. `eye`: lens point (m) in view space.
 Vertex vertexAt(vec3 moment, vec3 eye) { return vertexAt(moment.xy, Posed(positionIn, normalIn, tangentIn.xyz), eye); }
 
 // Returns the blur modifiers of the vertex, (factor, added fraction of the image's width), at a time in [0, 1].

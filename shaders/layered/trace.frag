@@ -2,8 +2,8 @@
 //
 // A surface of signed blur c px (diameter) at position q of the pinhole image appears in pixel p through the lens point
 // (u, v) if q = p − c/2·(u, v). The ray is therefore a line in the pinhole image, along which c grows with the
-// distance. In each pixel of a layer the surface is a plane, c = c₀ + slope·(q − centre). The ray hits the plane if the
-// ray is in front of the plane where it enters the pixel and behind the plane where it leaves, or vice versa.
+// distance. In each pixel of a layer the surface is a plane, c = c₀ + slope·(q − centre). The ray hits the plane if it
+// enters the pixel on one side of the plane (in front or behind) and leaves the pixel on the other side.
 //
 // Neighbouring pixels whose planes differ by less than a pixel of blur form one surface without a gap between them.
 // Rays start at a random position in their pixel, which smooths blurred surfaces and does not affect focused ones.
@@ -60,7 +60,7 @@ void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
     ivec2 texel = clamp(ivec2(floor(placeAt(ray, reach.x))), ivec2(0), size - 1);
     float begin = reach.x;
     bool connected = false;   // true if the previous pixel has a surface
-    float before = 0.0;       // blur in px by which the ray left the previous pixel behind that pixel's plane
+    float before = 0.0;       // px of blur by which the ray left the previous pixel behind the surface there
     while (true) {
         vec2 ends = (vec2(texel + max(forward, 0)) - ray.start) * ray.perSlope;
         float end = min(min(ends.x, ends.y), reach.y);

@@ -1,5 +1,5 @@
 // Finds the next hit of rays that pass through a cut-out or blended surface: records with a negative weight. The next
-// hit is the nearest behind the record's triangle. If it is opaque or the sky, the weight becomes positive again.
+// hit is the nearest behind the record's triangle. If that hit is opaque or the sky, the weight becomes positive again.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -18,7 +18,7 @@ layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
 layout(location = 2) uniform uint recordCount;
 layout(location = 3) uniform uvec2 tiles;   // the lists of tiles [x, y) are in `entries`
 
-// The ray. Initialised because drivers warn about uninitialised values.
+// Variables of the current ray. They are initialised because drivers warn about uninitialised values.
 vec2 lens = vec2(0.0);
 vec2 place = vec2(0.0);
 float time = 0.0;

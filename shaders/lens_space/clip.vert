@@ -1,5 +1,5 @@
-// Kernel 1 of the lens-space methods: poses the vertices of a level for transform feedback, and outputs their pinhole
-// position and circle of confusion C.
+// Kernel 1 of the lens-space methods: poses the vertices of a level of detail for transform feedback, and outputs their
+// pinhole position and circle of confusion C.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"

@@ -18,7 +18,7 @@
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 4) readonly buffer DrawBlock { Draw draws[]; };
-layout(std430, binding = 5) buffer CountBlock { uint goOn; };   // number of rays that go on behind their hit
+layout(std430, binding = 5) buffer CountBlock { uint goOn; };   // number of rays that continue behind their hit
 
 layout(location = 2) uniform uint group;
 layout(location = 3) uniform uint recordCount;

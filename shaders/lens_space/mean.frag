@@ -1,4 +1,4 @@
-// Outputs the mean radiance of a pixel's rays.
+// Divides the sum of the radiance of a pixel's rays by their number.
 
 layout(std430, binding = 3) readonly buffer SumBlock { vec4 sums[]; };
 

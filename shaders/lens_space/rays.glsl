@@ -37,7 +37,7 @@ uint variantOf(uvec2 pixel) {
 }
 
 // Returns `x` in [0, 1) with bits flipped by `flips` (digital shift; Kollig and Keller 2002, Efficient Multidimensional
-// Sampling). Points of a net in base 2 remain a net.
+// Sampling). The shift keeps the stratification of (t, m, s)-nets in base 2.
 float shifted(float x, uint flips) { return float(min(uint(x * 16777216.0), 16777215u) ^ (flips >> 8)) / 16777216.0; }
 
 // Returns ray `ray` of the wave for a pixel. In all ray sets, this ray passes through the same small part of the lens.

@@ -1,4 +1,4 @@
-// The ray of a record (ray hit).
+// Functions that return the pixel, the ray and the lens point of a record (ray hit).
 
 uvec2 pixelOf(Record record) {
     uint inImage = record.ray % uint(imageSize.x * imageSize.y);

@@ -1,5 +1,5 @@
-// Shades the records of rays that meet no surface with the sky. The sky lies at infinity, where the relative circle of
-// confusion C/w is b.
+// Shades the records of rays that hit no surface with the radiance of the sky. The sky lies at infinity, where the
+// relative circle of confusion C/w is b.
 
 #include "lens_space/shade.glsl"
 

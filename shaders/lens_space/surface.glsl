@@ -2,7 +2,7 @@
 
 struct Attributes {
     vec4 position;   // position in m from the camera along the world's axes
-    vec4 normal;     // w: length of the mesh's normal, 1 except in coarse levels
+    vec4 normal;     // w: length of the mesh's normal; 1 except in coarse levels of detail
     vec4 color;
     vec4 uv;
     vec4 tangent;
@@ -19,11 +19,11 @@ struct Surface {
     vec4 tangent;
     float agreement;
     bool showsFront;
-    // UV that the same lens point sees at the right and at the upper edge of the area over which textures are filtered.
+    // UV at the right and upper edges of the area over which textures are filtered, as seen from the same lens point.
     vec4 uvRight;
     vec4 uvUp;
-    vec3 normalRight;   // interpolated normal that the same lens point sees one pixel to the right
-    vec3 normalUp;      // interpolated normal that the same lens point sees one pixel up
+    vec3 normalRight;   // interpolated normal one pixel to the right, as seen from the same lens point
+    vec3 normalUp;      // interpolated normal one pixel up, as seen from the same lens point
 };
 // Initialised because drivers warn about uninitialised values: functions read this variable before the code that
 // assigns it.

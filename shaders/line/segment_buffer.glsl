@@ -5,11 +5,12 @@
 //               the depths, the orientations and the slopes agree;
 //   length      it is dropped if it is too short;
 //   eviction    if the buffer is full, the shortest segment is dropped, stored or incoming.
-// The paper gives no thresholds; the constants below are ours. A final sweep along the line finds the nearest segments.
+// The paper gives no thresholds; the constants below are this program's choice. At the end, a sweep along the line
+// finds the nearest segments.
 // Where segments intersect, the sweep switches between them only at an end of a segment.
 //
 // shortIntervals: 16 bits hold the interval of a segment, 8 for each end. Colour (16 bits) and depth are stored in
-// addition. The paper stores a segment in 16 bits; this division of the data is ours.
+// addition. The paper stores a segment in 16 bits; the layout here is this program's choice.
 
 struct Piece {
     float first;
@@ -51,7 +52,7 @@ float hidden = 0.0;      // surfaces with a smaller 1/w are hidden by a segment 
 // Two values per vertex: the light of the front, then the light of the back.
 layout(std430, binding = 8) readonly buffer LightBlock { vec4 lights[]; };
 
-// Returns the light of a triangle at position p of the line, mapped to [0, 1].
+// Returns the radiance of a triangle at position p of the line, mapped to [0, 1].
 vec3 colorAt(uint triangle, OnLine line, bool front, float p) {
     vec3 edges = line.edgesAt0 + p * line.edgeSlopes;
     vec3 weights = edges / (edges.x + edges.y + edges.z);

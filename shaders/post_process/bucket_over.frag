@@ -1,4 +1,5 @@
-// Outputs the blurred, premultiplied image of a bucket of alpha-blended objects, for blending over the buckets behind.
+// Outputs the blurred, premultiplied image of a bucket (a group of alpha-blended objects of similar depth), for
+// blending over the buckets behind.
 
 layout(binding = 0) uniform sampler2D radiance;
 layout(binding = 1) uniform sampler2D coverage;

@@ -1,5 +1,5 @@
-// Writes the depth and the blur modifiers of the nearest surface of a bucket of alpha-blended objects. Alpha is 1, or 0
-// without a surface, so that it is the weight of the averages in mip levels.
+// Writes the depth and the blur modifiers of the nearest surface of a bucket, a group of alpha-blended objects of
+// similar depth. Alpha is 1, or 0 without a surface, and serves as the weight of averages in mip levels.
 
 layout(binding = 0) uniform sampler2D surfaceDepth;
 layout(binding = 1) uniform sampler2D surfaceOwnBlur;   // blur modifiers of surfaces; only with usesOwnBlur

@@ -1,4 +1,4 @@
-// Copies coverage that a method has blurred like an image to the alpha channel of the blurred radiance.
+// Copies the coverage, which was blurred like an image, to the alpha channel of the blurred radiance.
 layout(binding = 0) uniform sampler2D coverage;
 
 layout(location = 0) out vec4 alpha;

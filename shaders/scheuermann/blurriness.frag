@@ -1,4 +1,4 @@
-// Stores the signed blurriness of the pinhole image, which also orders surfaces by depth, in alpha. Blurriness is −1 at
+// Stores the signed blurriness of the pinhole image in alpha; blurriness also orders surfaces by depth. It is −1 at
 // max blur in front of the focus plane, 0 in focus and 1 at max blur behind the focus plane; [−1, 1] is stored as [0,
 // 1]. With several samples per pixel, writes their mean, like the resolve of a multisampled back buffer that has
 // blurriness in alpha.

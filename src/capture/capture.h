@@ -39,7 +39,7 @@ struct FilmOptions {
     std::vector<RefocusRun> runs = {};       // frames that are computed from lens images; not with sampleRange
     // Receives the first image that is drawn untiled, and the encoding of its 8-bit files.
     std::function<void(const Image&, const WriteOptions&)> firstDrawn;
-    // Receives the number and the plan of each rendered frame, while the world has its pose.
+    // Receives the number and the plan of each rendered frame, while the world has the pose of that frame.
     std::function<void(int frame, const FramePlan& plan)> frameDrawn;
 };
 
@@ -47,7 +47,7 @@ struct FilmOptions {
 std::filesystem::path timingsPath(const std::string& pattern, int shard, int shards);
 
 // Returns the frames with their files. With FilmOptions::resume, marks frames that are already finished. Throws Error
-// if any of the frames cannot be rendered, so that the error appears before the long work.
+// if any of the frames cannot be rendered, so that the error appears before the first frame is drawn.
 std::vector<FilmFrame> filmFrames(const Shot& shot, const SequenceBase& base, const std::vector<int>& frames,
                                   const FilmOptions& options, const Progress& progress = {});
 
@@ -56,7 +56,7 @@ struct FilmFigures {
     int tiles = 1;  // number of tiles of the latest frame
     int finishedBefore = 0;
     int refocused = 0;              // frames computed from lens images; also counted as rendered
-    std::uint64_t lensImages = 0;   // lens images that were rendered for these frames
+    std::uint64_t lensImages = 0;   // lens images that were rendered for refocused frames
     double renderMilliseconds = 0;  // sum over all frames: time from the plan to the image
     double totalMilliseconds = 0;   // wall-clock time until the last file is written
     std::uint64_t triangles = 0;

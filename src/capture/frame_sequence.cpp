@@ -43,7 +43,8 @@ double placeIn(const std::optional<FrameRange>& own, const FrameRange& shot, dou
     return std::clamp((frame - range.first) / length, 0.0, 1.0);
 }
 
-// Returns the file's camera, as its node's animation places it; nullopt for the default camera, which frames the scene.
+// Returns the camera of the scene's file, moved by the animation; nullopt for the default camera, which shows the
+// complete scene.
 std::optional<PlacedCamera> cameraOfFile(const SequenceBase& base, const Pose& pose) {
     const bool none = base.scene->cameras.empty() && !base.scene->cameraTrack;
     if (none || std::holds_alternative<FramingCamera>(base.camera)) return {};
@@ -104,8 +105,8 @@ double focusAt(const FocusTrack& focus, const Scene& scene, const FrameMoment& f
 
 enum class Scale { plain, logarithmic, reciprocal, stepped };
 
-// Returns the scale on which keys of a lens value are interpolated: f-stop and focal length by ratio, focus distance by
-// dioptres.
+// Returns the scale on which keys of a lens value are interpolated: logarithmic for f-number, focal length, exposure
+// time and ISO, reciprocal (dioptres) for the focus distance.
 Scale scaleOf(const LensField& field) {
     if (!std::holds_alternative<double Lens::*>(field.member)) return Scale::stepped;
     const std::string_view name = field.name;
@@ -169,7 +170,7 @@ double timeAt(const Shot& shot, const Scene& scene, int clip, double seconds) {
     return shot.request.loop && clip >= 0 ? loopedTime(scene.clips[static_cast<std::size_t>(clip)], time) : time;
 }
 
-// Returns a seed for the frame, well mixed and different for each frame.
+// Returns a random seed that differs for each frame and is unrelated to the seeds of the neighbouring frames.
 std::uint32_t frameSeed(std::uint32_t seed, int frame) {
     return fmix32(seed + 0x9e3779b9u * (static_cast<std::uint32_t>(frame) + 1));
 }

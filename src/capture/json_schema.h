@@ -1,5 +1,6 @@
 #pragma once
-// The subset of JSON Schema that settings need: anyOf, enum, and type with limits for numbers, strings and arrays.
+// Supports the subset of JSON Schema that settings need: anyOf, enum, and type with limits for numbers, strings and
+// arrays.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

@@ -3,7 +3,7 @@
 //
 // linear: straight lines between keys. smooth: a cubic through the keys with zero slope at the first and last key
 // (Steffen 1990). The cubic stays within the values of the neighbouring keys, so that a focus pull doesn't overshoot.
-// With only two keys, the value changes by the fraction 3t² − 2t³ at the fraction t of the time between the keys.
+// With only two keys, the curve is v₀ + (v₁ − v₀)·(3t² − 2t³), where t runs from 0 at the first key to 1 at the second.
 // Before the first key and after the last key, the value is constant.
 
 #include <glm/vec3.hpp>

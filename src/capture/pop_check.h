@@ -1,6 +1,6 @@
 #pragma once
-// Measures the pops of a shot: how much an image changes because objects change their levels of detail between a frame
-// and the next.
+// Measures the pops of a shot: how much an image changes because objects change their levels of detail from one frame
+// to the next.
 
 #include <filesystem>
 #include <memory>
@@ -16,7 +16,7 @@ struct FramePop {
     int frame = 0;       // number of the later frame
     std::string object;  // name of the object
     double rmse = 0;     // RMSE of display values (sRGB, [0, 1], EV 0) over the pixels that show the object or its blur
-    double seedRmse = 0;  // RMSE over the same pixels between this frame and the same frame with another seed
+    double seedRmse = 0;  // RMSE over the same pixels between this frame and a rendering with another random seed
 };
 
 class PopCheck {
@@ -24,9 +24,9 @@ public:
     // `world` must outlive the check.
     PopCheck(const World& world, const MethodUse& method, RendererOptions options);
 
-    // Compares the plan with the plan of the preceding frame, and draws the frame with its own and with the preceding
-    // levels if they differ. `world` has the pose of the frame. If the preceding frame was not noted, only keeps the
-    // plan for the next call. Needs a current GL context.
+    // Compares the levels of detail in `plan` with those of the preceding frame. If they differ, draws the frame with
+    // both and compares the images. The world must have the pose of the frame. If this function was not called for the
+    // preceding frame, it only keeps the plan for the next call. Needs a current GL context.
     void note(int frame, const FramePlan& plan);
 
     [[nodiscard]] const std::optional<FramePop>& largest() const { return largest_; }

@@ -22,7 +22,7 @@ bool isShapeField(const LensField& field) {
     return field.feature == LensFeature::shape || field.name == std::string_view("anamorphicRatio");
 }
 
-// Returns the lens with the default aperture shape, a disk. An aperture image is kept.
+// Returns the lens with the default aperture shape, a disk. Leaves an aperture image unchanged.
 Lens withDisk(Lens lens) {
     const Lens standard;
     for (const LensField& field : lensFields())
@@ -36,7 +36,7 @@ bool sameShape(const Lens& a, const Lens& b) {
            });
 }
 
-// State of a frame: equal keys mean that only focus distance, f-number and aperture shape differ.
+// State of a frame. If two frames have equal keys, only focus distance, f-number and aperture shape differ.
 struct StillFrame {
     std::string key;
     Lens lens;

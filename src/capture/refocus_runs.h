@@ -20,7 +20,7 @@ struct RefocusRun {
     FocusRange range;           // focus distances of the frames, m
     std::uint32_t samples = 0;  // number of lens images; each frame uses at least the samples of a rendered frame
 
-    // Returns a string that differs between runs with different lens images.
+    // Returns a string that identifies the lens images, for hashes; runs with different lens images differ in it.
     [[nodiscard]] std::string text() const;
 };
 
@@ -34,13 +34,13 @@ struct RefocusRuns {
 RefocusRuns refocusRuns(const Shot& shot, const SequenceBase& base, const FilmSettings& settings,
                         const FrameRange& frames, std::uint32_t samples);
 
-// Returns the run that contains a frame; null if there is none.
+// Returns the run of frames that contains a frame; null if there is none.
 const RefocusRun* runOf(const std::vector<RefocusRun>& runs, int frame);
 
 // Returns the memory in bytes of a run's lens images. `view`: the view of one of its frames.
 std::uint64_t memoryOf(const RefocusRun& run, const View& view);
 
-// Computes the pictures of runs. Keeps the lens images of one run.
+// Computes the pictures of the frames of runs. Keeps the lens images of one run in memory.
 class RefocusedPictures {
 public:
     struct Picture {

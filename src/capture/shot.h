@@ -23,7 +23,7 @@ struct FrameRange {
 
 inline constexpr int maxFrame = 9'999'999;
 
-// A point in world space, or the name of a node. The centre of the node is used, which may move.
+// A point in world space, or the name of a node. A node stands for its centre, which may move.
 using Place = std::variant<glm::dvec3, std::string>;
 
 // Keyframes of a lens parameter, in the unit given in lens/lens_fields.h. A single key means a constant value.
@@ -32,8 +32,8 @@ struct LensTrack {
     Easing easing = Easing::smooth;
 };
 
-// Target on which a shot focuses. Evaluated for each frame, so that the focus follows moving objects. A pixel refers to
-// an image of the shot's size.
+// Target on which a shot focuses. The target is evaluated for each frame, so that the focus follows moving objects. A
+// pixel refers to an image of the shot's size.
 using FocusTarget = std::variant<FocusDistance, FocusNode, FocusPixel, FocusAuto>;
 
 struct FocusTrack {
@@ -43,8 +43,8 @@ struct FocusTrack {
 
 struct CameraKeys {
     std::vector<Key<Place>> positions;
-    std::vector<Key<Place>> targets;  // points that the camera looks at; same frames as `positions`
-    std::vector<Key<double>> rolls;   // angles in degrees, counter-clockwise from behind; same frames as `positions`
+    std::vector<Key<Place>> targets;  // points that the camera looks at, keyed at the same frames as `positions`
+    std::vector<Key<double>> rolls;   // degrees, counter-clockwise seen from behind; same frames as `positions`
     Easing easing = Easing::smooth;
 };
 
@@ -66,9 +66,9 @@ struct Dolly {
 // Movement of the camera during the shot; std::monostate: none. Shot::request selects the camera.
 using ShotMovement = std::variant<std::monostate, CameraKeys, Turntable, Dolly>;
 
-// Returns the request for values that neither the shot nor an option sets. The number of lens samples is fixed, because
-// noise that changes with the number of samples would be visible. LodMode::continuous pops least
-// (docs/results.md#popping).
+// Returns the defaults for values that neither the shot nor an option sets. The number of lens samples is fixed,
+// because noise that changes with the number of samples would be visible. LodMode::continuous makes the smallest jumps
+// when objects change their levels of detail (docs/results.md#popping).
 inline Request shotDefaults() {
     Request request;
     request.samples = RenderSettings{}.sampleCount;
@@ -78,7 +78,7 @@ inline Request shotDefaults() {
 
 struct Shot {
     std::filesystem::path file;  // shot file, for messages; its folder is the base of relative paths
-    // Values that are constant during the shot. The time is the time of frame 0.
+    // Values that are constant during the shot. Request::time is the time of frame 0.
     Request request;
     // Names of the settings (frame/settings/settings.h) that the shot file contains.
     std::set<std::string, std::less<>> given;
@@ -88,7 +88,7 @@ struct Shot {
     double frameRate = 24;  // frames per second
     FrameRange range{0, 0};
     double animationSpeed = 1;           // speed factor of the animation; 0: no motion
-    std::optional<double> shutterAngle;  // angle in degrees, replaces the shutter's seconds; 360: always open
+    std::optional<double> shutterAngle;  // degrees; replaces the exposure time in seconds; 360: always open
     ShotMovement movement;
     std::optional<FocusTrack> focus;
     std::map<std::string, LensTrack, std::less<>> lens;        // constant or keyed values, by name of the lens field

@@ -268,7 +268,7 @@ std::string relativeToShot(const Setting& setting, const std::string& text, cons
     return setting.kind == SettingKind::path ? (shot.file.parent_path() / text).string() : text;
 }
 
-// Reads the values that correspond one-to-one to settings.
+// Reads the values that are defined by the table of settings.
 void readSettings(const JsonReader& reader, Shot& shot) {
     if (const auto fish = reader.find("fish")) {
         if (reader.has("scene"))

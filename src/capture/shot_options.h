@@ -15,7 +15,7 @@ namespace defocus::engine {
 // these may have keys.
 void applyShot(const Shot& shot, Request& request);
 
-// Options that are given on the command line but cannot be seen in Request.
+// Records whether these options were given on the command line, which Request does not tell.
 struct GivenOptions {
     bool camera = false;
     bool shutter = false;

@@ -47,8 +47,8 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& encoders() 
 }
 
 // Returns ffmpeg's options for 4:2:0 video in BT.709 colours with limited range, with the tags that declare them.
-// Without tags, players choose a matrix by the size of the video. 4:2:0 plays everywhere but needs an even width and
-// height. If the width or height is odd, the last column or row is repeated.
+// Without tags, players choose a colour matrix by the size of the video. 4:2:0 plays everywhere but needs an even width
+// and height. If the width or height is odd, the last column or row is repeated.
 std::vector<std::string> bt709(int width, int height) {
     const std::string filters = fmt::format(
         "format=gbrp,pad=ceil(iw/2)*2:ceil(ih/2)*2,fillborders=right={}:bottom={},"
@@ -176,7 +176,7 @@ std::string lastLine(std::string text) {
     return text.substr(text.find_last_of("\r\n") + 1);
 }
 
-// Returns why ffmpeg failed: its last message, or this program's own text if there is no message.
+// Returns the reason why ffmpeg failed: ffmpeg's last message, or a text by this program if there is no message.
 std::string complaint(const Ffmpeg& ffmpeg, const fs::path& messages) {
     if (const std::string signal = ffmpeg.signalText(); !signal.empty()) return "ffmpeg " + signal;
     const std::string said = lastLine(textOf(messages));

@@ -1,6 +1,6 @@
 #pragma once
 // Encodes image files of frames as a video with the ffmpeg program. The file extension selects the format. Videos other
-// than GIF have BT.709 colours; a side with an odd number of pixels grows by one.
+// than GIF have BT.709 colours, and an odd width or height grows by one pixel.
 
 #include <filesystem>
 #include <vector>

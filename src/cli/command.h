@@ -1,7 +1,7 @@
 #pragma once
-// Sub-commands of the program. The file of a command registers it on the CLI11 program and fills a struct from its
-// options. Its callback runs after parsing, calls the library and throws Error on failure. runProgram prints the error
-// as one line and exits with 1, or with 2 for a wrong command line.
+// Sub-commands of the program. Each command's file registers the command with CLI11 and fills a struct from the
+// command's options. A callback runs after parsing, calls the library and throws Error on failure. runProgram prints
+// the error as one line and exits with 1, or with 2 for a wrong command line.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -27,7 +27,8 @@ void addCommands(CLI::App& program, GlobalOptions& global);
 // Returns a command followed by all its direct and indirect sub-commands.
 std::vector<const CLI::App*> allCommands(const CLI::App& command);
 
-// Returns the command's names below the program, each after a space, such as " bench speedup"; empty for the program.
+// Returns the names of the command and its parent commands, each preceded by a space, such as " bench speedup"; empty
+// for the program itself.
 std::string pathOf(const CLI::App& command);
 
 // Returns a progress display on stderr: a bar on a terminal, plain lines in a file or pipe, nothing with --quiet. Work

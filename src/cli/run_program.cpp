@@ -90,7 +90,7 @@ bool isOption(const std::string& word) {
     return word.size() > 1 && word.front() == '-';
 }
 
-// Returns the command's option that corresponds to `word`, an option of other programs; empty if none does.
+// Returns the command's option that corresponds to `word`, the name of an option in other programs; empty if none.
 std::string knownForForeign(const CLI::App& command, std::string_view word) {
     static constexpr std::pair<std::string_view, const char*> table[] = {
         {"--aperture", "--fstop"},       {"--f-number", "--fstop"},
@@ -142,7 +142,7 @@ std::string parseFault(const CLI::App& program, const CLI::ParseError& error) {
     const bool unfinished = command.get_subcommands().empty() && !namesOf(command).empty();  // a sub-command is missing
     const bool strange = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr || unfinished;
     const std::vector<std::string> words = program.remaining(true);
-    // Report an unknown option first: the word that the parser rejects may be the value of that option.
+    // Report an unknown option rather than the word that the parser rejects, which may be the value of that option.
     if (!words.empty() && (strange || std::ranges::any_of(words, isOption))) return unexpected(program, words);
     if (const CLI::Option* option = repeatedOption(command))
         return fmt::format("{} is given {} times; give it once", option->get_name(), option->count());
@@ -172,7 +172,7 @@ void refuseEmptyNames(CLI::App& command) {
     for (CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; })) refuseEmptyNames(*below);
 }
 
-// Returns the message that standard output cannot be written, with the reason; empty if all of it was written.
+// Returns an error message with the reason if standard output couldn't be written; empty if all output was written.
 std::string outputFault() {
     std::cout.flush();  // writes the text of --help or --version
     errno = 0;
@@ -252,8 +252,8 @@ std::string pathOf(const CLI::App& command) {
 }
 
 int runProgram(int argc, char** argv) {
-    // If a file reaches the size limit, let the write fail instead of ending the process: the writer reports the error
-    // and cleans up.
+    // If a file reaches the size limit, let the write fail instead of killing the process, so that the writer reports
+    // the error and cleans up.
     std::signal(SIGXFSZ, SIG_IGN);
     claimClosedOutputs();
     try {

@@ -26,8 +26,8 @@ inline glm::ivec2 asVector(const Pixel& pixel) {
 // Returns the request's method with its settings. Throws UsageError for a setting that the method doesn't have.
 MethodUse namedMethod(const Request& request);
 
-// Returns namedMethod(request), but "accumulation" for "auto" with a memory limit: the limit may need tiles, which only
-// accumulation draws, and must not change the image.
+// Returns namedMethod(request), but "accumulation" instead of "auto" if the request has a memory limit. The limit may
+// require tiles, which only accumulation can draw, and the limit must not change the image.
 MethodUse chosenMethod(const Request& request);
 
 // Returns the settings for planning the frame. An automatic number of samples is replaced by 64.

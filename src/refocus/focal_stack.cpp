@@ -56,7 +56,7 @@ Image allInFocus(LightField& field, const Progress& progress) {
     const double tolerance = 1 / std::max(info.pixelsPerDioptre, 1e-12);  // one pixel of blur, in dioptres
     Image sum(size.width, size.height, 4);
     std::vector<int> counts(depth.pixels.size());
-    // The central image comes first: pixels at which no other image shows the surface keep its colour.
+    // The image of the lens's centre comes first. Its depth is not compared, so each pixel gets at least this colour.
     std::vector<std::size_t> order = {field.central()};
     for (std::size_t i = 0; i < info.points.size(); ++i)
         if (i != field.central()) order.push_back(i);

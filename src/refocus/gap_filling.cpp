@@ -11,10 +11,11 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t channels = 5;  // red, green, blue, alpha and weight
-// Standard deviation of a cell's blur, as a fraction of c/√N. A disk has 1/4. Cells around the points of a sequence
-// differ in size and shape; twice the blur of a disk has the smallest error (docs/refocus.md).
+// Standard deviation of the blur of a cell (the part of the lens that one of N images represents), in units of c/√N for
+// a circle of confusion of c px. A disk-shaped cell has 1/4. Real cells differ in size and shape; twice the blur of a
+// disk has the smallest error (docs/refocus.md).
 constexpr double cellBlur = 0.5;
-constexpr double minVariance = 0.01;  // px²; subtracted from every variance, as a smaller blur is invisible
+constexpr double minVariance = 0.01;  // px²; subtracted from every variance, because a smaller blur is invisible
 
 // Returns the blur variance in px² of class k, a group of pixels with similar blur.
 double classVariance(std::size_t k) {
@@ -105,7 +106,8 @@ void GapFilling::add(std::span<const DeepMovedImage> images) {
     for (const DeepMovedImage& moved : images) weights_ += static_cast<double>(moved.weight);
 }
 
-// Composites a class over `image`. `nearer`: for each pixel, the weight of the samples in nearer classes.
+// Composites a class (the pixels of similar blur, `shown`) over `image`. `nearer`: for each pixel, the weight of the
+// samples in nearer classes.
 void GapFilling::layOver(Image& image, const Sum& shown, const std::vector<float>& nearer, double variance) const {
     std::vector<float> open(nearer.size());
     for (std::size_t p = 0; p < open.size(); ++p) open[p] = static_cast<float>(weights_) - nearer[p];
@@ -133,7 +135,7 @@ Image GapFilling::mean() const {
     const auto addWeights = [&](const Sum& sum, float sign, std::vector<float>& weights) {
         for (std::size_t p = 0; p < pixels; ++p) weights[p] += sign * sum[channels * p + 4];
     };
-    // Composite the classes behind the focus plane, from much to little blur.
+    // Composite the pixels behind the focus plane, grouped by blur, from much to little blur.
     std::vector<float> nearer(pixels);
     for (const Sum& sum : front_) addWeights(sum, 1, nearer);
     const std::vector<float> inFront = nearer;
@@ -143,8 +145,8 @@ Image GapFilling::mean() const {
         if (!isEmpty(behind_[k])) layOver(image, behind_[k], nearer, classVariance(k));
         if (k > 0) addWeights(behind_[k - 1], -1, nearer);
     }
-    // Composite the sharp samples. Where samples in front hide everything else, their own mean replaces the unknown
-    // background.
+    // Composite the sharp samples. At pixels where samples in front of the focus plane hide everything else, the mean
+    // of those samples replaces the unknown background.
     for (std::size_t p = 0; p < pixels; ++p) {
         const float open = total - inFront[p];
         float* const pixel = image.pixels.data() + 4 * p;
@@ -159,7 +161,7 @@ Image GapFilling::mean() const {
             pixel[c] = sum / std::max(inFront[p], 1e-6f);
         }
     }
-    // Composite the classes in front of the focus plane, from little to much blur.
+    // Composite the pixels in front of the focus plane, grouped by blur, from little to much blur.
     nearer = inFront;
     for (std::size_t k = 0; k < classes; ++k) {
         addWeights(front_[k], -1, nearer);

@@ -1,7 +1,7 @@
 #pragma once
-// Fills the gaps between few lens images. A sum of N sharp images shows N copies of each blurred surface. Each lens
-// image stands for a cell of the lens, and its pixels are blurred by the blur of that cell, which follows from their
-// depth: σ = 0.5 · c / √N px for a circle of confusion of c px (plan/lens_cells/lens_cells.h).
+// Fills the gaps between few lens images. A sum of N sharp images shows N separate copies of each blurred surface.
+// Instead, each image represents a cell, the part of the lens around its lens point. Its pixels are blurred as a lens
+// of that size would blur them: σ = 0.5 · c / √N px for a circle of confusion of c px (plan/lens_cells/lens_cells.h).
 //
 // As in method multirate, pixels are sorted by σ into a few classes on each side of the focus plane, and the sum of
 // each class is blurred once. A pixel contributes to the two classes with the nearest variances. The classes are
@@ -26,7 +26,7 @@ struct DeepMovedImage {
     float weight = 1;                   // > 0
 };
 
-// Circle of confusion: diameter · (focus − 1/depth) px, > 0 behind the focus plane.
+// Factors of the circle of confusion's diameter: diameter · (focus − 1/depth) px, > 0 behind the focus plane.
 struct DioptreBlur {
     double diameter = 0;  // diameter in px per dioptre
     double focus = 1;     // dioptres
@@ -34,13 +34,13 @@ struct DioptreBlur {
 
 class GapFilling {
 public:
-    static constexpr std::size_t classes = 5;  // classes of blur on each side of the focus plane
+    static constexpr std::size_t classes = 5;  // number of groups of similar blur on each side of the focus plane
 
     // `images`: number of images that will be added.
     GapFilling(const PartSize& size, const DioptreBlur& blur, std::size_t images);
 
     void add(std::span<const DeepMovedImage> images);
-    // Returns the mean of the images with filled gaps: linear, premultiplied RGBA. Needs at least one image.
+    // Returns the mean of the blurred images: linear, premultiplied RGBA. Needs at least one image.
     [[nodiscard]] Image mean() const;
 
 private:
@@ -55,7 +55,7 @@ private:
     double cellVariance_;              // variance of a cell's blur, as a fraction of the squared circle of confusion
     double weights_ = 0;               // sum of the images' weights
     Sum sharp_;                        // samples with hardly any blur
-    std::vector<Sum> front_, behind_;  // sums of the classes on each side of the focus plane, from little to much blur
+    std::vector<Sum> front_, behind_;  // sums of pixels grouped by blur, in front of and behind the focus plane
 };
 
 }  // namespace defocus::engine

@@ -28,7 +28,8 @@ constexpr const char* pointNames[2] = {"defocus:lensU", "defocus:lensV"};
 constexpr const char* pixelNames[2] = {"defocus:sampleRight", "defocus:sampleUp"};
 constexpr const char* shiftNames[2] = {"defocus:pixelsRightPerDioptre", "defocus:pixelsUpPerDioptre"};
 
-// Lens fields for which refocusing would change more than b of C(w) = a + b·w, or the light that passes a lens point.
+// Lens fields that must have their default values. Otherwise, a change of focus would not merely shift the image of a
+// lens point (light_field.h), or would change the light that passes the lens point.
 constexpr std::array unsuited = {
     "focusBreathing",  "catEye",          "axialChromaticAberration", "astigmatism", "coma",       "foregroundLimit",
     "backgroundLimit", "focusRangeFront", "focusRangeBehind",         "focusTilt",   "focusSwing", "fieldCurvature",

@@ -23,17 +23,17 @@
 namespace defocus::engine {
 
 struct LightFieldInfo {
-    PartSize size;                   // size in px; the margin has the pixels that enter the image when images move
+    PartSize size;                   // size in px; the margin holds pixels that shifts move into the picture
     double focusDistance = 1;        // focus distance s in the equation above, m
     double fStop = 1;                // f-number of the rendered aperture
     double pixelsPerDioptre = 0;     // P in the equation above
-    FocusRange range;                // focus distances for which margin and levels of detail are sufficient
+    FocusRange range;                // focus distances for which margin and levels of detail suffice
     bool disk = true;                // the rendered aperture is a uniform disk
     std::vector<glm::dvec2> points;  // lens point (u, v) of each image
     std::vector<glm::dvec2> pixels;  // sample position of each image in px from the pixel's centre, right and up
     Metadata metadata;               // metadata of the frame, without the values above
 
-    // Returns the move in px, right and up, of the image of lens point (1, 1) for another focus distance.
+    // Returns by how many px a change to `otherFocus` moves the image of lens point (1, 1), to the right and up.
     [[nodiscard]] double shift(double otherFocus) const {
         return pixelsPerDioptre * (1 / otherFocus - 1 / focusDistance);
     }
@@ -42,12 +42,12 @@ struct LightFieldInfo {
 };
 
 // Returns the information about the lens images of a view, without lens points and metadata. The margin suffices for
-// all focus distances in `range`, which must contain the view's focus distance. Throws Error if a change of focus would
-// do more to the images of this lens than shift them, and if the margin exceeds the image's longer side.
+// all focus distances in `range`, which must contain the view's focus distance. Throws Error if a change of focus does
+// not merely shift the images of this lens, or if the margin exceeds the image's longer side.
 LightFieldInfo lightFieldInfo(const View& view, const FocusRange& range);
 
-// Adds lens points and positions in the pixel of a plan's samples. Throws Error if the plan has objects or vertices
-// with their own blur.
+// Adds the lens point and the position within the pixel of each sample in a plan. Throws Error if the plan has objects
+// or vertices with a blur scale of their own.
 void addSamples(LightFieldInfo& info, const FramePlan& plan);
 
 // Returns the metadata of each part of the file.
@@ -75,8 +75,8 @@ public:
     [[nodiscard]] std::shared_ptr<const HalfImage> colour(std::size_t i) override;
     // Returns the depths in m of the image of lens point i, with its margin.
     [[nodiscard]] Image depth(std::size_t i) { return parts_.depth(i); }
-    // Keeps the colours in memory once they are read, if all of them fit into half of the free memory. Worthwhile for
-    // several pictures.
+    // Keeps colours in memory after the first read if all of them fit into half of the free memory. Saves time if
+    // several pictures are computed.
     void keepImages();
     // Returns the index of the image whose lens point is nearest to the lens's centre.
     [[nodiscard]] std::size_t central() const;

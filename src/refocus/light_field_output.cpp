@@ -55,7 +55,7 @@ Request LightFieldOutput::suited(Request request) {
 
 void LightFieldOutput::start(const Progress& progress) {
     const Request& request = driver_.firstRequest();
-    // The image without a margin gives the visible surfaces and the metadata.
+    // Start a frame without a margin first, to get the range of visible depths and the metadata.
     FrameParts parts{.untiledReason = "--lens-images needs whole images"};
     driver_.start(request, parts, progress);
     const double own = driver_.frame().view.lens.focusDistance;

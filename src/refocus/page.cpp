@@ -60,7 +60,7 @@ std::vector<unsigned char> encodedRadiance(const HalfImage& image, double maximu
     return bytes;
 }
 
-// Returns the images as WebP in base64, at the highest quality with which all fit into `limit` bytes.
+// Returns the images as WebP in base64, at the highest quality for which all images together fit into `limit` bytes.
 std::vector<std::string> encodedImages(LightField& field, std::size_t count, double maximum, std::size_t limit,
                                        const Progress& progress) {
     const PartSize& size = field.info().size;
@@ -69,8 +69,8 @@ std::vector<std::string> encodedImages(LightField& field, std::size_t count, dou
         pixels.push_back(encodedRadiance(*field.colour(i), maximum, stepOffset(i)));
         report(progress, "lens images", i + 1, 2 * count);
     }
-    // The encoded size grows steeply with quality. Lower the quality until the first images fit into their part of
-    // `limit`, then encode all images.
+    // To find the quality quickly, encode only the first images until they fit into their part of `limit`. Then encode
+    // all images, at a lower quality if they are still too large.
     std::vector<std::string> images(count);
     for (int quality = maxQuality;; quality -= 10) {
         const std::size_t tried = quality > minQuality ? std::min<std::size_t>(count, 4) : count;

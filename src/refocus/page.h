@@ -3,7 +3,7 @@
 // shader that moves and adds them (refocus.h). It needs no network.
 //
 // A radiance r is stored as log2(1 + k·r) / log2(1 + k·maximum) in 8 bits, so that lights far above white stay bright
-// when they are blurred. Each image has its own offset within one step of 8 bits, so that the steps average out.
+// when they are blurred. Each image is rounded with another dither offset, so that rounding errors cancel in the sum.
 
 #include <cstddef>
 #include <filesystem>

@@ -2,10 +2,10 @@
 // Computes pictures with another focus, f-number and aperture shape from lens images: shift and add (Levoy and Hanrahan
 // 1996; Isaksen, McMillan and Gortler 2000, Dynamically Reparameterized Light Fields).
 //
-// Each image moves as light_field.h says, by whole pixels. An image has one sample per pixel, at a known position in
-// the pixel. Moved by a fraction of a pixel, a sample lies within one pixel of the picture, to which it contributes
-// unchanged. A pixel of the picture is thus the mean of samples within it, one of each image, as in a rendered picture.
-// Interpolation between samples would soften the picture, which more images could not remedy.
+// Each image is shifted by the distance in light_field.h. An image has one sample per pixel, at a known position in the
+// pixel. The shift moves this position; the sample's colour is added unchanged to the pixel that contains the shifted
+// position, so the image moves by whole pixels. A pixel of the picture is thus the mean of samples within it, one from
+// each image, as in a rendered picture. Interpolation would soften the picture, even with more images.
 //
 // A smaller aperture uses the images of the lens points within it. An aperture shape weights each image by the shape's
 // light density at its lens point.
@@ -23,7 +23,7 @@ struct Refocusing {
     double focusDistance = 1;        // focus distance in m, within LightFieldInfo::range
     double fStop = 1;                // f-number, at least LightFieldInfo::fStop
     std::optional<Lens> shape = {};  // lens with the aperture's shape; nullopt: as rendered
-    bool fillGaps = false;           // true: each image is blurred like its cell of the lens (gap_filling.h)
+    bool fillGaps = false;           // true: blur each image to hide the gaps between few images (gap_filling.h)
 };
 
 // Returns the focus and the aperture with which the lens images were rendered.
@@ -36,8 +36,8 @@ struct ShiftedImage {
     double weight = 1;      // > 0
 };
 
-// Returns the px, right and up, by which an image moves if `shift` is the move of the image of lens point (1, 1). Each
-// sample moves to the pixel in which it then lies.
+// Returns by how many whole px an image moves to the right and up if the image of lens point (1, 1) moves by `shift`
+// px. The rounding accounts for the sample's position within its pixel.
 glm::ivec2 wholeMove(const LightFieldInfo& info, std::size_t image, double shift);
 
 // Returns the images that the picture combines, in order. Throws Error, with `name` in its message, if the focus
@@ -49,7 +49,7 @@ std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocu
 // Returns the picture: linear, premultiplied RGBA. Throws Error in the cases of shiftedImages, and if the file is
 // damaged. Reads a few images at a time.
 Image refocused(LightField& field, const Refocusing& refocusing, const Progress& progress = {});
-// Returns the picture without filled gaps.
+// Returns the picture without gap filling: the weighted mean of the shifted images.
 Image sharpSum(LensImages& images, const Refocusing& refocusing, const Progress& progress = {});
 
 // Returns the diameter in px of the circle of confusion of a surface that is one dioptre out of focus.
@@ -62,7 +62,7 @@ double focusAtPixel(LightField& field, const Pixel& pixel);
 // Returns the metadata of the picture.
 Metadata refocusedMetadata(const LightFieldInfo& info, const Refocusing& refocusing);
 
-// Returns the exposure in EV of 8-bit images. It changes with the f-number if the lens has an exposure time.
+// Returns the exposure in EV of 8-bit images. The exposure depends on the f-number if the lens has an exposure time.
 double refocusedExposure(const LightFieldInfo& info, const Refocusing& refocusing);
 
 }  // namespace defocus::engine

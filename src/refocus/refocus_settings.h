@@ -15,8 +15,8 @@ namespace defocus::engine {
 // image cannot be read.
 std::optional<Lens> apertureShape(const LensSettings& settings);
 
-// Returns the choices of `settings`, and the rendered values for settings without a value. Throws in the cases of
-// apertureShape and focusAtPixel, and UsageError for a focus that is neither a distance nor a pixel.
+// Returns the values of `settings`; for values that are not set, those with which the lens images were rendered. Throws
+// in the cases of apertureShape and focusAtPixel, and UsageError for a focus that is neither a distance nor a pixel.
 Refocusing refocusingOf(const RefocusSettings& settings, LightField& field);
 
 }  // namespace defocus::engine

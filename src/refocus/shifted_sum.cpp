@@ -14,7 +14,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr int imagesPerBlock = 64;
-constexpr int stripRows = 4;  // rows that one thread sums at a time, so that the sums stay in its cache
+constexpr int stripRows = 4;  // rows that one thread sums at a time, so that the sums stay in the core's cache
 
 // Adds a value to a compensated sum. The result is bit-identical to shaders/include/compensated.glsl.
 void addCompensated(float& sum, float& compensation, float value) {
@@ -25,7 +25,7 @@ void addCompensated(float& sum, float& compensation, float value) {
     sum = total;
 }
 
-// Adds `count` values times `weight` to compensated sums.
+// Adds `count` half-float values, each times `weight`, to compensated sums.
 void addRow(const std::uint16_t* __restrict values, float weight, std::size_t count, float* __restrict sums,
             float* __restrict compensations) {
     for (std::size_t i = 0; i < count; ++i) addCompensated(sums[i], compensations[i], weight * fromHalf(values[i]));

@@ -1,8 +1,8 @@
 #pragma once
 // Weighted mean of images that are moved by whole pixels.
 //
-// Images are summed in blocks of 64 with Neumaier's compensation, as in render/accumulation/layer_sum.h. Images that
-// are not moved, with weight 1, thus give a result that is bit-identical to method accumulation.
+// Images are summed in blocks of 64 with Neumaier's compensated summation, as in render/accumulation/layer_sum.h. The
+// mean of images that are not moved and have weight 1 is therefore bit-identical to that of method accumulation.
 
 #include <glm/vec2.hpp>
 #include <span>

@@ -161,8 +161,8 @@ private:
     std::vector<ConvergenceRun> runs_;
 };
 
-// Returns whether the options request `published`, a method with the settings of its paper. The options request it if
-// they list the form "published" and either list no methods or list this method with default settings.
+// Returns whether the options request `published`, a method with the settings of its paper. They do so if they list the
+// form "published" and either list no methods or list this method with default settings.
 bool isAsked(const ConvergenceOptions& options, const MethodUse& published) {
     if (std::ranges::find(options.forms, MethodForm::published) == options.forms.end()) return false;
     return options.methods.empty() || std::ranges::any_of(options.methods, [&](const MethodUse& use) {
@@ -170,8 +170,8 @@ bool isAsked(const ConvergenceOptions& options, const MethodUse& published) {
            });
 }
 
-// Returns the requested methods with published settings, built from the presets. Methods that draw levels get pyramids
-// of their own, in worlds stored in `frames`. `frame` needs no pyramids yet.
+// Returns the requested methods with the settings of their papers, built from the presets. Methods that draw levels of
+// detail get mesh pyramids of their own, in worlds stored in `frames`. `frame` needs no pyramids yet.
 std::vector<PublishedForm> publishedForms(const Request& scene, const PreparedFrame& frame,
                                           const ConvergenceOptions& options, std::deque<PreparedFrame>& frames,
                                           Progress& progress) {

@@ -1,4 +1,4 @@
-// defocus bench prediction: compares the errors that a pyramid predicts for its levels with rendered errors.
+// defocus bench prediction: compares the errors that a mesh pyramid predicts for its levels with rendered errors.
 
 #include <fmt/format.h>
 

@@ -11,7 +11,7 @@
 namespace defocus::engine {
 
 struct CameraQuestion {
-    std::optional<double> acceptableCoc;  // diameter on the sensor, mm; nullopt: the customary value
+    std::optional<double> acceptableCoc;  // diameter on the sensor, mm; nullopt: sensor diagonal / 1500
     std::vector<double> depths;           // depths in m, > 0, may be infinite; empty: depths around the focus distance
 };
 

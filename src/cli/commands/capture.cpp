@@ -59,8 +59,8 @@ struct CaptureArguments {
     bool resume = false;
     bool overwrite = false;
     bool dryRun = false;
-    bool check = false;    // measure the pops of the levels of detail
-    bool refocus = false;  // compute runs of frames from lens images
+    bool check = false;    // measure image changes due to levels of detail
+    bool refocus = false;  // compute frames from lens images where possible
 };
 
 // ---- rendering ------------------------------------------------------------------------------------------------------
@@ -108,13 +108,13 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
     return options;
 }
 
-// Replaces method "auto" by one method for all frames, so that the look doesn't change within the shot. Applies the
-// rule of auto to up to 16 frames, spread over the complete shot. Chooses multirate if the rule chooses it for any of
-// these frames, else accumulation.
+// Replaces method "auto" by one method for all frames, so that the look doesn't change within the shot. Evaluates the
+// rule of "auto" for up to 16 frames, spread over the complete shot. Uses multirate if the rule selects multirate for
+// any of these frames, else accumulation.
 void settleMethod(CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base) {
     const MethodUse use = chosenMethod(arguments.request);
     if (use.method->name != automaticMethod) return;
-    // The choice depends only on bounding boxes, so no levels are needed.
+    // The choice depends only on bounding boxes, so no levels of detail are needed.
     const LodMode lod = std::exchange(prepared.settings.lod, LodMode::off);
     addPyramids(prepared);
     constexpr int maxPlanned = 16;

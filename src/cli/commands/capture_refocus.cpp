@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the number of lens samples of a frame in a run.
+// Returns the number of lens samples that each frame needs if it is rendered on its own.
 std::uint32_t samplesOf(const FilmSettings& settings) {
     return settings.request.samples.value_or(LightFieldOutput::defaultSamples);
 }

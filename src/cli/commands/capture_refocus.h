@@ -8,15 +8,15 @@
 
 namespace defocus::engine {
 
-// Returns the runs of the complete shot, so that a frame doesn't depend on --range and --shard. Throws Error if the
-// lens images of a run don't fit into half of the memory.
+// Returns the runs of frames in the complete shot, so that a frame doesn't depend on --range and --shard. Throws Error
+// if the lens images of a run don't fit into half of the memory.
 RefocusRuns chosenRuns(const Shot& shot, const SequenceBase& base, const FilmSettings& settings);
 
-// Returns a line with the saving due to lens images.
+// Returns a line that states how many lens samples --refocus saved.
 std::string savedText(const FilmSettings& settings, const FilmFigures& figures);
 
-// Returns a line with the saving that --refocus would give for frames that were rendered one by one; empty if there is
-// none.
+// Returns a line that states how many lens samples --refocus would save for frames that were rendered one by one; empty
+// if none.
 std::string possibleSaving(const Shot& shot, const SequenceBase& base, const FilmSettings& settings,
                            const std::vector<FilmFrame>& film);
 

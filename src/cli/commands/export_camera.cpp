@@ -77,7 +77,7 @@ void runExportCamera(const ExportArguments& arguments, const GlobalOptions& glob
         for (int frame = arguments.range->first; frame <= arguments.range->last; ++frame) {
             Request request = arguments.request;
             request.time = frame / arguments.frameRate;
-            // Samples show the camera at the time of their frame, not at the middle of an exposure.
+            // Export the camera at the frame's time, not at the middle of the exposure.
             request.shutter = 0;
             take.samples.push_back(sampleOf(placeFrame(first.scene, request, &first.world.environment), request.time));
         }

@@ -30,7 +30,7 @@ using Json = nlohmann::ordered_json;
 struct InfoOptions {
     bool json = false;
     std::string camera;  // empty: print the file's contents; else print camera data ("true" or a camera's name)
-    Request seen;        // the scene; all other values apply to --camera only
+    Request seen;        // names the scene; all other values apply to --camera only
     CameraQuestion question;
 };
 
@@ -90,7 +90,7 @@ Totals totalsOf(const Scene& scene, const std::vector<std::size_t>& objects) {
     return totals;
 }
 
-// Returns the repairs of each mesh, by mesh index.
+// Returns the repairs that each mesh needed, by mesh index.
 std::vector<Repairs> allRepairs(const Scene& scene) {
     std::vector<Repairs> repairs(scene.meshes.size());
     parallelFor(repairs.size(), [&](std::size_t m) { repairs[m] = repairsOf(scene.meshes[m]); });

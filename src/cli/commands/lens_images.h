@@ -11,7 +11,7 @@ namespace defocus::engine {
 // Parses "NEAR:FAR" in m; FAR may be "inf". Throws Error unless 0 < NEAR ≤ FAR.
 FocusRange parseFocusRange(const std::string& text);
 
-// Renders the file RenderArguments::lensImages.
+// Renders the lens images to the file RenderArguments::lensImages.
 void renderLensImages(const RenderArguments& arguments, const GlobalOptions& global);
 
 }  // namespace defocus::engine

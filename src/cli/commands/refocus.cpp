@@ -26,7 +26,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the names of the settings of `render` that the command has.
+// Returns the names of the settings that this command shares with `defocus render`.
 std::vector<std::string> ownSettings() {
     std::vector<std::string> names = refocusSettings();
     names.emplace_back("toneMap");

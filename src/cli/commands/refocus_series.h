@@ -30,9 +30,9 @@ void writeFocusPull(LightField& field, const Refocusing& refocusing, const Focus
 // Returns the file of picture `name` of a stack: out.exr and "02" give out.02.exr.
 std::filesystem::path stackPath(const std::filesystem::path& output, const std::string& name);
 
-// Writes `pictures` pictures as out.00.exr, out.01.exr …, whose focus distances divide the rendered range evenly in
-// 1/distance, the nearest first. Also writes out.sharp.exr with everything in focus, and out.depth.exr with depths in
-// m. The pictures have the type of `output`, the depths are EXR.
+// Writes `pictures` pictures as out.00.exr, out.01.exr …; their focus distances are spaced evenly in 1/distance over
+// the rendered range, the nearest first. Also writes out.sharp.exr with everything in focus, and out.depth.exr with
+// depths in m. The pictures have the file type of `output`; the depths are always EXR.
 void writeFocalStack(LightField& field, const Refocusing& refocusing, int pictures, const std::filesystem::path& output,
                      const WriteOptions& write, const GlobalOptions& global);
 

@@ -183,7 +183,7 @@ void printChoices(const GlContext& context, const RenderReport& report) {
                  report.stats.renderMilliseconds);
 }
 
-// Image of the samples so far, with all that is needed to write it without the driver.
+// Image of the samples drawn so far, with the data that is needed to write it without the driver.
 struct PartialImage {
     Image image;
     WriteOptions options;
@@ -209,9 +209,9 @@ std::string writePartial(const std::vector<std::filesystem::path>& outputs, cons
                        partial.sampleTotal);
 }
 
-// Keeps a copy of the image of the samples so far, which is written if a signal arrives within a long draw. The copy is
-// renewed twice a second at most, because reading an image takes time; between short draws, the main thread handles the
-// signal itself.
+// Keeps a copy of the image of the samples drawn so far. If a signal arrives within a long draw, this copy is written.
+// It is renewed at most twice a second, because reading an image takes time. Between short draws, the main thread
+// handles the signal itself.
 class PartialCopies {
 public:
     PartialCopies(FrameOutput& output, SceneDriver& driver, const std::vector<std::filesystem::path>& outputs)
@@ -235,7 +235,7 @@ private:
     Clock::time_point copied_;
 };
 
-// Draws the frame. Parts that go to files are written as soon as they are finished. Returns false if a signal stops it.
+// Draws the frame. Writes parts that go to files as soon as they are finished. Returns false if a signal stops drawing.
 bool draw(FrameOutput& output, SceneDriver& driver, const Progress& progress, const RenderArguments& arguments) {
     const FrameDriver& frame = driver.driver();
     PartialCopies copies(output, driver, arguments.outputs);
@@ -272,7 +272,8 @@ void writeImages(const RenderArguments& arguments, const Image& image, SceneDriv
     }
 }
 
-// Writes the image of the samples so far if the user wants it. Throws Error with the message about the stop.
+// Writes the image of the samples drawn so far if RenderArguments::keepPartial is set. Always throws Error, with the
+// message about the stop.
 [[noreturn]] void endStopped(const RenderArguments& arguments, FrameOutput& output, SceneDriver& driver) {
     const std::optional<PartialImage> partial = partialImage(output, driver);
     if (!partial) fail("{}", output.stopMessage());
@@ -296,7 +297,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     FrameOutput output(driver, filesOf(arguments));
     output.start(progress);
 
-    // Print all warnings that are known before the frame is drawn.
+    // Print warnings early, before the frame is drawn.
     progress = {};  // ends the progress line
     WarningPrinter warnings(global);
     printCacheUse(driver.frame(), global);

@@ -30,7 +30,7 @@ struct RenderArguments {
     bool resume = false;                     // keep finished parts of an interrupted run
     std::filesystem::path lensImages;        // write the images of the lens samples to this file, instead of outputs
     std::optional<FocusRange> focusRange;    // focus distances that the lens images must allow
-    bool keepPartial = false;                // write the image of the samples so far if a signal stops the run
+    bool keepPartial = false;                // write the image of the samples drawn so far if a signal stops the run
 };
 
 // Adds all options of the command. `arguments` must outlive the parsing.

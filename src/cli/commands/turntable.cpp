@@ -22,7 +22,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Camera that draws the image in each cell of the sheet.
+// Camera for the images on the sheet; the elevation is in radians above the horizontal.
 constexpr double viewElevation = glm::radians(14.0);
 constexpr double viewTangent = 18.0 / 85;  // tan of half the horizontal field of view: an 85 mm lens on a 36 mm sensor
 constexpr double viewFill = 0.9;           // fraction of the cell that the object may fill

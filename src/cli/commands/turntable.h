@@ -28,7 +28,7 @@ struct TurntableSheet {
     std::vector<std::vector<TurntableCell>> cells;  // positions by level, then by view
 };
 
-// Camera and rotations of the views on a sheet. Camera and rotations are the same for all levels, so that levels can be
+// Camera and rotations of the views on a sheet. Both are the same for all levels of detail, so that levels can be
 // compared.
 struct TurntableView {
     View view;                          // pinhole camera with the size of a cell
@@ -38,7 +38,7 @@ struct TurntableView {
 // Returns views of `mesh` in the pose of `object`, with a camera that keeps the mesh in the image from all sides.
 TurntableView turntableView(const Mesh& mesh, const Object& object);
 
-// Returns settings that draw the only object of `world` at `level`: their threshold equals the error of that level.
+// Returns settings that draw the only object of `world` at `level`, with a threshold equal to the error of that level.
 RenderSettings settingsForLevel(const World& world, const View& view, std::uint32_t level);
 
 // Draws `object`, in its pose, at each level of its mesh's pyramid, in the environment of `world`. Replaces the pose

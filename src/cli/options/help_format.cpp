@@ -21,7 +21,8 @@ std::size_t columnsOf(std::string_view text) {
         std::ranges::count_if(text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0u) != 0x80u; }));
 }
 
-// Returns `left`, and `text` wrapped from `column` on. `text` starts on a new line if `left` is too wide.
+// Returns `left` followed by `text`, which is wrapped and indented to `column`. `text` starts on a new line if `left`
+// is too wide.
 std::string inColumns(const std::string& left, const std::string& text, std::size_t column) {
     std::string lines = "  " + left;
     std::size_t at = columnsOf(lines);

@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-// Adds the option --output with one or more images, which sets `outputs`. Its default text is out.exr.
+// Adds the option --output, which takes one or more images and sets `outputs`. --help shows out.exr as its default.
 CLI::Option* addImageOutputs(CLI::App& command, std::vector<std::filesystem::path>& outputs);
 
 bool isStandardOutput(const std::filesystem::path& output);

@@ -120,7 +120,7 @@ void addMethodSettings(CLI::App& command, Request& request) {
     for (const Method& method : methods())
         for (const MethodSetting& setting : method.settings) {
             const auto owner = owners.extract(setting.name);
-            if (owner.empty()) continue;  // the setting was added for an earlier method
+            if (owner.empty()) continue;  // an earlier method already added the setting's option
             command
                 .add_option_function<std::string>(
                     "--" + setting.name,

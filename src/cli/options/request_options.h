@@ -14,8 +14,8 @@ namespace defocus::engine {
 // value exclude each other. `request` provides the defaults in --help and must outlive the parsing.
 void addSettings(CLI::App& command, Request& request, const std::vector<std::string>& names);
 
-// Rewrites the values of boolean settings, because their options take none: "--dof false" and "--dof=false" become
-// "--no-dof", "--dof true" becomes "--dof".
+// Rewrites boolean options with a value, because CLI flags take no value: "--dof false" and "--dof=false" become
+// "--no-dof", and "--dof true" becomes "--dof".
 std::vector<std::string> withoutBooleanValues(const std::vector<std::string>& words);
 
 // Returns the names of all settings of `groups`, except those in `without`.

@@ -17,8 +17,8 @@ std::string progressLine(std::string_view stage, double share, std::optional<dou
 class TimeLeft {
 public:
     // Returns the remaining time in seconds, extrapolated from the average speed so far. Returns nullopt within the
-    // first second or the first hundredth of the work. `share`: finished fraction. `seconds`: current time since any
-    // fixed moment.
+    // first second or the first hundredth of the work. `share`: finished fraction. `seconds`: current time of any
+    // monotonic clock.
     std::optional<double> after(std::string_view stage, double share, double seconds);
 
 private:

@@ -18,7 +18,7 @@
 
 namespace defocus::engine {
 
-// ---- four ways of drawing a frame -----------------------------------------------------------------------------------
+// ---- ways of drawing a frame: untiled, in tiles, as partial sums, one image per lens sample -------------------------
 
 class FrameDriver::Drawing {
 public:
@@ -260,7 +260,7 @@ std::uint32_t FrameDriver::shortWave(const FrameOrder& order) {
     return currentIsSoftware() ? 1 : 8;
 }
 
-// Chooses whether the frame is drawn untiled or in tiles, and how many layers are drawn per wave.
+// Chooses whether the frame is drawn untiled or in tiles, and how many lens samples are drawn together (a wave).
 void FrameDriver::fit(const FrameOrder& order) {
     const Method& method = *options_.method.method;
     const DrawLimits& limits = options_.limits;
@@ -323,7 +323,8 @@ void FrameDriver::fitTiles(const FrameOrder& order, const FramePlan& plan, const
 
 namespace {
 
-// Throws UsageError if the method or the order cannot draw the layers of RenderSettings::layers.
+// Throws UsageError if the method or the order cannot draw the data layers in RenderSettings::layers. Otherwise forbids
+// tiles if there are layers.
 void checkLayers(FrameOrder& order, const Method& method, bool perSample) {
     if (order.settings.layers.empty()) return;
     if (!method.drawsLayers)

@@ -30,19 +30,19 @@ struct DriverOptions {
     std::uint64_t keptPixelBytes = 0;    // bytes per pixel of the images that the caller holds in main memory
 };
 
-// Returns the options of a request: its method, memory limit, wave and layer format. Throws Error for an unknown
-// method.
+// Returns the options of a request: its method, memory limit, number of threads, number of lens samples per wave (drawn
+// together) and layer format. Throws Error for an unknown method.
 DriverOptions driverOptions(const Request& request, std::filesystem::path shaderFolder,
                             std::uint64_t keptPixelBytes = 0);
 
-// Receives the finished rows of a frame that is drawn in tiles; it is called from the top of the image to the bottom.
+// Receives the finished rows of a frame that is drawn in tiles, from the top of the image to the bottom.
 using RowSink = std::function<void(const RowRange& rows, Image&& pixels)>;
 
 // Receives the image of each lens sample, in order: linear, premultiplied RGBA, and the depth in m (one channel, +∞
 // where no surface writes depth).
 using SampleSink = std::function<void(std::uint32_t sample, Image&& colour, Image&& depth)>;
 
-// A frame to draw, or the part of a frame to draw.
+// Describes the frame, or the part of a frame, that is to be drawn.
 struct FrameOrder {
     View view;
     RenderSettings settings;
@@ -50,7 +50,7 @@ struct FrameOrder {
     std::optional<SampleRange> samples = {};         // draw only these lens samples, for sums(); nullopt: all samples
     std::optional<std::vector<RowRange>> rows = {};  // draw only these rows, in tiles; nullopt: all rows
     RowSink takeRows = {};                           // receives finished rows of tiles; empty: image() returns them
-    SampleSink takeSample = {};                      // receives each lens sample's image; no mean is then computed
+    SampleSink takeSample = {};                      // receives each lens sample's image; if set, no mean is computed
     std::string untiledReason = {};                  // reason why tiles are forbidden; empty: tiles are allowed
     bool shortDraws = false;                         // advance() draws few samples; implied by a time limit
 };
@@ -102,7 +102,7 @@ private:
     class Summed;
     class Separate;
 
-    // Inputs of the choice between untiled and tiled drawing that may change from frame to frame.
+    // Inputs that may change from frame to frame and that decide whether a frame is drawn in tiles.
     struct Fit {
         int width = 0;
         int height = 0;
@@ -128,8 +128,8 @@ private:
     DriverOptions options_;
     std::uint64_t limit_ = 0;  // maximum memory of the process, bytes
     bool crowded_ = false;
-    std::optional<Fit> fitted_;               // inputs for which the wave size and bands_ were chosen
-    std::optional<std::vector<Band>> bands_;  // rows of tiles; nullopt: frames are drawn untiled
+    std::optional<Fit> fitted_;               // inputs for which the samples per wave and bands_ were chosen
+    std::optional<std::vector<Band>> bands_;  // bands: rows of tiles; nullopt: frames are drawn untiled
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<Drawing> drawing_;
     mutable double share_ = 0;  // largest result of share(), so that progress never falls

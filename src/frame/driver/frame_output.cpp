@@ -19,7 +19,7 @@ fs::path rowsPath(const fs::path& folder, const RowRange& rows) {
     return folder / fmt::format("rows-{:05}-{:05}.exr", rows.first, rows.end);
 }
 
-// Returns whether a directory entry can be a tile file of this program. Returns false for links and pipes.
+// Returns whether a directory entry may be a tile that this program wrote. Returns false for links and pipes.
 bool canBeTile(const fs::directory_entry& entry) {
     std::error_code none;
     return entry.path().filename().string().starts_with("rows-") && fs::is_regular_file(entry.symlink_status(none));

@@ -25,7 +25,7 @@ struct FrameFiles {
     std::optional<TileShare> share;              // write only this part of the rows, for `merge`
     bool resume = false;                         // keep rows that an interrupted run with the same settings finished
     std::string untiledReason;                   // reason why tiles are forbidden; empty: tiles are allowed
-    bool keepPartial = false;                    // if the run stops, return the image of the samples so far
+    bool keepPartial = false;                    // return the image of the samples so far if the run is interrupted
 };
 
 class FrameOutput {
@@ -46,11 +46,11 @@ public:
     std::optional<Image> finish();
 
     [[nodiscard]] double share() const;  // finished fraction of the work, 0 … 1, including rows of an earlier run
-    // Returns the image of the samples so far if the run stops and FrameFiles::keepPartial is set; nullopt before the
-    // first sample, and for parts of a frame and frames in tiles.
+    // Returns the image of the samples drawn so far if FrameFiles::keepPartial is set, for an interrupted run; nullopt
+    // before the first sample, for parts of a frame, and for frames in tiles.
     [[nodiscard]] std::optional<Image> partialImage();
-    // Returns the message about the files that remain if the run stops: "stopped: 96 of 768 rows are kept in out.tiles;
-    // …"
+    // Returns the message about the files that an interrupted run leaves on disk, such as "stopped: 96 of 768 rows are
+    // kept in out.tiles; …".
     [[nodiscard]] std::string stopMessage() const;
     [[nodiscard]] int rowsKept() const { return rowsKept_; }  // number of rows kept from an earlier run
 

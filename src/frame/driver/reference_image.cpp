@@ -141,7 +141,7 @@ void complete(ReferenceImage& reference, const Part& one, const Part& other) {
     reference.milliseconds = one.milliseconds + other.milliseconds;
 }
 
-// Returns a reference with its number of samples and its hash set, but without an image.
+// Returns a reference without an image, with only its number of samples and its hash set.
 ReferenceImage askedFor(const World& world, const View& view, const ReferenceOptions& options) {
     if (options.samples < 2 || options.samples > maxSamples)
         fail("a reference of {} samples is not possible; choose 2 to {}", options.samples, maxSamples);

@@ -40,8 +40,8 @@ struct ReferenceImage {
     bool reused = false;      // whether the image was read from a file
 };
 
-// Returns the remark for a table row whose error by PSNR, FLIP or both is below the reference's own error; empty if
-// both flags are false.
+// Returns a remark for a row of a table of errors. `psnr`, `flip`: whether the row's error by that measure is below the
+// reference's own error. Empty if both are false.
 std::string belowReferenceText(bool psnr, bool flip);
 
 // Renders a reference without storing it. Needs a current GL context. Throws Error if the number of samples is outside
@@ -49,10 +49,11 @@ std::string belowReferenceText(bool psnr, bool flip);
 ReferenceImage renderedReference(const World& world, const View& view, const ReferenceOptions& options,
                                  const Progress& progress = {});
 
-// Returns the value of ReferenceImage::hash before the image is rendered. Needs no pyramids.
+// Computes ReferenceImage::hash without rendering the image. Needs no mesh pyramids.
 std::uint64_t referenceHash(const World& world, const View& view, const ReferenceOptions& options);
 
-// Returns whether the folder holds a complete or half reference with another hash, which referenceImage would replace.
+// Returns whether the folder holds a reference, or the first half of one, with another hash. referenceImage() would
+// replace that file.
 // Files that cannot be read as images are ignored.
 bool holdsOtherReference(const std::filesystem::path& folder, std::uint64_t hash);
 

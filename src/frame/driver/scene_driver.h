@@ -22,7 +22,7 @@ namespace defocus::engine {
 
 // Images of the individual lens samples, from which pictures with another focus are computed later (src/refocus).
 struct LensImageOrder {
-    FocusRange range;  // focus distances of these pictures; see RenderSettings::refocus
+    FocusRange range;  // focus distances of the later pictures; see RenderSettings::refocus
     int margin = 0;    // width in px by which the images extend beyond the request's size on each side
     SampleSink take;
 };

@@ -25,7 +25,7 @@ constexpr double visibleShare = 0.02;   // blur that is easy to see, as a fracti
 constexpr std::size_t maxSharing = 8;   // maximum number of nodes in a warning about their common name
 constexpr std::size_t maxIgnored = 20;  // maximum number of lines in ignoredWarnings
 
-// Rounds `value` > 0 to 1, 2 or 5 times a power of ten.
+// Rounds `value` > 0 to 1, 2 or 5 times a power of ten, for readable suggestions.
 double roundNumber(double value) {
     const double power = std::pow(10, std::floor(std::log10(value)));
     const double digit = value / power;
@@ -45,8 +45,8 @@ std::string nothingBlurred(const FramePlan& plan) {
         plan.largestBlur, nearest, plan.view.lens.focusDistance, plan.view.lens.fStop, help);
 }
 
-// Distance between the images of a point from neighbouring lens samples, px. With lens cells: σ of the blur that fills
-// the gap between these images.
+// Distance in px between the images of a point in neighbouring lens samples. With lens cells (each sample is blurred to
+// fill the gaps), the σ of that blur in px.
 struct Gaps {
     double size = 0;
     double max = 16;  // largest distance without a warning

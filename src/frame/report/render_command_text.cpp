@@ -114,7 +114,7 @@ std::string captureCommand(const std::filesystem::path& shot, const Request& opt
 
 std::string renderCommand(const RenderCommandText& text) {
     const Request request = requestOf(text);
-    // Leave out options with the value that the preset sets.
+    // Leave out options whose values the preset already sets.
     const Setting& preset = *settingNamed("preset");
     const std::optional<std::string> presetName = preset.text(request);
     Request standard;

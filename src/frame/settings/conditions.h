@@ -12,9 +12,9 @@ namespace defocus::engine {
 using Condition = std::string (*)(const SettingContext&);
 
 std::string methodWithoutSamples(const SettingContext& context);     // the method draws no lens samples
-std::string methodWithoutPositions(const SettingContext& context);   // one pixel position per lens sample
+std::string methodWithoutPositions(const SettingContext& context);   // draws one pixel position per lens sample
 std::string methodWithoutShapes(const SettingContext& context);      // the method supports only round or oval apertures
-std::string methodWithoutLensPoints(const SettingContext& context);  // same lens for all colours and pixels
+std::string methodWithoutLensPoints(const SettingContext& context);  // uses one lens for all colours and pixels
 std::string methodWithoutThreads(const SettingContext& context);     // the method draws in one thread
 std::string methodWithoutMotion(const SettingContext& context);
 std::string withoutLayers(const SettingContext& context);

@@ -1,6 +1,7 @@
 #pragma once
-// Builds rows of the settings table: a function for each kind of value, and a Row member for each column. `member` is a
-// callable that returns a reference to the setting's value in a request, const or not. Private to rows.cpp.
+// Builds rows of the settings table: one function for each kind of value, and one member of Row for each column. The
+// parameter `member` is a callable that takes a Request, const or not, and returns a reference to the setting's value.
+// Only the rows*.cpp files use this header.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -29,7 +30,7 @@ public:
         setting_.help = std::move(help);
     }
 
-    // Members that set one column of the row.
+    // Each of the following members sets one column of the row.
     Row&& kind(SettingKind kind) && { return with(&Setting::kind, kind); }
     Row&& metavar(std::string metavar) && { return with(&Setting::metavar, std::move(metavar)); }
     Row&& unit(std::string unit) && { return with(&Setting::unit, std::move(unit)); }
@@ -56,7 +57,7 @@ public:
     }
     Row&& unused(Setting::Unused reason) && { return with(&Setting::unused, std::move(reason)); }
 
-    // Members that set how the value is parsed, formatted and cleared.
+    // Sets how the value is parsed and formatted. With choices, a number's error message also lists the allowed words.
     template <typename Set, typename Text>
     Row&& values(Set set, Text text) && {
         setting_.set = set;
@@ -208,7 +209,7 @@ Row words(SettingKind kind, std::string name, std::string option, std::string me
                 });
 }
 
-// Returns a row for a value with a text format of its own.
+// Returns a row for a value that needs its own functions for parsing and formatting.
 template <typename Set, typename Text>
 Row other(std::string name, std::string option, std::string metavar, Set set, Text text, std::string help) {
     return Row(SettingKind::other, std::move(name), std::move(option), std::move(metavar), std::move(help))

@@ -20,7 +20,7 @@ namespace defocus::engine {
 
 enum class SettingGroup { scene, camera, lens, samples, method, display, developer };
 
-// Results that a setting affects.
+// Kind of results that change with a setting.
 enum class SettingEffect {
     pixels,   // the linear image
     display,  // only the 8-bit output: PNG, JPEG and video
@@ -36,11 +36,11 @@ struct SettingContext {
 };
 
 struct Setting {
-    // Returns the REASON in the warning "--option has no effect: REASON"; empty if the setting has an effect.
+    // Returns the reason why the option has no effect, for a warning; empty if it has an effect.
     using Unused = std::function<std::string(const SettingContext&)>;
 
-    std::string name;    // in shots, metadata and glTF extras: "blurThreshold"; snake_case in Python
-    std::string option;  // on the command line: "--blur-threshold"; "SCENE" for a positional argument
+    std::string name;    // name in shots, metadata and glTF extras: "blurThreshold"; snake_case in Python
+    std::string option;  // name on the command line: "--blur-threshold"; "SCENE" for a positional argument
     SettingGroup group = SettingGroup::scene;
     SettingKind kind = SettingKind::text;
     std::string metavar;  // placeholder for the value in --help: "N", "PX", "X,Y,Z", "a|b|c"

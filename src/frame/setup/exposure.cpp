@@ -38,7 +38,7 @@ double logAverage(const std::vector<double>& luminances) {
     return logarithms / static_cast<double>(luminances.size());
 }
 
-// Copies the colours of the pixels that show the background from an image with the environment to one without.
+// Replaces the colours of the background pixels (alpha ≤ 0.5) with those of an image that shows the environment.
 void addBackground(Image& image, const Image& withEnvironment) {
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)

@@ -10,8 +10,8 @@
 
 namespace defocus::engine {
 
-// Returns whether the exposure is metered: if the request selects metering, or by default for a scene with lights
-// (which may be as bright as the sun) if the lens has no exposure time. The school of fish is not metered.
+// Returns whether the exposure is metered. The default is to meter scenes with lights, because a light may be as bright
+// as the sun, but not if the lens has an exposure time and not for the built-in school of fish.
 bool metersExposure(const Request& request, const Scene& scene, const Lens& lens);
 
 // Returns the exposure (EV) that maps the log-average luminance of the surfaces in a linear image to middle grey, 18 %

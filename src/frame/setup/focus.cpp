@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double defaultFocusDistance = 2.5;  // focus in m if the scene's centre is beside or behind the camera
+constexpr double defaultFocusDistance = 2.5;  // m; used if the scene's centre is beside or behind the camera
 
 double depthOfCentre(const Bounds& bounds, const View& view) {
     const double depth = bounds.empty() ? 0 : -(glm::inverse(view.worldFromCamera) * glm::dvec4(bounds.centre(), 1)).z;
@@ -56,9 +56,9 @@ void planeThrough(std::span<const glm::dvec3, 3> points, Lens& lens, const std::
     lens.focusDistance = distance;
 }
 
-// Fits a curved surface of focus: solves 1/w = 1/s + mx/s·X/w + my/s·Y/w + κ/s·r² for all points by least squares; r is
-// the distance from the image's centre in units of half the image width. A small term on the diagonal of the normal
-// equations sets undetermined unknowns to 0.
+// Fits a curved surface of focus to points (X, Y, −w) in view space by least squares: 1/w = 1/s + mx/s·X/w + my/s·Y/w +
+// κ/s·r². r is the distance from the image's centre in units of half the image width, κ the field curvature. A small
+// term on the diagonal of the normal equations sets undetermined unknowns to 0.
 void surfaceNear(std::span<const glm::dvec3> points, Lens& lens, const std::string& what) {
     constexpr double raised = 1e-12;  // addition to the matrix's diagonal for each point
     const double tanX = tanHalfHorizontalFov(lens);

@@ -12,13 +12,13 @@ namespace defocus::engine {
 
 namespace {
 
-// Number of times that an average triangle must be drawn for levels of detail to pay. Building the levels takes 15 to
-// 28 µs of CPU time per triangle (bench/results/llvmpipe-cold.txt), and drawing the triangle once takes a fraction of a
-// microsecond. A single image would need more draws, but later images read the levels from the cache. Images with fewer
-// draws have little blur, in which levels save little.
+// Minimum number of times that an image must draw an average triangle before levels of detail are worth building.
+// Building takes 15 to 28 µs of CPU time per triangle (bench/results/llvmpipe-cold.txt); drawing a triangle once takes
+// a fraction of a microsecond. A single image would need more draws to recover that time, but later images read the
+// levels from the cache. Images with fewer draws have little blur, so levels would save little.
 constexpr double payingDraws = 64;
 
-// Returns whether the request sets the mode, the rule or the vertices of levels of detail.
+// Returns whether the request sets any option of the levels of detail: mode, thresholds, metric or vertices.
 bool asksForLevels(const Request& request) {
     const Request defaults;
     return request.lod || request.blurThreshold || request.sizeThreshold || request.lightThreshold ||
@@ -26,8 +26,8 @@ bool asksForLevels(const Request& request) {
            request.levelVertices != defaults.levelVertices;
 }
 
-// Returns the largest CoC diameter in px over the scene's bounding box, without the ground and without blur controls of
-// single objects. Returns infinity if the box reaches the near plane.
+// Returns the largest diameter of the circle of confusion in px over the scene's bounding box. Ignores the ground and
+// the blur scale of single objects. Returns infinity if the box reaches the near plane.
 double largestBlur(const PreparedFrame& frame) {
     const View& view = frame.view;
     const Bounds& box = frame.world.pose.bounds;

@@ -22,7 +22,7 @@ ShutterSettings shutterOf(const Request& request, const Scene& scene) {
 
 namespace {
 
-// Returns `time` as a time within the animation, s; with Request::loop, it wraps at the animation's end.
+// Converts `time` (s) to a time within the animation (s). With Request::loop, the time wraps at the animation's end.
 double animationTime(const Request& request, const Scene& scene, double time) {
     if (!request.loop || scene.clips.empty()) return time;
     return loopedTime(scene.clips[static_cast<std::size_t>(clipOf(request, scene))], time);

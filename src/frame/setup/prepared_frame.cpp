@@ -272,7 +272,6 @@ std::vector<PlacedLight> sizedLights(const Request& request, const std::vector<P
 }
 
 PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& request, const Environment* environment) {
-    // Set the scene and its pose.
     PreparedFrame frame;
     frame.scene = scene;
     frame.scaleNote = guessedScaleNote(request, *scene);
@@ -281,7 +280,6 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
     frame.world.scene = scene;
     frame.world.pose = exposedPose(request, *frame.scene);
 
-    // Set camera, lights, environment and settings.
     const PlacedCamera placed = place(frame, request);
     // An environment that the request names replaces the default lights.
     frame.ownLights =
