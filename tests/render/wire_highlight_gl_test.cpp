@@ -62,8 +62,7 @@ std::unique_ptr<SmallWorld> ring() {
 }
 
 // Returns the sums of the red channel over the quarters of the ring at its right, top, left and bottom. The renderer
-// widens highlights in the first samples of a frame only. Images without widening therefore use sample indices from 2²⁰
-// on.
+// widens highlights in the first samples of a frame only, so images without widening begin with sample 2²⁰.
 glm::dvec4 lightOfQuarters(const SmallWorld& small, std::uint32_t samples, bool widened) {
     RenderSettings settings;
     settings.sampleCount = samples;

@@ -1,5 +1,5 @@
-// Tests that objects which no lens sample sees do not change the image if RenderSettings::keepAll draws them: the plan
-// ignores them in all other decisions.
+// Tests that objects outside the view of all lens samples do not change the image if RenderSettings::keepAll draws
+// them. The plan ignores them in all other decisions.
 
 #include "likeness.h"
 #include "render/accumulation/blended_panes.h"

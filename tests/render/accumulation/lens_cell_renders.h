@@ -56,8 +56,8 @@ inline double relativeDifferenceFrom(const Image& image, const glm::vec3& color)
     return largest;
 }
 
-// Fixture for images by lens cells, regions of the lens. Each cell has one sample, whose image is blurred as the cell
-// would blur it.
+// Fixture for images by lens cells, regions of the lens. Each cell has one sample, whose image is blurred as by a lens
+// of the size of the cell.
 class LensCellImages : public testing::Test {
 protected:
     static void SetUpTestSuite() { context_ = createHeadlessContext(); }

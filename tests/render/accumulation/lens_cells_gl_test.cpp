@@ -1,5 +1,5 @@
-// Tests of images by lens cells, regions of the lens. Each cell has one sample, whose image is blurred as the cell
-// would blur it (plan/lens_cells/lens_cells.h).
+// Tests of images by lens cells, regions of the lens. Each cell has one sample, whose image is blurred as by a lens of
+// the size of the cell (plan/lens_cells/lens_cells.h).
 
 #include <gtest/gtest.h>
 

@@ -32,7 +32,8 @@ std::unique_ptr<SmallWorld> oneSphere() {
     return small;
 }
 
-// If one sample is split, each pixel equals the same pixel of the image with n or with n + 1 coarse samples.
+// If one sample is split between two levels, each pixel equals the same pixel of the image in which n or n + 1 samples
+// show the coarser level.
 TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
     const auto small = oneSphere();
     constexpr std::uint32_t samples = 8;
@@ -76,7 +77,7 @@ TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     small->world.environment = {EnvironmentType::uniform, {0, 0, 0}, {}, {}, nullptr, 1};
     for (const std::uint32_t samples : {1u, 8u, 32u}) {
         FramePlan plan = planFrame(small->world, small->view, continuousFor(samples));
-        // Use the two coarsest levels, because their outlines differ most.
+        // The outlines of the two coarsest levels differ most.
         const auto last = static_cast<std::uint32_t>(small->world.pyramids[0].levels.size() - 2);
         setSplit(plan, small->world, last, samples / 2, 0);
         const Image full = renderedPlan(*small, plan);
