@@ -85,7 +85,7 @@ void main() {
 }
 )";
 
-// The parts are smaller and larger than the writer's store of pending bytes.
+// Some of the appended parts are smaller, and others larger, than the memory in which the writer collects bytes.
 TEST_F(GlBuffer, isWrittenInPartsOfAnySize) {
     std::vector<std::uint32_t> words(400'000);
     std::iota(words.begin(), words.end(), 7u);
@@ -163,7 +163,7 @@ TEST_F(GlTexelBuffer, beyondTheDriversLimitNamesWhatItHolds) {
     GLint max = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max);
     const std::size_t count = static_cast<std::size_t>(max) + 1;
-    // The memory of `count` floats is never touched, so its pages are never allocated.
+    // calloc() reserves `count` floats that are never accessed, so they take no physical memory.
     struct Freed {
         void operator()(void* memory) const { std::free(memory); }
     };

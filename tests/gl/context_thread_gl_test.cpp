@@ -1,4 +1,4 @@
-// Tests threads with contexts that share objects.
+// Tests of threads whose OpenGL contexts share objects, such as textures, with the main context.
 
 #include <atomic>
 #include <stdexcept>
@@ -16,7 +16,7 @@ protected:
     static std::unique_ptr<ContextThread> thread() { return std::make_unique<ContextThread>(createSharedContext()); }
 };
 
-// A texture that one context draws is read in another, and drawn again.
+// A texture that another thread's context draws into is read in this context, again and again.
 TEST_F(SharedContexts, shareTextures) {
     const auto other = thread();
     Program program;

@@ -1,6 +1,6 @@
 #pragma once
-// Fixture of OpenGL tests: one context per suite and a folder for shaders. A test fails if OpenGL has an error at its
-// end.
+// Fixture of OpenGL tests: one context per suite and a folder for shaders. A test fails if glGetError() reports an
+// error at the end of the test.
 
 #include <gtest/gtest.h>
 

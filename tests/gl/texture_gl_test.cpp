@@ -58,7 +58,7 @@ TEST_F(GlTextureTest, floatsKeepTheirValueAndHalvesTenBits) {
         texture.upload(0, 2, 1, values.data());
         const Image image = fetched(texture);
         for (std::size_t i = 0; i < values.size(); ++i) {
-            // some drivers truncate to half floats
+            // some drivers truncate instead of rounding when they convert to half floats
             const double relative = format == TextureFormat::rgba32f ? 0 : 0x1p-10;
             EXPECT_NEAR(image.pixels[i], values[i], relative * std::abs(values[i])) << i;
         }

@@ -55,8 +55,8 @@ TEST(LensSamples, fillLensPixelTimeAndBandEvenly) {
     }
 }
 
-// Within each eighth of the exposure time and of the chromatic band, 64 of 512 samples still cover the lens. Their mean
-// is closer to the lens centre than √(0.5/64), the RMS distance for independent points.
+// Within each eighth of the exposure time and of the wavelength range, 64 of 512 samples still cover the lens. Their
+// mean is closer to the lens centre than √(0.5/64), the RMS distance for independent points.
 TEST(LensSamples, everyPartOfTimeAndBandSeesAllOfTheLens) {
     for (const Sequence sequence : allSequences) {
         glm::dvec2 times[8] = {};

@@ -176,8 +176,9 @@ std::pair<int, int> cellCounts(const std::vector<glm::dvec2>& points, int column
     return {*min, *max};
 }
 
-// 2ᵏ Sobol points that start at a multiple of 2ᵏ form a net (Niederreiter 1987). Every elementary interval of the lens
-// square contains one point, for all side ratios, and so does every interval of the other coordinates.
+// 2ᵏ Sobol points that start at a multiple of 2ᵏ form a net (Niederreiter 1987): every elementary interval of the lens
+// square, of any side ratio, contains one point. Each of the other coordinates has one point in each of 2ᵏ equal
+// intervals.
 TEST(Sequences, alignedBlocksOfSobolAreNets) {
     for (const std::uint32_t seed : {0u, 7u})
         for (const auto& [first, bits] : {std::pair{0u, 4u},

@@ -37,8 +37,8 @@ TEST(FramePlan, everyObjectDrawsEverySampleOnce) {
         }
 }
 
-// In continuous mode, the two levels of an object together draw every sample. At most one sample, which is split
-// between the levels, is drawn by both.
+// In LodMode::continuous, each lens sample draws one of an object's two levels, except for at most one sample, which
+// draws both levels, each in some of the pixels.
 TEST(FramePlan, continuousLevelsOverlapByTheBoundarySample) {
     const auto small = fiveSpheres();
     int shared = 0;
@@ -166,8 +166,8 @@ struct DollyStep {
 
 constexpr double dollyRadius = 0.2;  // radius of the sphere, m
 
-// Returns the distance and λ of a sphere that moves from 1.2 to 12 m in front of the lens. Each step multiplies the
-// distance by `ratio`.
+// Returns the distance and the level of detail λ of a sphere that moves from 1.2 to 12 m in front of the lens. Each
+// step multiplies the distance by `ratio`.
 std::vector<DollyStep> dolly(const RenderSettings& settings, double ratio) {
     const auto small = fiveSpheres();
     std::vector<DollyStep> steps;
@@ -182,11 +182,12 @@ std::vector<DollyStep> dolly(const RenderSettings& settings, double ratio) {
     return steps;
 }
 
-// λ has no jumps while a sphere moves away: the change in each step from distance n to n' stays below a bound. An edge
-// at distance n projects to a length proportional to 1/n. At λ, an object's edge length is interpolated logarithmically
-// between levels and projects to τ = max(kBlur·c, kSize), with the blur c in px and the thresholds kBlur and kSize.
-// Edges grow at least by the factor `growth` per level, so |Δλ| ≤ |Δ ln(n·τ)| / ln growth. Only c = K·|1/s − 1/n|, with
-// the focus distance s, changes τ, by at most kBlur·K·(1/n − 1/n'), and τ is at least kSize.
+// The level of detail λ has no jumps while a sphere moves away: the change in each step from distance n to n' stays
+// below a bound. An edge at distance n projects to a length proportional to 1/n. At λ, an object's edge length is
+// interpolated logarithmically between levels and projects to τ = max(kBlur·c, kSize), with the blur c in px and the
+// thresholds kBlur and kSize. Edges grow at least by the factor `growth` per level, so |Δλ| ≤ |Δ ln(n·τ)| / ln growth.
+// Only c = K·|1/s − 1/n|, with the focus distance s, changes τ, by at most kBlur·K·(1/n − 1/n'), and τ is at least
+// kSize.
 TEST(FramePlan, lambdaIsContinuousAlongADolly) {
     const RenderSettings settings = settingsFor(64);
     const auto small = fiveSpheres();
@@ -219,7 +220,7 @@ TEST(FramePlan, measuredLevelsAreContinuousAlongADollyAndGrowWithBlur) {
         return largest;
     };
     const std::vector<DollyStep> steps = dolly(settings, 1.002);
-    // Half the step in distance changes a continuous λ half as much, whereas a jump in λ would keep its size.
+    // Halving the steps in distance halves the largest change of a continuous λ, but not a jump of λ.
     EXPECT_LT(largestChange(dolly(settings, 1.001)), 0.6 * largestChange(steps));
     const auto [finest, coarsest] = std::ranges::minmax(steps, {}, &DollyStep::lambda);
     EXPECT_GT(coarsest.lambda, finest.lambda + 1) << "levels coarsen from focus to blur";
@@ -322,7 +323,7 @@ TEST(FramePlan, tableNamesObjectsAndReasons) {
     EXPECT_NE(table.find("no lens sample can see it"), std::string::npos);
 }
 
-// Extreme curvature would divide each of 80,000 triangles into thousands. The bound is common to all objects.
+// A strongly curved focus surface would divide each of 80,000 triangles into thousands. All objects share one bound.
 TEST(PlanFrame, divisionsOfAFrameAreBounded) {
     const auto parts = [](int slices, double curvature) {
         SmallWorld small;

@@ -1,5 +1,5 @@
 #pragma once
-// Settings and queries for the tests of plans.
+// Settings and queries for tests of frame plans.
 
 #include <algorithm>
 #include <string>

@@ -7,8 +7,8 @@
 namespace defocus::engine {
 namespace {
 
-// The levels of an object that draw one sample, and the fraction of pixels that show the coarse level if both levels
-// draw it.
+// The levels of detail that show an object in one lens sample. If there are two, `share` is the fraction of pixels that
+// show the coarser level.
 struct Drawn {
     std::vector<std::uint32_t> levels;
     double share = 0;

@@ -1,4 +1,4 @@
-// Tests of the controls of the circle of confusion in images: each control has its documented effect, and large
+// Tests of the controls of the circle of confusion in images. Each control has its documented effect, and large
 // triangles look like small ones.
 #include <gtest/gtest.h>
 
@@ -94,8 +94,8 @@ std::unique_ptr<SmallWorld> checkeredFloor(int cells, double begin, double end) 
     return small;
 }
 
-// Returns the same floor in white, in front of a black background. Its triangles have many shapes: corners are
-// jittered, and diagonals run in both directions.
+// Returns a white floor of the same size as checkeredFloor(), in front of a black background. Its triangles have many
+// shapes: corners are jittered, and diagonals run in both directions.
 std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end) {
     auto small = checkeredFloor(cells, begin, end);
     small->scene.materials[0].baseColor.texture = -1;
@@ -124,8 +124,8 @@ std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end
     return small;
 }
 
-// Triangles in which the slope of C does not jump are only divided, and need no geometry shader that cuts them. With
-// that shader, the image is the same.
+// A geometry shader cuts triangles where the slope of the circle of confusion jumps. Triangles without such a jump are
+// divided without this shader, and have the same image with it.
 TEST_F(CocControls, dividedTrianglesNeedNoCuts) {
     const auto floor = checkeredFloor(3, 2, 12);
     floor->view.lens.fieldCurvature = 0.5;
@@ -170,8 +170,8 @@ void PrintTo(const Control& control, std::ostream* out) {
 class LargeTriangles : public CocControls, public testing::WithParamInterface<Control> {};
 
 // The circle of confusion C is interpolated linearly inside a triangle. A large triangle in which the slope of C jumps
-// would therefore move the focus (Munkberg et al. 2012, Figures 2 and 10). The renderer therefore divides large
-// triangles: a floor of two triangles looks like a floor of many small triangles.
+// would therefore move the focus (Munkberg et al. 2012, Figures 2 and 10). The renderer divides large triangles, so
+// that a floor of two triangles looks like a floor of many small triangles.
 TEST_P(LargeTriangles, lookLikeSmallOnes) {
     const auto large = checkeredFloor(1, GetParam().begin, 12);
     const auto fine = checkeredFloor(200, GetParam().begin, 12);
@@ -189,14 +189,14 @@ TEST_P(LargeTriangles, lookLikeSmallOnes) {
     EXPECT_GT(rootMeanSquare(rendered(*large, 16, 1e6), reference), 2.5 * error) << "undivided triangles must differ";
 }
 
-// Neighbouring triangles divide their common edge at the same points, so a white floor of uneven triangles has no gaps
-// that show the black background.
+// Neighbouring triangles divide their common edge at the same points. A white floor of uneven triangles therefore has
+// no gaps that show the black background.
 TEST_P(LargeTriangles, meetWithoutGaps) {
     const auto floor = unevenWhiteFloor(5, GetParam().begin, 12);
     GetParam().set(floor->view.lens);
     const Image image = rendered(*floor, 16, 0.2);
-    // Only pixels nearer than 5 m are tested, which the blur of the floor's edges does not reach. A hole in one of the
-    // 16 samples would darken a pixel by 1/16; smaller differences are rounding.
+    // Only pixels nearer than 5 m are tested, because the blur of the floor's edges does not reach them. A hole in one
+    // of the 16 samples would darken a pixel by 1/16; smaller differences are rounding.
     for (int y = 85; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) ASSERT_GT(image.at(x, y)[1], 0.99) << x << ", " << y;
 }
@@ -324,8 +324,8 @@ TEST_F(CocControls, focusRangeIsSharpAsAPinhole) {
     EXPECT_GT(rootMeanSquare(part(blurred, 0), part(pinhole, 0)), 0.02);
 }
 
-// A foreground limit removes the defocus of a moving object in front, but not its motion blur; nothing else changes
-// (Munkberg et al. 2012, Figure 4).
+// A foreground limit removes the defocus of a moving object in front of the focus, but not its motion blur. The rest of
+// the image stays the same (Munkberg et al. 2012, Figure 4).
 TEST_F(CocControls, limitInFrontLeavesTheMotion) {
     const auto small = threePatches();
     small->world.shutter.poses.assign(2, small->world.pose);

@@ -287,8 +287,8 @@ TEST(EmbreePlanned, SamplePointsAreThoseOfThePlan) {
     const Scene scene = rectangleScene(view, {{30, 20, 33, 23, 6}}, glm::vec3(1));
     const World world = flatWorld(scene, blackBackground());
     FramePlan plan = planOf(view, 1);
-    // If the lens point moves right and up, objects behind the focus move right and up in the image. If the pixel point
-    // moves right and up, the image moves left and down.
+    // If the lens point moves right and up, objects behind the focus move right and up in the image. If the sample's
+    // position in the pixel moves right and up, the image moves left and down.
     LensSample sample;
     sample.lens = glm::vec2(4 / radius, 6 / radius);
     sample.pixel = glm::vec2(0.4f, -0.4f);

@@ -88,8 +88,8 @@ double displayError(const Image& image, const Image& converged) {
     return std::sqrt(sum / (static_cast<double>(image.width) * image.height));
 }
 
-// Returns the largest ratio of a pixel to the brightest of the converged pixels at and around its place, clamped to at
-// least 0.05.
+// Returns the largest ratio of a pixel to the brightest of the 3 × 3 converged pixels around it. The brightest pixel is
+// clamped to at least 0.05.
 double worstPixel(const Image& image, const Image& converged) {
     double worst = 0;
     for (int y = 1; y + 1 < image.height; ++y)
@@ -103,7 +103,8 @@ double worstPixel(const Image& image, const Image& converged) {
     return worst;
 }
 
-// The converged image has single white pixels, too: its glints are smaller than a pixel and up to 500 times as bright.
+// The converged image has single white pixels, too, because glints are smaller than a pixel and up to 500 times as
+// bright.
 TEST_F(Glints, convergeWithinTheFirstSamples) {
     for (const float metallic : {0.0f, 1.0f})
         for (const float roughness : {0.05f, 0.2f})

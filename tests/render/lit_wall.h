@@ -95,8 +95,8 @@ struct GltfSurface {
     double grazing = 1;           // reflectance of the dielectric part at grazing incidence
 };
 
-// Returns f(l, v)·(n·l)₊ by the equations of glTF 2.0, appendix B: Lambert, Schlick's Fresnel, GGX and
-// height-correlated Smith masking.
+// Returns the BRDF times the clamped cosine, f(l, v)·(n·l)₊, by the equations of glTF 2.0, appendix B: Lambert,
+// Schlick's Fresnel, GGX and height-correlated Smith masking.
 inline glm::dvec3 reflectedShare(const GltfSurface& surface, const glm::dvec3& n, const glm::dvec3& v,
                                  const glm::dvec3& l) {
     const double nl = glm::dot(n, l), nv = glm::dot(n, v);

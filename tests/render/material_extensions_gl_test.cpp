@@ -10,8 +10,8 @@ namespace {
 
 class MaterialExtensions : public Transmission {
 protected:
-    // Returns the image of a wall in an environment of radiance 1. The wall's normal has about this cosine to the view
-    // axis.
+    // Returns the image of a wall in an environment of radiance 1. The angle between the wall's normal and the view
+    // axis has approximately the given cosine.
     static Image furnaceImage(const Material& material, double cosine, bool multipleScattering = false) {
         auto small = litWall(material);
         const glm::dmat4 turned =
@@ -68,8 +68,8 @@ struct Widths {
     double along, across;
 };
 
-// Returns D·V of the extension's specification for half vector components along the stretch, across it and along the
-// normal.
+// Returns D·V as specified by KHR_materials_anisotropy. The components of `v` and `l` are along the stretch, across it
+// and along the normal.
 double stretchedGgx(const Widths& widths, const glm::dvec3& v, const glm::dvec3& l) {
     const glm::dvec3 h = glm::normalize(v + l);
     const glm::dvec3 scaled(h.x / widths.along, h.y / widths.across, h.z);
@@ -198,8 +198,8 @@ Material filmed(float base, float ior, float thickness, float roughness = 0) {
     return result;
 }
 
-// The extension's Gaussians and Schlick's term differ from the spectral sum by up to 0.035 facing the eye, and by up to
-// 0.09 at 53°.
+// KHR_materials_iridescence approximates spectra by Gaussians and Fresnel's equations by Schlick's. The reflectance
+// differs from the spectral sum by up to 0.035 facing the eye, and by up to 0.09 at 53°.
 TEST_F(MaterialExtensions, filmsReflectTheColoursOfInterference) {
     for (const float base : {0.04f, 0.3f, 0.8f})
         for (const float ior : {1.3f, 1.8f})
@@ -213,7 +213,7 @@ TEST_F(MaterialExtensions, filmsReflectTheColoursOfInterference) {
                 }
 }
 
-// With light from the eye, the half vector is the direction to the eye.
+// With light from the eye's direction, the half vector also points to the eye.
 TEST_F(MaterialExtensions, filmsColourTheHighlightsOfLights) {
     const float thickness = 300;
     const auto small = litWall(filmed(0.3f, 1.8f, thickness, 0.4f));

@@ -50,7 +50,7 @@ double sumOf(const Image& image) {
     return sum;
 }
 
-// A white square in 128 × 96 px on black. A pixel is `pixelSize` m wide at the square's depth of 4 m.
+// A white square on black in an image of 128 × 96 px. A pixel is `pixelSize` m wide at the square's depth of 4 m.
 struct WhiteSquare : SmallWorld {
     static constexpr double depth = 4;
     double pixelSize = 0;

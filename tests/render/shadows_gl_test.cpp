@@ -81,7 +81,7 @@ TEST_F(Shadowed, noLightLeaksAtAContact) {
     for (int x = 0; x < small->view.width; ++x) {
         const double place = wallX(small->view, x);
         if (place > -2 * texel || place < -0.9)
-            continue;  // the shadow is only 1 m long, and a texel is wider along the wall than across the light
+            continue;  // only 1 m is in shadow, and a texel is wider on the wall than across the light
         EXPECT_EQ(shares[static_cast<std::size_t>(x)], 0) << place;
         ++dark;
     }
@@ -113,7 +113,7 @@ TEST_F(Shadowed, surfacesDoNotShadowThemselves) {
 }
 
 // The floor at the foot of a wall casts no shadow on the wall, although light grazes the wall and a texel of the shadow
-// map covers both. The sun's height of about 70° and azimuth make the wall's plane steep in the map.
+// map covers both. The sun's elevation of about 70° and its azimuth make the wall steep in the map.
 TEST_F(Shadowed, floorDoesNotShadowTheFootOfAWall) {
     const auto small = wall();
     small->world.pose.objects.clear();

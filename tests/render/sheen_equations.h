@@ -19,7 +19,8 @@ inline double sheenLambda(double cosine, double alpha) {
     return cosine < 0.5 ? std::exp(l(cosine)) : std::exp(2 * l(0.5) - l(1 - cosine));
 }
 
-// Returns D·V for the cosines from the normal to light, eye and half vector; `roughness` is perceptual.
+// Returns the sheen BRDF's factors D·V for the cosines from the normal to the light, the eye and the half vector.
+// `roughness` is perceptual.
 inline double sheenOf(double nl, double nv, double nh, double roughness) {
     const double alpha = roughness * roughness;
     const double sine = std::sqrt(std::max(1 - nh * nh, 0.0));

@@ -25,7 +25,8 @@ private:
     std::uint64_t state_ = 1;
 };
 
-// Returns slivers in all directions that are 1e-6 to 1 px wide. The corners of each sliver are all dark or all bright.
+// Returns triangles that are 1e-6 to 1 px wide, in random directions. The corners of each triangle are all dark or all
+// bright.
 Mesh slivers(int count, double pixel) {
     Mesh mesh;
     RandomUnits random;

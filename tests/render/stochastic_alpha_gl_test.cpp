@@ -14,8 +14,8 @@ namespace {
 constexpr glm::vec4 red(1, 0, 0, 0.4f);
 constexpr glm::vec4 green(0, 1, 0, 0.7f);
 
-// Two double-sided panes in one mesh that cross at the image's centre column, over a blue sky. The red pane is nearer
-// in the left half of the image.
+// Returns two double-sided panes in one mesh that cross at the image's centre column, over a blue sky. The red pane is
+// nearer in the left half of the image.
 std::unique_ptr<SmallWorld> crossingPanes() {
     auto small = std::make_unique<SmallWorld>();
     Mesh mesh;
@@ -115,7 +115,7 @@ TEST_F(StochasticAlpha, pixelsDoNotDependOnTheWave) {
     EXPECT_EQ(std::memcmp(first.pixels.data(), other.pixels.data(), first.pixels.size() * sizeof(float)), 0);
 }
 
-// Two layers of one primitive, the nearer one first in the index list, over a blue sky.
+// Returns two layers of one primitive over a blue sky. The nearer layer is first in the index list.
 std::unique_ptr<SmallWorld> twoLayers() {
     auto small = crossingPanes();
     Mesh& mesh = small->scene.meshes[0];

@@ -1,5 +1,5 @@
 #pragma once
-// Helpers that render images of scenes without pyramids by the ray tracer.
+// Helpers that render images of scenes without levels of detail by the ray tracer.
 
 #include <cstdint>
 

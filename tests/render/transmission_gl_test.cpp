@@ -100,7 +100,8 @@ TEST_F(Transmission, panesAndBlendedSurfacesBehindEachOtherAreAllSeen) {
     }
 }
 
-// The background is still visible behind more panes than there are backdrop copies.
+// Each of the eight nearest panes shows the panes behind it. Farther panes show only the opaque background, so the last
+// one that is drawn hides the others.
 TEST_F(Transmission, behindManyPanesTheBackgroundIsStillSeen) {
     const auto small = litWall(clear(glm::vec3(0.9f)));
     light(*small);

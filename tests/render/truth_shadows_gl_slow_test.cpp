@@ -7,7 +7,7 @@ namespace {
 
 // Lamps cast the same penumbrae as in the ray tracer. The ray tracer's lamp disks face each lit point, and the
 // rasterizer's disks face the centre of the scene. Therefore only the means of the disks' points agree. A lamp without
-// a cone has wider shadow-map texels, and its bound is lower.
+// a cone has wider shadow-map texels, so its PSNR bound is lower.
 TEST_F(TruthOfShadows, lampsThrowTheSamePenumbrae) {
     for (const LightType type : {LightType::point, LightType::spot}) {
         const auto small = ballBeforeAWall();

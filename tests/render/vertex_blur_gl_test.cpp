@@ -35,7 +35,8 @@ TEST_F(VertexBlurs, keepsToLimitsAndToItsObject) {
     expectVariance(*small, sharpVariance, "accumulation");
 }
 
-// C(p) = (a + b·w)·(1 + x² + y²) for the clip position p = (x, y, w) of the square, in m.
+// The radial example of Munkberg et al. 2012: C(p) = (a + b·w)·(1 + x² + y²) for the clip position p = (x, y, w), in m,
+// of the square.
 TEST_F(VertexBlurs, drawTheRadialExampleAsPrinted) {
     constexpr double depth = 5;
     const glm::dvec2 position(0.8, -0.5);  // m

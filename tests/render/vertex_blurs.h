@@ -63,8 +63,8 @@ protected:
     static constexpr double sharpVariance = (blurredSide * blurredSide - 1) / 12;
 
     // Expects the energy, centre and variance of the blurred square, for methods that rasterize points or lines.
-    // Post-process methods blur with other kernels. In method stochastic, each pixel has its own points, so that errors
-    // of neighbouring pixels do not cancel. It therefore gets four times as many samples.
+    // Post-process methods blur with other kernels. In method stochastic, each pixel has its own points, so errors of
+    // neighbouring pixels do not cancel. This method therefore gets four times as many samples.
     static void expectVariance(const SmallWorld& small, double expected, const std::string& method,
                                double relative = 0.02) {
         const std::uint32_t count = method == "stochastic" ? 4 * blurSamples : blurSamples;

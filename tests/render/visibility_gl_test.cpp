@@ -32,7 +32,7 @@ TEST_F(Visibility, underLimitsRangesAndTiltedPlanes) {
     }
 }
 
-// If the focus surface is curved or blur differs between vertices, clusters are culled by their corners (visibility.h).
+// If the focus surface is curved, clusters are culled by the corners of their triangles (visibility.h).
 TEST_F(Visibility, curvedFocus) {
     const auto small = fiveSpheres();
     small->view.lens.fieldCurvature = 0.3;

@@ -1,4 +1,4 @@
-// Tests of the highlight of a thin metal ring, whose normals vary by half a turn within a pixel across the wire, but
+// Tests of the highlight of a thin metal ring. Within a pixel, the normals vary by half a turn across the wire, but
 // hardly along it.
 
 #include <gtest/gtest.h>
@@ -61,8 +61,8 @@ std::unique_ptr<SmallWorld> ring() {
     return small;
 }
 
-// Returns the sums of the red channel over the quarters of the ring at its right, top, left and bottom. Highlights are
-// widened in the first samples of a frame only, so images that aren't widened use sample indices from 2²⁰ on.
+// Returns the sums of the red channel over the quarters of the ring at its right, top, left and bottom. The renderer
+// widens highlights in the first samples of a frame only, so images without widening begin with sample 2²⁰.
 glm::dvec4 lightOfQuarters(const SmallWorld& small, std::uint32_t samples, bool widened) {
     RenderSettings settings;
     settings.sampleCount = samples;

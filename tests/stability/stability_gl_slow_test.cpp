@@ -54,8 +54,8 @@ TEST(LensHonesty, everyMethodThatItNamesCanBeMade) {
     }
 }
 
-// A method may need more segments than the driver's shared memory can hold, as on llvmpipe. The benchmark reports such
-// a method and continues with the next method.
+// Method "line" may need more segments of lens lines than the driver's shared memory can hold, as on llvmpipe. The
+// benchmark reports that and continues with the next method.
 TEST(LensHonesty, whatADriverCannotDrawIsLeftOut) {
     const auto context = createHeadlessContext();
     std::vector<HonestyRow> rows;

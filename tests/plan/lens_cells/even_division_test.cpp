@@ -46,11 +46,11 @@ TEST(EvenDivision, pointsBesideACentreBelongToIt) {
     for (std::uint32_t i = 0; i < 64; ++i) EXPECT_EQ(order[i] % 16, i / 4);
 }
 
-// Points lie near the centre that they are assigned to: their mean squared distance is below 0.3 of the points' spread;
-// a random assignment would give twice the spread. If the groups were sixteen squares with the disk's total area, the
-// mean squared distance from a square's middle would be 1/16 · (π/6)/(1/2) = 6.5 % of the disk's spread, and twice that
-// between two random points of a square. Apertures with corners add a small error, because points and centres are
-// halved separately.
+// Points lie near the centre to which they are assigned: the mean squared distance is below 0.3 of the points' mean
+// squared distance from their mean, the spread. A random assignment would give twice the spread. If the groups were
+// sixteen squares with the disk's total area, the mean squared distance from a square's middle would be 1/16 ·
+// (π/6)/(1/2) = 6.5 % of the spread. Between two random points of a square, it would be twice that. Apertures with
+// corners add a small error, because points and centres are halved separately.
 TEST(EvenDivision, pointsLieNearTheirCentre) {
     for (const ApertureShape& shape : apertureShapes)
         for (const std::uint32_t first : {0u, 64u, 640u}) {

@@ -43,9 +43,10 @@ Moments momentsOf(const Points& points) {
     return moments;
 }
 
-// Lens cells, each represented by one sample, preserve the position and size of blurred objects at every sample count.
-// The cells' centres have the lens's mean, and the covariances of the centres and of the blur add up to the lens's
-// covariance. For a circle of confusion of c px, an image blur of σ = b·c px corresponds to σ = 2b lens radii.
+// Lens cells, regions of the lens with one sample each, preserve the position and size of blurred objects at every
+// sample count. The cells' centres have the lens's mean, and the covariances of the centres and of the blur add up to
+// the lens's covariance. For a circle of confusion of c px, an image blur of σ = b·c px corresponds to σ = 2b lens
+// radii.
 TEST(LensCells, middlesAndBlurHaveTheSpreadOfTheLens) {
     const auto small = muchBlurred();
     const auto check = [&](const char* what, double tolerance) {
@@ -81,8 +82,8 @@ TEST(LensCells, middlesAndBlurHaveTheSpreadOfTheLens) {
     check("ring", 2e-3);
 }
 
-// Centres of lens cells lie farther apart than the sequence's points. Each of the 64 centres is the mean of a 64th of
-// the lens.
+// Centres of lens cells lie farther apart than the sequence's points. Each of the 64 centres is the mean of a region
+// with 1/64 of the lens's area.
 TEST(LensCells, middlesKeepApart) {
     const auto small = muchBlurred();
     const auto nearest = [](const auto& points, const auto& place) {
@@ -138,8 +139,8 @@ TEST(LensCells, edgesAreBlurredAsByADisk) {
     }
 }
 
-// A part of a frame has the same lens cells as all samples of the frame together. A block that is planned separately
-// has its own cells, with the blur for the number of samples up to its end.
+// Part of a frame's samples has the same lens cells as all samples of the frame. A block of samples that is planned
+// separately has cells of its own, whose blur follows from the number of samples up to the end of the block.
 TEST(LensCells, belongToWhatIsPlannedTogether) {
     const auto small = muchBlurred();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(192));
@@ -157,7 +158,7 @@ TEST(LensCells, belongToWhatIsPlannedTogether) {
 }
 
 // The blur of lens cells shrinks as samples are added and vanishes at the count where samples leave no gaps. The
-// centres of the cells do not jump there.
+// centres of the cells do not jump at that count.
 TEST(LensCells, blurFallsWithTheSamplesUntilThereIsNone) {
     const auto small = muchBlurred();
     const LensCells few = lensCellsOf(*small, 16);

@@ -52,7 +52,7 @@ TEST(SweptWork, coversTheSquareAndItsBlurOnAllSides) {
     small->view.lens.dofEnabled = false;
     expectSide(*small, 6);
     small->view.lens.dofEnabled = true;
-    // The blur extends the square by 4.1 px on each side and so touches a fifth pixel: 6 + 2·5 = 16.
+    // The blur extends the square by 4.1 px on each side, so its bounds cover five more pixels there: 6 + 2·5 = 16.
     small->view.lens.blurScale = 8.2 / (0.05 * (1.0 / 2 - 1.0 / 4) * 100 / 0.72);
     expectSide(*small, 16);
     small->view.lens.backgroundLimit = 2.2;

@@ -98,7 +98,7 @@ TEST(Motion, boundsBlurAndCullingCoverTheWholeExposure) {
     EXPECT_TRUE(leftOut(planFrame(small->world, small->view, settingsFor(8)), "object Object 0"));
 }
 
-// Even without defocus, motion needs all samples.
+// A moving scene is drawn with all requested samples even if nothing is out of focus.
 TEST(Motion, samplesRemainForMotionWithoutALens) {
     const auto small = fiveSpheres();
     small->view.lens.dofEnabled = false;

@@ -10,7 +10,7 @@
 namespace defocus::engine {
 namespace {
 
-// Returns a closed cone around the z axis with its base at z = 0; its fronts face outwards unless `inwards`.
+// Returns a closed cone around the z axis with its base at z = 0. Its front faces point outwards unless `inwards`.
 Mesh coneMesh(int sides, bool inwards) {
     Mesh mesh;
     for (int i = 0; i < sides; ++i) {
@@ -43,7 +43,7 @@ TEST(BlendOrder, convexBodiesFaceOutwards) {
     EXPECT_FALSE(isConvexMesh(dented));
 }
 
-// Returns blended panes, objects with the mesh quad() at the given places in front of the camera.
+// Returns a scene of alpha-blended panes. `places` are their transforms to world space.
 std::unique_ptr<SmallWorld> panes(const std::vector<glm::dmat4>& places) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial({1, 1, 1, 0.5f}));
@@ -54,7 +54,7 @@ std::unique_ptr<SmallWorld> panes(const std::vector<glm::dmat4>& places) {
     return small;
 }
 
-// Returns whether each of the panes, at the given places, is drawn by stochastic transparency.
+// Returns for each pane whether it is drawn by stochastic transparency. `places` are the panes' transforms.
 std::vector<bool> choicesFor(const std::vector<glm::dmat4>& places) {
     const auto small = panes(places);
     const FramePlan plan = planFrame(small->world, small->view, {});
@@ -82,7 +82,7 @@ TEST(BlendOrder, panesAreSortedUnlessTheyMayCross) {
     EXPECT_EQ(std::ranges::count(crossing, true), 1) << "crossing";
 }
 
-// Returns the indices of the drawn objects of sorted panes, back to front.
+// Returns the indices of the panes in drawing order, back to front. Expects all panes to be sorted.
 std::vector<int> orderOf(const SmallWorld& small) {
     const FramePlan plan = planFrame(small.world, small.view, {});
     std::vector<int> order;
@@ -101,7 +101,7 @@ TEST(BlendOrder, overlappingDepthsAreSortedByPlanes) {
     EXPECT_EQ(orderOf(*small), (std::vector<int>{1, 0}));
 }
 
-// The plane of a pane that is seen edge-on passes through a large lens, which sees both of its sides.
+// The plane of a pane that is seen edge-on cuts through a large lens, so the lens sees both sides of the pane.
 TEST(BlendOrder, lensOnBothSidesOfAPaneHasNoOrder) {
     auto small = panes({turnedPane(-0.05, -4, 90), turnedPane(0.05, -4, 90)});
     small->view.lens.dofEnabled = false;

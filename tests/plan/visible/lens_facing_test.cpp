@@ -74,7 +74,7 @@ TEST(LensFacing, isTheLargestOverTheLensForAnyC) {
 }
 
 // For a thin lens, whose circle of confusion C = a + b·w is linear in the depth w, the bound equals the bound for an
-// eye that moves over a disk of radius |a| (Eq. 6 of the paper).
+// eye that moves over a disk of radius |a| (Munkberg et al. 2012, Eq. 6).
 TEST(LensFacing, ofAThinLensIsThePublishedShortForm) {
     TriangleSource random(2);
     const double a = -0.12, b = 0.05;
@@ -95,7 +95,7 @@ double sampledLargest(const LensTriangle& from, const LensTriangle& to) {
     return largest;
 }
 
-// The bound over lens and time (Eq. 7 and 8 of the paper) holds for moving triangles.
+// The bound over lens and time (Munkberg et al. 2012, Eq. 7 and 8) holds for moving triangles.
 TEST(LensFacing, boundsTheLargestOverLensAndTime) {
     TriangleSource random(3);
     double loosest = 0;

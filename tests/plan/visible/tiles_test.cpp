@@ -1,5 +1,5 @@
-// Tests of parts of an image: cells and rows cover the image once, and a tile's plan keeps all objects that may be
-// visible in the tile.
+// Tests of the division of an image: cells and ranges of rows cover each pixel once, and a tile's plan keeps all
+// objects that may be visible in the tile.
 
 #include "plan/visible/tiles.h"
 

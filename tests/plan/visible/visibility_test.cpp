@@ -1,6 +1,6 @@
-// Tests of culled clusters against brute force over lens points and times. Munkberg, Toth and Akenine-Möller 2012,
-// Appendix A, treat the thin lens in Eq. 6 and any circle of confusion C in Eq. 5. Signs are inverted (see
-// plan/visible/visibility.h).
+// Tests of culling of clusters (groups of triangles) against brute force over lens points and times. Munkberg, Toth and
+// Akenine-Möller 2012, Appendix A, treat the thin lens in Eq. 6 and any circle of confusion C in Eq. 5. Signs are
+// inverted (see plan/visible/visibility.h).
 
 #include "plan/visible/visibility.h"
 
@@ -101,7 +101,7 @@ double determinant(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     return glm::dot(a, glm::cross(b, c));
 }
 
-// Returns the max of the facing determinant over the lens (Eq. 5).
+// Returns the max of the facing determinant over the lens (Munkberg et al. 2012, Eq. 5).
 double largestDeterminant(const ClipTriangle& t, double aspect, double sign) {
     glm::dvec3 n(0);
     for (std::size_t i = 0; i < 3; ++i) n += t.c[i] * glm::cross(t.p[(i + 1) % 3], t.p[(i + 2) % 3]);
@@ -192,7 +192,7 @@ TEST(Visibility, randomTrianglesThroughAThinLens) {
 }
 
 // The max facing determinant of a thin lens equals that of an eye that moves over a disk of the lens's radius in metres
-// (Eq. 6).
+// (Munkberg et al. 2012, Eq. 6).
 TEST(Visibility, thinLensMovesTheEyeOverADisk) {
     Random random(2);
     const auto small = looseTriangles(random, 500, 0.3);
@@ -257,7 +257,7 @@ TEST(Visibility, randomTrianglesThatMoveDuringTheExposure) {
     }
 }
 
-// No visible triangle is culled if each corner has its own blur, which may change during the exposure (Eq. 5).
+// No visible triangle is culled if each corner has its own blur, which may change during the exposure.
 TEST(Visibility, randomTrianglesWhoseCornersHaveTheirOwnBlur) {
     Random random(5);
     for (const bool changes : {false, true})
@@ -335,8 +335,8 @@ TEST(Visibility, farSideOfASphereIsLeftOut) {
     for (const double mirror : {1.0, -1.0}) {
         const auto small = oneSphere(glm::scale(at(0, -4), glm::dvec3(mirror, 1, 1)));
         const FramePlan plan = planFrame(small->world, small->view, settingsFor(16));
-        // From 4 m, (1 − 1/4)/2 = 37.5 % of a unit sphere's surface faces the eye. Ripples widen the clusters' normal
-        // cones.
+        // From 4 m, (1 + 1/4)/2 = 62.5 % of a unit sphere's surface faces away from the eye. Fewer triangles are
+        // culled, because ripples widen the clusters' normal cones.
         EXPECT_GT(share(plan.trianglesFacingAway, plan), 0.35);
         EXPECT_LT(share(plan.trianglesFacingAway, plan), 0.625);
         EXPECT_EQ(plan.trianglesDrawn + plan.trianglesFacingAway + plan.trianglesOutside, plan.trianglesAtFullDetail);
@@ -346,8 +346,8 @@ TEST(Visibility, farSideOfASphereIsLeftOut) {
     }
 }
 
-// Skinned clusters are culled by their corners. With a skin of one static joint, about as many clusters are culled as
-// for the rigid mesh.
+// Clusters of skinned meshes are culled by the corners of their triangles. With a skin of one static joint, about as
+// many clusters are culled as for the rigid mesh.
 TEST(Visibility, aSkinnedSpheresFarSideIsLeftOut) {
     const auto rigid = oneSphere(at(0, -4));
     const auto skinned = oneSphere(at(0, -4));
@@ -383,7 +383,7 @@ TEST(Visibility, whatReachesOutOfTheImageIsLeftOutUnlessItsBlurReachesIn) {
     small->view.lens.focusDistance = 0.5;
     const FramePlan blurred = planFrame(small->world, small->view, settingsFor(16));
     EXPECT_LT(share(blurred.trianglesOutside, blurred), 0.5 * share(sharp.trianglesOutside, sharp));
-    // With a limit on the blur, the clusters are culled again.
+    // With a limit on the background's blur, almost as many clusters are culled as in the sharp image.
     small->view.lens.backgroundLimit = 2;
     const FramePlan bounded = planFrame(small->world, small->view, settingsFor(16));
     EXPECT_GT(share(bounded.trianglesOutside, bounded), 0.9 * share(sharp.trianglesOutside, sharp));

@@ -35,7 +35,7 @@ TEST_F(Accumulation, geometryShaderLayersGiveTheSameImage) {
     const Image expected = rendered(*small, settingsFor(16));
     const Image image = rendered(*small, settingsFor(16), options);
     EXPECT_LT(largestDifference(expected, image),
-              // this mode uses another vertex shader, which may round differently but must cover the same pixels
+              // with a geometry shader, vertices may round differently but must cover the same pixels
               1e-3);
 }
 
@@ -271,7 +271,7 @@ TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
         light.position = glm::dvec3(turn * glm::dvec4(light.position, 1));
         light.direction = glm::dmat3(turn) * light.direction;
     }
-    // the images differ, since the camera has not moved yet
+    // the images differ, since objects and lights have moved but the camera has not
     EXPECT_LT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);
     small->view.worldFromCamera = turn * small->view.worldFromCamera;
     EXPECT_GT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);

@@ -1,5 +1,5 @@
-// Tests the coverage and the counts of objects where alpha-blended surfaces overlap, against the closed form of their
-// weights: alpha · Π (1 − alpha of each nearer surface).
+// Tests of coverage, and of the number of samples that show each object, where alpha-blended surfaces overlap. The
+// expected weight of a surface is alpha · Π (1 − alpha of each nearer surface).
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ Pane pane(float alpha, double depth) {
     return {alpha, facing(0, 0, depth, 4 * depth)};
 }
 
-// A square at a depth of 3 m that is turned around the image's vertical axis.
+// Returns a square at a depth of 3 m that is rotated about the image's vertical axis.
 Pane turned(float alpha, double angle) {
     return {alpha, glm::rotate(facing(0, 0, 3, 9), angle, glm::dvec3(0, 1, 0))};
 }
@@ -57,7 +57,8 @@ Residual errorOf(const std::vector<double>& errors) {
 
 class BlendedLayer : public BlendedPanes {
 protected:
-    // Expects that the objects' counts have the given mean fractions, without a bias.
+    // Expects each object to have the given fraction of a pixel's samples, on average over the pixels and without a
+    // bias.
     static void expectShares(const Drawn& frame, const std::vector<double>& expected) {
         const auto samples = static_cast<double>(frame.plan.samples.size());
         const std::size_t pixels = frame.layers.coverage.pixels.size();
@@ -73,7 +74,7 @@ protected:
     }
 };
 
-// layer_combinations_gl_slow_test.cpp tries all pairs of layers.
+// The slow test layer_combinations_gl_slow_test.cpp renders all pairs of layers.
 TEST_F(BlendedLayer, coverageIsThePicturesAlphaWithAnyLayer) {
     const auto small = overlappingPanes();
     expectCoverage(*small, everyLayer);
@@ -99,7 +100,7 @@ TEST_F(BlendedLayer, countsBeforeAnOpaqueWallFillThePixel) {
     }
 }
 
-// Two surfaces of one object, of alpha a and b, cover 1 − (1 − a)(1 − b) of a pixel.
+// Two surfaces of one object, with alpha a and b, cover 1 − (1 − a)(1 − b) of a pixel.
 TEST_F(BlendedLayer, surfacesOfOneObjectAreIndependent) {
     const auto small = sceneOf({pane(0.5f, 1)});
     Mesh& mesh = small->scene.meshes[0];
@@ -113,7 +114,7 @@ TEST_F(BlendedLayer, surfacesOfOneObjectAreIndependent) {
     expectShares(frame, {0.75});
 }
 
-// At blurred borders, the choices are independent of the positions of the samples on the lens.
+// At blurred edges, the samples that count the pane are chosen independently of their lens points.
 TEST_F(BlendedLayer, countsAtBordersAreUnbiased) {
     const auto small = sceneOf({{0.5f, facing(0, 0, 1, 0.15)}});
     small->view.width = 96;
@@ -141,7 +142,7 @@ TEST_F(BlendedLayer, countsOfStochasticPanesAreThePicturesAlpha) {
         ASSERT_NEAR(sumAt(frame, pixel), frame.picture.pixels[4 * pixel + 3], 1e-6) << pixel;
 }
 
-// One pane of two that cross is sorted, and the other is drawn by stochastic transparency.
+// One of two crossing panes is sorted, and the other is drawn by stochastic transparency.
 TEST_F(BlendedLayer, countsOfCrossingPanesAreTheirWeights) {
     const auto small = sceneOf({turned(0.4f, 0.6), turned(0.7f, -0.6)});
     const Drawn frame = drawn(*small, 64, onlyObjects);

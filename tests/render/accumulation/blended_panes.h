@@ -1,5 +1,5 @@
 #pragma once
-// Scenes of alpha-blended panes, and a fixture that tests the coverage beside other layers.
+// Scenes of alpha-blended panes, and a fixture that compares coverage with the picture's alpha.
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +11,13 @@
 
 namespace defocus::engine {
 
-// A blended square, or an opaque one with alpha 1.
+// A square that is alpha-blended, or opaque if its alpha is 1.
 struct Pane {
     float alpha = 1;
     glm::dmat4 worldFromObject{1};
 };
 
-// Each pane is an object of its own, with a material of its own. The background is transparent.
+// Returns a scene of panes in front of a transparent background. Each pane is a separate object with its own material.
 inline std::unique_ptr<SmallWorld> sceneOf(const std::vector<Pane>& panes) {
     auto small = std::make_unique<SmallWorld>();
     for (const Pane& pane : panes) {
@@ -37,7 +37,7 @@ inline std::unique_ptr<SmallWorld> sceneOf(const std::vector<Pane>& panes) {
     return small;
 }
 
-// Returns an opaque pane behind blended panes, of which two cross and two others are sorted.
+// Returns an opaque pane behind four blended panes. Two of these cross, and the other two are sorted.
 inline std::unique_ptr<SmallWorld> overlappingPanes() {
     return sceneOf({{0.5f, facing(-0.1, 0, 1, 0.3)},
                     {0.25f, facing(0.2, 0.1, 1.5, 0.4)},
@@ -48,7 +48,7 @@ inline std::unique_ptr<SmallWorld> overlappingPanes() {
 
 class BlendedPanes : public LensLayer {
 protected:
-    // Expects that the coverage is the picture's alpha if the picture is drawn together with `layers`.
+    // Expects coverage to equal the picture's alpha if `layers` are drawn together with the picture.
     static void expectCoverage(const SmallWorld& small, const std::vector<Layer>& layers) {
         const Drawn frame = drawn(small, 16, layers);
         EXPECT_EQ(frame.plan.samples.size(), 16u);

@@ -1,5 +1,5 @@
 #pragma once
-// Fixture that draws data layers together with their picture.
+// Fixture that draws data layers, such as depth and normals, together with their picture.
 
 #include "render/accumulation/accumulated.h"
 
@@ -9,7 +9,6 @@ inline const std::vector<Layer> everyLayer = {Layer::depth,  Layer::position, La
                                               Layer::albedo, Layer::emission, Layer::motion,
                                               Layer::coc,    Layer::objects,  Layer::materials};
 
-// A picture and its data layers.
 struct Drawn {
     Image picture;
     LayerImages layers;
@@ -38,7 +37,7 @@ protected:
     }
 };
 
-// Returns the transform of a square that faces the camera. (x, y): centre in m.
+// Returns the transform of a square that faces the camera, with its centre at (x, y) m.
 inline glm::dmat4 facing(double x, double y, double depth, double halfSize) {
     return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(x, y, -depth)), glm::dvec3(halfSize));
 }

@@ -1,5 +1,5 @@
-// Tests that objects which no lens sample sees do not change the image if RenderSettings::keepAll draws them: they take
-// part in no decision of the plan.
+// Tests that objects outside the view of all lens samples do not change the image if RenderSettings::keepAll draws
+// them. The plan ignores them in all other decisions.
 
 #include "likeness.h"
 #include "render/accumulation/blended_panes.h"
@@ -9,7 +9,7 @@ namespace {
 
 class KeepAll : public BlendedPanes {
 protected:
-    // Expects the same bits with and without keepAll. Only the last object is unseen.
+    // Expects the same bits with and without keepAll. No lens sample may see the last object.
     static void expectSameBits(const SmallWorld& small, const RenderSettings& settings) {
         const FramePlan culled = planFrame(small.world, small.view, settings);
         ASSERT_EQ(culled.objects.size() + 1, small.world.pose.objects.size());
@@ -23,8 +23,8 @@ protected:
     static void expectSameBits(const SmallWorld& small) { expectSameBits(small, settingsFor(16)); }
 };
 
-// A horizontal pane beside the camera, at the height of the lens. It reaches from 3 m behind the camera to 3 m before
-// it.
+// Returns the transform of a horizontal pane beside the camera, at the height of the lens. The pane reaches from 3 m
+// behind the camera to 3 m in front of it.
 glm::dmat4 beside() {
     const glm::dmat4 turned =
         glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(3, 0, 0)), 1.5707963267948966, glm::dvec3(1, 0, 0));
@@ -38,7 +38,8 @@ void addPane(SmallWorld& small, const Material& material, const glm::dmat4& worl
     finish(small);
 }
 
-// The unseen pane has no order relative to the visible panes. If it were sorted with them, these would become stochastic.
+// The unseen pane can't be sorted with the visible panes. If it took part, visible panes would be drawn by stochastic
+// transparency.
 TEST_F(KeepAll, unseenPanesDoNotChangeTheBlending) {
     const auto small = overlappingPanes();
     Material blended = unlitMaterial({1, 0, 0, 0.5f});
@@ -48,7 +49,7 @@ TEST_F(KeepAll, unseenPanesDoNotChangeTheBlending) {
     expectSameBits(*small);
 }
 
-// Only the nearest eight transmitting objects see each other.
+// Only the nearest eight transmitting objects show each other. An unseen object must not count as one of the eight.
 TEST_F(KeepAll, unseenGlassDoesNotChangeTheGlass) {
     Material glass = unlitMaterial({0.5f, 0.8f, 0.9f, 1});
     glass.unlit = false;

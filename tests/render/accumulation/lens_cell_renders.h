@@ -36,7 +36,7 @@ inline Image drawnBy(const char* method, const SmallWorld& small, const RenderSe
     return imageOf(*rendererOf(method, small.world, options), planFrame(small.world, small.view, settings));
 }
 
-// Returns a reference image of 4096 samples. Its sequence differs from the tested images' sequences.
+// Returns a reference image of 4096 samples. Its sequence differs from the tested images' sequence.
 inline Image convergedImage(const SmallWorld& small) {
     RenderSettings settings = ratedSettings(4096);
     settings.sequence = Sequence::halton;
@@ -56,7 +56,8 @@ inline double relativeDifferenceFrom(const Image& image, const glm::vec3& color)
     return largest;
 }
 
-// Fixture for images by lens cells: each sample represents a region of the lens, and its image is blurred accordingly.
+// Fixture for images by lens cells, regions of the lens. Each cell has one sample, whose image is blurred as by a lens
+// of the size of the cell.
 class LensCellImages : public testing::Test {
 protected:
     static void SetUpTestSuite() { context_ = createHeadlessContext(); }

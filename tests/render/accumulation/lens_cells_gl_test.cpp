@@ -1,5 +1,5 @@
-// Tests of images by lens cells: each sample represents a region of the lens, and its image is blurred accordingly
-// (plan/lens_cells/lens_cells.h).
+// Tests of images by lens cells, regions of the lens. Each cell has one sample, whose image is blurred as by a lens of
+// the size of the cell (plan/lens_cells/lens_cells.h).
 
 #include <gtest/gtest.h>
 
@@ -149,7 +149,7 @@ Image imageOfLight(const char* method, const FarLight& light, std::uint32_t samp
     return imageOf(*rendererOf(method, light.world, exact), planFrame(light.world, light.view, ratedSettings(samples)));
 }
 
-// Returns the standard deviation over the mean of the pixels well inside the blurred light's disk.
+// Returns the standard deviation of the pixels well inside the blurred light's disk, divided by their mean.
 double ripple(const Image& image, const FarLight& light) {
     double sum = 0;
     double squares = 0;
@@ -205,7 +205,7 @@ double expectedRadius(const FarLight& light) {
     return std::sqrt(2 * (light.blur * light.blur / 16 + 16.0 / 12 + 2.0 / 12));
 }
 
-// Lens cells with blurs of σ = 0.4 to 6 px preserve the energy, position and size of a light's disk.
+// Lens cells whose images are blurred by σ = 0.4 to 6 px preserve the energy, position and size of a light's disk.
 TEST_F(LensCellImages, aBlurredLightKeepsItsEnergyAndItsSpread) {
     for (const double fStop : {0.8, 0.4, 0.25, 0.17, 0.1, 0.06}) {
         const FarLight light = farLight(fStop);
@@ -329,9 +329,9 @@ TEST_F(LensCellImages, nothingShinesThroughOutlines) {
     }
 }
 
-// The image does not pop where blur classes (groups of pixels with similar blur) begin. The lens opens in small steps,
-// from a blur below every class to several classes. No step changes the image by more than twice the change of its
-// neighbouring steps.
+// The image does not pop when blur classes (groups of pixels with similar blur) come into use. The lens opens in small
+// steps, from a blur below every class to several classes. No step changes the image by more than twice the mean change
+// of its four neighbouring steps.
 TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = blurredSpheres();
@@ -353,8 +353,8 @@ TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
     }
 }
 
-// The image converges to the reference, as the blur of lens cells vanishes with the sample count. Its error is never
-// above the accumulation's. With few samples it is far below, and it shrinks with many samples.
+// The image converges to the reference, as the blur of lens cells vanishes with the sample count. Its error falls as
+// samples are added. It is far below the accumulation's error with few samples, and at most 5 % above with more.
 TEST_F(LensCellImages, convergesToTheReference) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = blurredSpheres();

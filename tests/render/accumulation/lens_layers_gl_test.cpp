@@ -1,4 +1,5 @@
-// Tests data layers against the picture itself and against closed forms.
+// Tests of data layers (depth, normals and other surface data, averaged over lens samples) against the picture itself
+// and against closed forms.
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-// Three squares of unlit colours at different depths on black; the lens blurs the first and the last.
+// Returns three unlit squares of different colours and depths on black. The lens blurs the first and the last.
 std::unique_ptr<SmallWorld> threeSquares() {
     auto small = std::make_unique<SmallWorld>();
     const glm::vec4 colours[] = {{1, 0.2f, 0, 1}, {0.1f, 0.9f, 0.3f, 1}, {0.2f, 0.3f, 2, 1}};
@@ -40,7 +41,7 @@ TEST_F(LensLayer, leavesThePictureUnchanged) {
     EXPECT_LT(largestDifference(plain, drawn(*small, 24).picture), 1e-5);
 }
 
-// The sum over all objects of mask × colour is the picture of emissive objects.
+// For unlit objects, the sum of mask × colour over all objects equals the picture.
 TEST_F(LensLayer, masksTimesObjectsAreThePicture) {
     const auto small = threeSquares();
     for (const double catEye : {0.0, 0.5}) {
@@ -68,7 +69,7 @@ TEST_F(LensLayer, masksTimesObjectsAreThePicture) {
     }
 }
 
-// Albedo and emission of unlit surfaces are the picture itself.
+// The albedo layer and the emission layer of unlit surfaces equal the picture.
 TEST_F(LensLayer, albedoIsFilteredAsThePicture) {
     const Drawn frame = drawn(*threeSquares(), 64);
     for (const Layer layer : {Layer::albedo, Layer::emission}) {
@@ -118,7 +119,7 @@ TEST_F(LensLayer, ofAWallAreItsPlaceAndBlur) {
         EXPECT_NEAR(at(Layer::coc), coc, 1e-3);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(Layer::normal, c), c == 2 ? 1 : 0, 1e-3);
         EXPECT_NEAR(at(Layer::albedo, 1), 0.25, 1e-3);
-        // Lens samples are symmetric about the pixel's centre up to their noise, a tenth of the blur.
+        // Lens samples are symmetric about the pixel's centre, apart from noise of a tenth of the blur.
         const double pixelWidth = 2 * tanX * 3 / small->view.width;
         const double tolerance = (0.1 * coc + 0.1) * pixelWidth;
         EXPECT_NEAR(at(Layer::position, 0), 0.25 + (pixel.x + 0.5 - 32) * pixelWidth, tolerance);
@@ -129,7 +130,7 @@ TEST_F(LensLayer, ofAWallAreItsPlaceAndBlur) {
     }
 }
 
-// Without a surface, all layers are 0, and the nearest depth is infinite.
+// In pixels without a surface, all layers are 0, and the nearest depth is infinite.
 TEST_F(LensLayer, ofNothingAreEmpty) {
     const auto small = threeSquares();
     small->world.pose.objects.resize(1);
@@ -141,7 +142,7 @@ TEST_F(LensLayer, ofNothingAreEmpty) {
     EXPECT_EQ(frame.layers.numbers.at(Layer::objects).values[95 * 16], 0u);
 }
 
-// A pane with alpha 1/4 in front of a wall has the weight 1/4.
+// In data layers, a pane with alpha 1/4 in front of a wall has the weight 1/4, and the wall has 3/4.
 TEST_F(LensLayer, ofBlendedSurfacesFollowAlpha) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({1, 0, 0, 0.25f}), unlitMaterial({0, 1, 0, 1})};
@@ -169,7 +170,8 @@ TEST_F(LensLayer, ofBlendedSurfacesFollowAlpha) {
     EXPECT_EQ(count[1] + count[2], samples);
 }
 
-// A square at depth z that moves by d along x moves by d·W/(2·z·tan(θx/2)) px.
+// The motion of a square at depth z that moves by d along x is d·W/(2·z·tan(θx/2)) px, with the image width W and the
+// horizontal field of view θx.
 TEST_F(LensLayer, motionIsTheWayDuringTheExposure) {
     const auto small = threeSquares();
     small->world.pose.objects.resize(1);
@@ -183,7 +185,7 @@ TEST_F(LensLayer, motionIsTheWayDuringTheExposure) {
     EXPECT_NEAR(valueAt(frame.layers.means.at(Layer::motion), 48, 32, 1), -0.04 * pixels, 1e-3);
 }
 
-// Layers depend neither on the number of samples drawn together nor on the other layers.
+// Data layers depend neither on the number of samples that are drawn at once nor on other data layers.
 TEST_F(LensLayer, dependOnlyOnTheSamples) {
     const auto small = fiveSpheres();
     const Drawn all = drawn(*small, 70);

@@ -1,4 +1,4 @@
-// Tests of lens samples with four pixel positions (RenderSettings::positions).
+// Tests of lens samples that draw four positions in each pixel (RenderSettings::positions).
 
 #include <vector>
 
@@ -21,14 +21,14 @@ protected:
         return settings;
     }
 
-    // Returns an image of 1,024 samples of another sequence.
+    // Returns a reference image of 1,024 samples. Its sequence differs from the tested images' sequence.
     static Image referenceOf(const SmallWorld& small) {
         RenderSettings settings = ratedSettings(1024);
         settings.sequence = Sequence::halton;
         return drawnBy("accumulation", small, settings);
     }
 
-    // Returns an image half as large, each of whose pixels is the mean of 2 × 2 pixels.
+    // Returns the image at half its width and height. Each pixel is the mean of 2 × 2 pixels.
     static Image halved(const Image& image) {
         Image half(image.width / 2, image.height / 2, image.channels);
         for (int y = 0; y < half.height; ++y)
@@ -41,7 +41,7 @@ protected:
     }
 };
 
-// Four positions are the pixels of an image of twice the width and height.
+// With four positions, each pixel is the mean of 2 × 2 pixels of an image of twice the width and height.
 TEST_F(Positions, areThePixelsOfATwiceAsLargeImage) {
     RendererOptions exact;
     exact.layerFormat = LayerFormat::rgba32f;
@@ -56,7 +56,7 @@ TEST_F(Positions, areThePixelsOfATwiceAsLargeImage) {
     }
 }
 
-// A blurred square of the colour of the background.
+// A blurred square has the colour of the background, so the image must be constant.
 TEST_F(Positions, doNotChangeAConstantPicture) {
     const auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial({0.1f, 0.7f, 1.0f / 3, 1}));
@@ -131,7 +131,7 @@ TEST_F(Positions, otherThanOneOrFourAreRefused) {
     EXPECT_THROW(static_cast<void>(planFrame(small->world, small->view, layers)), Error);
 }
 
-// An automatic number of samples uses four positions if little is blurred.
+// With an automatic number of samples, the renderer chooses four positions if the blur is small but not zero.
 TEST_F(Positions, areChosenByTheBlur) {
     const auto small = fiveSpheres();
     small->view.width = 64;
@@ -155,7 +155,7 @@ TEST_F(Positions, areChosenByTheBlur) {
     EXPECT_EQ(drawn(true).positions, 1u) << "a pinhole";
 }
 
-// Rough glass blurs what is behind it by the same distance.
+// Rough glass blurs the objects behind it by the same width with one position and with four.
 TEST_F(Positions, doNotSharpenRoughGlass) {
     const auto small = fiveSpheres();
     small->scene.materials[0].transmissionFactor = 1;
@@ -167,7 +167,7 @@ TEST_F(Positions, doNotSharpenRoughGlass) {
     EXPECT_GT(compareImages(image, drawnBy("accumulation", *small, four)).psnr, 40);
 }
 
-// The error of the image decides how many samples are drawn, with four positions as with one.
+// The estimated error of the image decides how many samples are drawn, also with four positions.
 TEST_F(Positions, areDrawnUntilTheQualityIsReached) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = fiveSpheres();

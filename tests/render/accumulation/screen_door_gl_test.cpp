@@ -1,5 +1,5 @@
-// Tests of samples that are split over an image's pixels (LodMode::continuous): the choice of pixels, their number, and
-// the error.
+// Tests of lens samples in which some pixels show one level of an object, and the others the next level
+// (LodMode::continuous): the choice of pixels, their number, and the error.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,8 @@ std::unique_ptr<SmallWorld> oneSphere() {
     return small;
 }
 
-// If one sample is split, each pixel equals the same pixel of the image with n or with n + 1 coarse samples.
+// If one sample is split between two levels, each pixel equals the same pixel of the image in which n or n + 1 samples
+// show the coarser level.
 TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
     const auto small = oneSphere();
     constexpr std::uint32_t samples = 8;
@@ -66,8 +67,8 @@ TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
     }
 }
 
-// Splitting a sample between two levels costs at most one sample of coverage. For an object of one colour on a
-// background of another, no pixel changes by more than 1/N of the colour difference, with N samples.
+// Splitting a sample between two levels changes the coverage of a pixel by at most one sample. For an object of one
+// colour on a background of another, no pixel changes by more than 1/N of the colour difference, with N samples.
 TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     const auto small = oneSphere();
     small->scene.materials[0] = unlitMaterial({1, 1, 1, 1});
@@ -76,7 +77,7 @@ TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     small->world.environment = {EnvironmentType::uniform, {0, 0, 0}, {}, {}, nullptr, 1};
     for (const std::uint32_t samples : {1u, 8u, 32u}) {
         FramePlan plan = planFrame(small->world, small->view, continuousFor(samples));
-        // The outlines of the coarsest levels differ most.
+        // The outlines of the two coarsest levels differ most.
         const auto last = static_cast<std::uint32_t>(small->world.pyramids[0].levels.size() - 2);
         setSplit(plan, small->world, last, samples / 2, 0);
         const Image full = renderedPlan(*small, plan);
@@ -87,8 +88,8 @@ TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     }
 }
 
-// A small change of λ changes few pixels, and each of these pixels by one sample. The fraction of changed pixels equals
-// the change in the number of coarse samples.
+// A small change of the level of detail λ changes few pixels, and each of them by one sample. The fraction of changed
+// pixels equals the change in the number of coarse samples.
 TEST_F(ScreenDoor, changesLittleWithLambda) {
     const auto small = oneSphere();
     constexpr std::uint32_t samples = 16;
@@ -99,7 +100,7 @@ TEST_F(ScreenDoor, changesLittleWithLambda) {
         return renderedPlan(*small, plan);
     };
     const double pixels = 160.0 * 120;
-    // for some of these values, no sample is split
+    // at all of these values except 1.03, no sample is split between levels
     for (const double lambda : {1.0, 1.03, 1 + 5.0 / samples, 1.5, 2.0}) {
         const Image below = at(lambda - 1e-4);
         const Image above = at(lambda + 1e-4);

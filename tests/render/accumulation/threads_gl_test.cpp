@@ -1,5 +1,5 @@
-// Tests that images do not depend on the number of threads that draw, and that frames in threads can be abandoned and
-// can fail.
+// Tests that images do not depend on the number of threads that draw. Also tests frames that are abandoned or that
+// fail.
 
 #include <algorithm>
 #include <filesystem>
@@ -109,7 +109,7 @@ TEST_F(DrawingThreads, changeNoBitOfDataLayers) {
     }
 }
 
-// The image after each wave is the mean of the samples so far, also while threads draw further samples.
+// The image after each wave is the mean of all samples so far, even while threads draw further samples.
 TEST_F(DrawingThreads, changeNoBitOfUnfinishedImages) {
     const auto small = fiveSpheres();
     const FramePlan plan = planOf(*small, 32);
@@ -142,7 +142,7 @@ TEST_F(DrawingThreads, blocksCanBeAddedToTheSum) {
     EXPECT_TRUE(sameBits(imageOf(*rendererOf("accumulation", small->world, inThreads(1)), plan), renderer->image()));
 }
 
-// Frames of fewer samples than threads, and of a single sample, use fewer threads.
+// A frame is drawn by at most as many threads as it has samples.
 TEST_F(DrawingThreads, areAtMostTheSamples) {
     const auto small = fiveSpheres();
     const auto renderer = rendererOf("accumulation", small->world, inThreads(5));
@@ -154,7 +154,7 @@ TEST_F(DrawingThreads, areAtMostTheSamples) {
     }
 }
 
-// The layers of all threads count as drawn at once, so a limit on them also limits the threads.
+// A limit on the layers that are drawn at once applies to all threads together, so it also limits their number.
 TEST_F(DrawingThreads, keepToTheLimitOfLayers) {
     const auto small = fiveSpheres();
     const FramePlan plan = planOf(*small, 64);
@@ -189,7 +189,7 @@ TEST_F(DrawingThreads, framesCanBeAbandoned) {
     renderer.reset();  // destroys the renderer while threads draw
 }
 
-// A shader that a thread compiles fails. The error arrives at the caller, and a later frame works.
+// If a thread fails to compile a shader, the caller gets the error, and the next frame is drawn.
 TEST_F(DrawingThreads, errorsReachTheCaller) {
     const ExpectedGlMessages broken;
     const auto small = fiveSpheres();

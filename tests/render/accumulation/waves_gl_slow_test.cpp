@@ -45,7 +45,7 @@ TEST_F(Accumulation, summationErrsLessThanOneInAMillion) {
         one.firstSample = i;
         one.keepAll = true;
         FramePlan plan = planFrame(small->world, small->view, one);
-        plan.frameSamples = n;  // highlights are filtered by the number of samples in the frame
+        plan.frameSamples = n;  // the filter of highlights depends on the frame's sample count
         const Image layer = imageOf(*methodNamed("accumulation").make(small->world, options), plan);
         sum.resize(layer.pixels.size());
         for (std::size_t p = 0; p < sum.size(); ++p) sum[p] += double(layer.pixels[p]);

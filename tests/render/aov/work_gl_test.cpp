@@ -85,8 +85,8 @@ TEST_F(Work, backsCountOnlyWhereTheyAreDrawn) {
     expectEverywhere(workOf(*facingQuads({back}, material)), samples);
 }
 
-// In each sample, a rectangle touches the pixels whose centres it contains after it is shifted for the lens point and
-// the jitter.
+// In each sample, a rectangle is shifted for the lens point and the jitter, and touches the pixels whose centres lie
+// inside it.
 TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
     const double depth = 0.6;
     const glm::dvec2 centre(0.0143, -0.0097);
@@ -112,8 +112,8 @@ TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
     EXPECT_NEAR(sum / samples, 4 * half.x * half.y * perMetre * perMetre, 0.01 * sum / samples);
 }
 
-// In the viewer, the work AOV grows over several frames, by a few samples in each, up to the sum of one complete pass.
-// The test does this for two views, one after the other.
+// In the viewer, the work AOV grows by a few samples per frame, up to the sum of one complete pass. The test does this
+// for two views, one after the other.
 TEST_F(Work, growsToTheSameSumForViewAfterView) {
     const auto small = facingQuads({quadAt(0.6, {0.014, -0.01}, {0.08, 0.05}), quadAt(3, {0, 0}, {0.9, 0.2})},
                                    unlitMaterial(glm::vec4(1)));
@@ -131,7 +131,7 @@ TEST_F(Work, growsToTheSameSumForViewAfterView) {
     }
 }
 
-// The viewer shows the work AOV in the colours of the heat map that is written to files.
+// In the viewer, the work AOV has the same colours as the heat map that is written to files.
 TEST_F(Work, isShownInTheColoursOfItsFile) {
     const auto small = facingQuads({quadAt(0.6, {0.014, -0.01}, {0.08, 0.05}), quadAt(3, {0, 0}, {0.9, 0.2})},
                                    unlitMaterial(glm::vec4(1)));

@@ -81,7 +81,7 @@ TEST_F(ComplexBlurs, aPointBecomesADiskOfTheRadiusAndKeepsItsEnergy) {
 TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
     Image bright = blocks();
     for (std::size_t i = 0; i < bright.pixels.size(); ++i)
-        if (i % 4 != 3) bright.pixels[i] *= 50;  // storage divides by the max, so nothing clips
+        if (i % 4 != 3) bright.pixels[i] *= 50;  // storage divides by the image's max, so it clips nothing
     for (const int components : {1, 2, 3}) {
         const Image exact = blurred(infoOf(components, ComplexStorage::float32), bright, filled(1, 9));
         const Image stored = blurred(infoOf(components, ComplexStorage::rgb10A2), bright, filled(1, 9));
@@ -98,7 +98,8 @@ TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
     }
 }
 
-// 10-bit storage divides weights by their max, like radiance, so that small weights keep their relative precision.
+// 10-bit storage divides the weights by their max, as it does for radiance, so small weights keep their relative
+// precision.
 TEST_F(ComplexBlurs, bracketsKeepSmallWeights) {
     Image light = blocks();
     for (float& value : light.pixels) value *= 0.01f;
@@ -125,9 +126,9 @@ TEST(Brackets, ofEightTapsStoreAWhiteFieldAsOne) {
         }
 }
 
-// Brackets for eight taps equal those that Garcia's filter generator prints for two components and a radius of eight
-// taps. The generator scales the kernel to a sum of one, so the middle tap, whose factor is 1, is 0.064754. The
-// components are those that the method draws with.
+// Brackets (storage ranges) of the published kernel of two components, for a radius of eight taps, equal those that
+// Garcia's filter generator prints. The generator scales the kernel to a sum of one, so the middle tap, whose factor is
+// 1, is 0.064754.
 TEST(Brackets, ofEightTapsAreGarcias) {
     constexpr double middle = 0.064754;
     constexpr int taps = 17;

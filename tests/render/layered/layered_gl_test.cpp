@@ -84,8 +84,8 @@ TEST_F(Layered, aPointOfLightBecomesADiskOfTheCircleOfConfusion) {
     }
 }
 
-// A pinhole image shows a bar that hides a red stripe. If the bar is blurred, the stripe is visible: the bar covers a
-// strip of the lens disk, and the rest of the lens sees the middle of the stripe.
+// In a pinhole image, a bar hides a red stripe. If the bar is blurred, the stripe is visible: the bar covers a strip of
+// the lens disk, and the rest of the lens sees the middle of the stripe.
 TEST_F(Layered, aBlurredBarShowsWhatItHidesFromThePinhole) {
     constexpr double bar = 8;    // width of the bar, px
     constexpr double blur = 24;  // diameter of the bar's blur, px

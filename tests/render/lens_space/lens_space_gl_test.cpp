@@ -55,7 +55,7 @@ TEST_P(LensSpace, drawsWhatPassesTheCamera) {
     EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 40);
 }
 
-// Shading at vertices equals shading at surface points where colours are linear over a triangle. On small lit
+// Shading at vertices equals shading at surface points if colours are linear over each triangle. On small lit
 // triangles, both are nearly equal.
 TEST_P(LensSpace, shadesVerticesOrSurfaces) {
     const std::string method = GetParam();
@@ -87,8 +87,8 @@ TEST_P(LensSpace, hasTheShapeOfTheAperture) {
     EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 50);
 }
 
-// Expects every ray through the grid to meet a triangle, independent of the triangle's position in the tile's list. A
-// lost triangle would leave a hole.
+// Expects every ray through the grid to meet a triangle, wherever the triangle stands in its tile's list. A lost
+// triangle would leave a hole.
 void expectWholeGrid(const Image& image) {
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 32; ++x) {
@@ -141,8 +141,8 @@ TEST_P(Models, lookAsInTheAccumulation) {
 }
 INSTANTIATE_TEST_SUITE_P(Methods, Models, testing::Values("stochastic", "line"));
 
-// Exact visibility along lens lines and the published segment buffers give the same image if no segment is dropped. Two
-// distant triangles that do not intersect fit into any buffer.
+// Exact visibility along lens lines (lines across the lens) and the published segment buffers give the same image if no
+// segment is dropped. Two separate quads that do not intersect fit into any buffer.
 TEST_F(LensSpaceAlone, exactLinesAreTheBuffersWhereNothingWasDropped) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({1, 0.5f, 0.2f, 1}), unlitMaterial({0.1f, 0.4f, 0.9f, 1})};
@@ -191,8 +191,8 @@ double errorOfSquares(const Image& reference, const Image& image, int side) {
     return std::sqrt(sum / count);
 }
 
-// Rotating the lens lines from pixel to pixel turns spokes into noise. The spokes appear in the bokeh of a bright spot
-// if few lines have the same angles in every pixel.
+// If a few lens lines (lines across the lens) have the same angles in every pixel, they are visible as spokes in the
+// bokeh of a bright spot. Rotating the lines from pixel to pixel turns the spokes into noise.
 TEST_F(LensSpaceAlone, turnedWheelsMakeNoiseOfStrobes) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({30, 30, 30, 1})};

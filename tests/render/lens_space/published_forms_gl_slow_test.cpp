@@ -1,4 +1,4 @@
-// Tests of the lens-space methods with published settings, and with alternatives to these settings.
+// Tests of the lens-space methods with the settings of the publications, and with alternatives to these settings.
 
 #include <set>
 
@@ -38,8 +38,8 @@ std::unique_ptr<SmallWorld> planks() {
     return small;
 }
 
-// A focus range makes C nonlinear inside the planks' triangles. Divided triangles reproduce it like method
-// accumulation; linear interpolation of C between the corners does not.
+// A focus range makes the circle of confusion C nonlinear inside the planks' triangles. Dividing the triangles
+// reproduces the image of method accumulation; linear interpolation of C between the corners does not.
 TEST_P(CocInterpolation, bendsOnlyInDividedTriangles) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = planks();
@@ -77,7 +77,7 @@ TEST_F(LensSpaceAlone, stochasticPixelsHaveTheirOwnPoints) {
     EXPECT_GT(values.size(), 200u);  // a repetition of 64 ray sets would give at most 64 values
 }
 
-// Returns the two spheres, one of which moves.
+// Returns twoSpheres(), one of which moves during the exposure.
 std::unique_ptr<SmallWorld> movingSpheres(bool doubleSided) {
     auto small = twoSpheres();
     small->scene.materials[0].doubleSided = doubleSided;
@@ -87,8 +87,8 @@ std::unique_ptr<SmallWorld> movingSpheres(bool doubleSided) {
     return small;
 }
 
-// Back faces of moving triangles are culled before the search, by the test over lens and time. The image does not
-// change.
+// Triangles that face away over the entire lens and exposure are culled before visibility is computed. The image does
+// not change.
 TEST_F(LensSpaceAlone, movingBacksAreCulled) {
     RenderStats front, both;
     const Image culled = lensSpaceImage("stochastic", *movingSpheres(false), 16, &front);
@@ -97,7 +97,7 @@ TEST_F(LensSpaceAlone, movingBacksAreCulled) {
     EXPECT_GE(psnrAgainst(complete, culled), 60);
 }
 
-// C may depend on the lens point: C = f(u, v).
+// Under astigmatism and coma, the circle of confusion depends on the point of the lens.
 TEST_F(LensSpaceAlone, stochasticPointsSeeAberrations) {
     const auto small = twoSpheres();
     const Image plain = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(1024)));
@@ -158,7 +158,7 @@ TEST_F(LensSpaceAlone, kappaMakesDisksUniform) {
     EXPECT_GT(middleOverRim(lensSpaceImage("line:line-weights=length", *small, 64)), 1.5);
 }
 
-// Figure 2 of Tzeng et al. 2012: several lines share a position in the pixel.
+// Figure 2 of Tzeng et al. 2012: several lens lines share a position in the pixel.
 TEST_F(LensSpaceAlone, linesShareSpatialPositions) {
     const auto small = twoSpheres();
     const FramePlan plan = planFrame(small->world, small->view, raySettings(16));
@@ -175,7 +175,7 @@ TEST_F(LensSpaceAlone, linesShareSpatialPositions) {
     }
 }
 
-// Intervals stored in 16 bits move the ends of segments by at most 1/510 of the line.
+// If the two ends of a segment are stored in 8 bits each, they move by at most 1/510 of the lens line.
 TEST_F(LensSpaceAlone, shortIntervalsChangeLittle) {
     const auto small = twoSpheres();
     const Image full = lensSpaceImage("line:resolve=published", *small, 16);
@@ -184,7 +184,7 @@ TEST_F(LensSpaceAlone, shortIntervalsChangeLittle) {
     EXPECT_GE(psnrAgainst(full, compact), 40);
 }
 
-// A bin keeps the nearest triangles of its tile and counts the others.
+// A bin is a list of fixed size that keeps the nearest triangles of a tile and counts the others.
 TEST_F(LensSpaceAlone, binsOfFixedSizeCountTheirOverflow) {
     const std::uint32_t side = 20;
     const auto small = gridInATile(side);
@@ -199,7 +199,7 @@ TEST_F(LensSpaceAlone, binsOfFixedSizeCountTheirOverflow) {
     EXPECT_EQ(figureOf(stats, "triangles beyond the size of a bin"), 0);
 }
 
-// With lighting at vertices, segments merge only if their colours agree.
+// With lighting at vertices, segments of a lens line merge only if their colours agree.
 TEST_F(LensSpaceAlone, segmentsOfDifferentColoursStayApart) {
     const auto mergedOf = [](float difference) {
         auto small = std::make_unique<SmallWorld>();

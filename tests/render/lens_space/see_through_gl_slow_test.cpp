@@ -7,7 +7,7 @@ namespace {
 
 using SeeThroughSurfaces = LensSpace;
 
-// Returns blended panes one behind another, all in one mesh, before a uniform background of light 1.
+// Returns blended panes one behind another, all in one mesh, in front of a uniform background of radiance 1.
 std::unique_ptr<SmallWorld> panes(int count, float alpha) {
     auto small = std::make_unique<SmallWorld>();
     Material pane = unlitMaterial({0, 0, 0, alpha});
@@ -47,7 +47,7 @@ TEST_P(SeeThroughSurfaces, panesLetTheirShareOfLightThrough) {
     }
 }
 
-// Alpha grows from left to right, and the surface ends where it reaches the cutoff.
+// Alpha grows from left to right. The surface is visible only where alpha is not below the cutoff.
 TEST_P(SeeThroughSurfaces, cutOutsEndWhereAlphaReachesTheCutoff) {
     const auto small = groundUnderCamera();
     Mesh& mesh = small->scene.meshes[0];

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double nearPlane = 0.1;
 
-// Returns whether the ray from the lens point p·d, d = `line.direction`, through the image position `line.place` meets
-// the triangle. Returns nullopt if the ray passes so close to an edge that rounding decides.
+// Returns whether the ray from the lens point p·d, with d = `line.direction`, through the image position `line.place`
+// meets the triangle. Returns nullopt if the ray passes so close to an edge that rounding decides.
 std::optional<bool> met(const std::array<LensVertex, 3>& corners, const LensLine& line, double p, bool front) {
     glm::dmat3 matrix(0);
     for (int i = 0; i < 3; ++i) {

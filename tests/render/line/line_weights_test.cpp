@@ -34,7 +34,7 @@ TEST(LineWeights, addUp) {
     }
 }
 
-// A spoke is a line through the lens centre. The mean light κ on the chords that the spokes have inside a region is the
+// A spoke is a line through the lens centre. The spokes' chords inside a region have a mean light κ. It equals the
 // fraction of the disk that the region covers.
 TEST(LineWeights, giveARegionItsShareOfTheDisk) {
     constexpr int lines = 20000;
@@ -61,8 +61,8 @@ TEST(LineWeights, anObstructedMiddleLetsNoLightPass) {
     EXPECT_NEAR(lightBetween(ring, 0.5, std::sqrt((0.25 + 1) / 2)), 0.25, 1e-15);
 }
 
-// Each spoke of a polygonal aperture represents an equal fraction of its area. The mean light of the spokes' parts
-// beyond a straight cut is therefore the fraction of the area beyond that cut.
+// Each spoke of a polygonal aperture represents an equal fraction of the aperture's area. Beyond a straight cut, the
+// mean light of the spokes is therefore the fraction of the area beyond the cut.
 TEST(LineSets, weighASquareByItsArea) {
     FramePlan plan;
     plan.view.lens.bladeCount = 4;

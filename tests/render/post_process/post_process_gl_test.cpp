@@ -202,7 +202,7 @@ TEST_P(PostProcesses, aTransparentBackgroundKeepsCoverage) {
         image.pixels[i + 3] = 1;
     }
     EXPECT_TRUE(partly);
-    // Three things are not linear: ten-bit storage, a bias by luminance, and negative lobes of the kernel, which are
+    // Three features are not linear: ten-bit storage, a bias by luminance, and negative lobes of the kernel, which are
     // clamped at black without a sky but stay positive on top of a sky.
     const std::string method = GetParam();
     const bool rough =
@@ -214,8 +214,8 @@ TEST_P(PostProcesses, aTransparentBackgroundKeepsCoverage) {
 
 using CircularNearField = PostProcesses;
 
-// A light just in front of the focus keeps its narrow blur beside a strongly blurred board, because pixels are
-// premultiplied by their own blur.
+// A light just in front of the focus keeps its narrow blur beside a strongly blurred board, because the colour of each
+// pixel is premultiplied by its own blur.
 TEST_P(CircularNearField, lightsThatAreHardlyBlurredKeepOutOfWideBlurs) {
     const auto small = boards(
         {{0.9, {-0.12, 0}, {0.08, 0.2}, {0, 0, 0, 1}}, {1.8, {0.1, 0}, {0.02, 0.02}, {9, 9, 9, 1}}}, glm::vec3(0));

@@ -1,4 +1,5 @@
-// Tests of alpha-blended surfaces that post-process methods blur separately from the surfaces behind them.
+// Tests of alpha-blended surfaces that post-process methods blur separately from the surfaces behind them, in groups of
+// surfaces called buckets.
 
 #include <gtest/gtest.h>
 
@@ -78,7 +79,7 @@ TEST_P(BlendedSurfaces, aSharpPaneLeavesTheWallItsBlur) {
         laidOver(inBuckets(*without, 1), glm::vec3(paneColor), [](int x) { return x < 48 ? 0.5 : 0; });
     for (const int buckets : {1, 8})
         EXPECT_LT(largestDifferenceInColumns(inBuckets(*with, buckets), expected), 2e-3) << buckets;
-    // Without buckets, the wall would stay sharp behind the pane.
+    // Without buckets, the wall stays sharp behind the pane.
     EXPECT_GT(largestDifferenceInColumns(inBuckets(*with, 0), expected, 12, 36), 0.05);
 }
 
@@ -113,7 +114,7 @@ TEST_P(BlendedSurfaces, whatStandsBeforeAPaneHidesItAndLeavesNoHalo) {
     const Image image = inBuckets(*with, 1);
     const Image expected =
         laidOver(inBuckets(*boards({board}, sky), 0), glm::vec3(paneColor), [](int x) { return x < 48 ? 0 : 0.5; });
-    // Scheuermann's image of reduced size leaks a little light
+    // the reduced image of method scheuermann leaks a little light
     const bool circular = std::string(GetParam()).starts_with("circular");
     EXPECT_LT(largestDifferenceInColumns(image, expected), circular ? 2e-3 : 0.03);
 }
@@ -166,7 +167,7 @@ TEST_P(BlendedSurfaces, haveTheirOwnBlur) {
     EXPECT_LT(largestDifferenceInColumns(inBuckets(*with, 1), expected), 2e-3);
 }
 
-// Returns the RMS difference without the border, since a pinhole image contains nothing beyond its border.
+// Returns the RMS difference, ignoring a border in which post-process methods lack light from outside the image.
 double rootMeanSquareInside(const Image& a, const Image& b, int border) {
     double sum = 0;
     for (int y = border; y < a.height - border; ++y)

@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// An object of the test's plan, with its blur in px. Objects are listed from front to back.
+// An object of a test's plan, with its blur in px. Plans list objects from front to back.
 struct Flat {
     double blur = 0;
     bool blended = true;
@@ -69,9 +69,8 @@ TEST(TransparencyBuckets, leaveOutWhatMayBeSeenThroughAnother) {
     EXPECT_EQ(transparencyBuckets(plan, 8), (Buckets{{0}}));
 }
 
-// Buckets keep the drawing order of the objects that they omit. An object beside the transmitting object stays out of
-// the buckets if it lies behind a blended object that is omitted. In a bucket, it would be drawn over that blended
-// object.
+// Objects outside the buckets are drawn before all buckets. An object that lies behind a blended object outside the
+// buckets must therefore stay outside, too. In a bucket, it would be drawn over that blended object.
 TEST(TransparencyBuckets, keepTheOrderOfWhatTheyLeaveOut) {
     FramePlan plan = planOf({{0, false, true}, {3}, {6}});
     moveRight(plan.objects[2]);
@@ -104,7 +103,7 @@ TEST(TransparencyBuckets, reachAsFarAsTheirBlur) {
     EXPECT_EQ(reach.width, 500 + 2 * (10 + 24));
     EXPECT_EQ(reach.y, 0);
     EXPECT_EQ(reach.height, 500);
-    plan.objects[1].coc.nearest = -60;  // another object, in front of the focus, has a wider blur
+    plan.objects[1].coc.nearest = -60;  // in front of the focus, the largest blur of all objects counts
     EXPECT_EQ(reachOf({0}, plan).x, 250 - 30 - 24);
     moveRight(plan.objects[0]);
     moveRight(plan.objects[0]);

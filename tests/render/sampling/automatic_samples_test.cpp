@@ -74,7 +74,8 @@ FramePlan detailedPlanOf(double blur) {
     return plan;
 }
 
-// A quarter of the samples has images of a blurred point that are twice as far apart.
+// With a quarter of the samples, the images of a blurred point are twice as far apart. They may be at most 1.25 px
+// apart.
 TEST(FourPositions, sufficeWhereAQuarterOfTheSamplesHasNoGaps) {
     for (const std::uint32_t samples : {16u, 32u, 64u})
         for (double blur = 0.5; blur < 200; blur *= 1.1)
@@ -134,8 +135,8 @@ TEST(SamplesForBlur, leaveOutWhatHasNoBound) {
     EXPECT_EQ(samplesForBlur(plan, Quality::good), 32u);
 }
 
-// Fewer than one of 1,024 samples shows a point whose blur disk has more than 1,024 times the area of the image, so
-// more samples do not help.
+// A point whose blur disk has more than 1,024 times the area of the image is visible in fewer than one of 1,024
+// samples. More samples do not help, so such a blur is ignored.
 TEST(SamplesForBlur, leaveOutWhatNoNumberResolves) {
     const FramePlan plan = planOf(0);
     const double pixels = 1.0 * plan.view.width * plan.view.height;

@@ -72,8 +72,8 @@ TEST(BlurrinessPlanes, setByHandReplaceThoseOfTheLens) {
 
 // Points of a Poisson disk keep a min distance d and leave no gap. Disks of radius d/2 around the n points lie in a
 // disk of radius 1 + d/2. They fill at most the fraction of a hexagonal packing, π/√12 (Groemer 1960). Every point of
-// the unit disk lies within d of a sample, or a candidate there would have won. Hence n·d² ≥ 1, and the disks fill more
-// than a quarter. The number of candidates is finite, so a tenth is tolerated.
+// the unit disk lies within d of a sample; otherwise, a candidate there would have become a sample. Hence n·d² ≥ 1, and
+// the disks fill more than a quarter. The number of candidates is finite, so a tenth is tolerated.
 TEST(PoissonDisk, keepsItsDistanceAndLeavesNoGap) {
     for (const std::uint32_t count : {8u, 12u, 24u, 64u}) {
         std::vector<glm::vec2> points = poissonDisk(count);

@@ -9,11 +9,11 @@ namespace {
 TEST_F(Tiles, haveTheBitsOfOnePieceAtEachKindOfLevel) {
     const auto small = fiveSpheres();
     for (const LodMode mode : {LodMode::off, LodMode::fractional, LodMode::continuous})
-        // 70 samples make two blocks.
+        // 70 samples are drawn in two blocks of at most 64 samples
         expectTheBitsOfOnePiece(*small, planWith(*small, small->view, mode, 70), lodModeName(mode));
 }
 
-// Tiles stay exact if a transmitting object shows other parts of the image, which may lie outside the tile.
+// Tiles stay exact if a transmitting object refracts parts of the image that lie outside the tile.
 TEST_F(Tiles, haveTheBitsOfOnePieceWhereGlassShowsWhatLiesElsewhere) {
     const auto small = fiveSpheres();
     Material glass;

@@ -70,8 +70,8 @@ TEST_F(Tiles, haveTheBitsOfOnePieceWhereShadowsFallIntoThem) {
     expectTheBitsOfOnePiece(*small, plan, "shadows");
 }
 
-// An image that is divided into several rasterization cells has no seams. It differs from an undivided image only
-// because each cell rounds window coordinates differently.
+// An image that is divided into several rasterization cells, each with its own viewport, has no seams. It differs from
+// an undivided image only because each cell rounds window coordinates differently.
 TEST_F(Tiles, ofSeveralCellsJoinWithoutASeam) {
     const auto small = fiveSpheres();
     const FramePlan plan = planWith(*small, small->view, LodMode::continuous, 70);

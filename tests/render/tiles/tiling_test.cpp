@@ -1,4 +1,5 @@
-// Tests of the division of a frame: bands cover the frame without overlap and fit into the available memory.
+// Tests of the division of a frame: bands (ranges of rows) cover the frame without overlap and fit into the available
+// memory.
 
 #include "render/tiles/tiling.h"
 
@@ -76,8 +77,8 @@ TEST(Tiling, onePieceIsWhatFitsWithItsPicture) {
     const std::uint64_t pixel = 12 + sumPixelBytes + wholePixelBytes;
     EXPECT_TRUE(fitsInOnePiece(needsOf(100, 100, 10'000 * pixel)));
     EXPECT_FALSE(fitsInOnePiece(needsOf(100, 100, 10'000 * pixel - 1)));
-    // An image of several rasterization cells is always divided, so that its bits do not depend on the available
-    // memory.
+    // An image of several rasterization cells (areas of at most 8192 px on a side) is always divided, so that its bits
+    // do not depend on the available memory.
     EXPECT_FALSE(fitsInOnePiece(needsOf(16384, 16, 1ull << 50)));
     TilingNeeds oneCell = needsOf(16384, 16, 1ull << 50);
     oneCell.mayUseCells = false;
