@@ -79,7 +79,7 @@ class DefocusEngine(bpy.types.RenderEngine):
             return
         result = self.begin_result(0, 0, *size, layer=depsgraph.view_layer_eval.name)
         passes = result.layers[0].passes
-        # Only the collection's foreach_set accepts arrays of vectors. One array holds the pixels of all passes in order.
+        # Only the collection's foreach_set accepts arrays of vectors. Its array has the pixels of all passes in order.
         passes.foreach_set("rect", numpy.concatenate([
             pixels.get(one.name, numpy.zeros(size[0] * size[1] * one.channels, numpy.float32)) for one in passes]))
         self.end_result(result)
