@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 class ShortOfMemory : public TileCommand {
 protected:
     static constexpr const char* size = "2400x1800";
-    // Without tiles, the frame's pixels take 880 MB; a single layer takes 50 MB of these.
+    // Without tiles, the frame's pixels take 880 MB, of which a layer (the image of one lens sample) takes 50 MB.
     static std::vector<std::string> inTiles(std::vector<std::string> more, const char* memory = "350MiB") {
         more.insert(more.end(), {"--memory", memory});
         return line(more, size, "3");

@@ -1,4 +1,4 @@
-"""Tests of the comparison of two results of one bench."""
+"""Tests of the comparison of two results of the same bench."""
 
 import csv
 import io
@@ -69,7 +69,8 @@ def test_few_runs_have_no_verdict(runs, verdict):
     assert rows["accumulation lod=off 8"][0].verdict == verdict
 
 
-# Errors count as changed from 1 %: 0.0864 dB of PSNR for the RMSE, and 0.0001 for 1 - SSIM at an SSIM of 0.99.
+# Errors count as changed if they differ by 1 %. For the RMSE, this is a PSNR difference of 0.0864 dB; for 1 - SSIM at
+# an SSIM of 0.99, it is 0.0001.
 @pytest.mark.parametrize("column, change, verdict", [
     ("rmse", {"mse": 1e-4 * 1.009**2}, "equal"), ("rmse", {"mse": 1e-4 * 1.011**2}, "farther"), ("rmse", {"mse": 1e-4 / 1.011**2}, "closer"),
     ("psnr", {"mse": 1e-4 * 1.009**2}, "equal"), ("psnr", {"mse": 1e-4 * 1.011**2}, "farther"), ("psnr", {"mse": 1e-4 / 1.011**2}, "closer"),

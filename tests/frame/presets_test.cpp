@@ -58,8 +58,8 @@ TEST(Presets, comeBeforeWhatTheySet) {
             EXPECT_LT(settingNamed("preset"), settingNamed(value.setting)) << preset.name << " " << value.setting;
 }
 
-// The plan draws, for each object, the level nearest to the object's score. The test computes the score from the plan's
-// bounding boxes and the circle-of-confusion formula.
+// For each object, the plan draws the level whose edges are nearest to the object's score times the edges of level 0,
+// by ratio. The test computes the score from the plan's bounding boxes and blur.
 TEST(TzengPlan, drawsTheLevelNearestToTheScore) {
     Request request;
     request.fishCount = 5;
