@@ -116,7 +116,7 @@ inline const Words farFocus = {"--fstop", "0.5", "--focus-distance", "8"};
 inline const Words nearFocus = {"--fstop", "0.5", "--focus-distance", "1"};
 inline const Words nearRange = {"--fstop", "0.5", "--focus-distance", "1", "--focus-range-behind", "1"};
 
-// Returns options for cases of settings that only `method` has: the method and a wide aperture.
+// Returns the options that cases of a method's own settings need: the method and a wide aperture.
 inline Words only(const char* method) {
     return {"--method", method, "--fstop", "0.5"};
 }

@@ -96,7 +96,7 @@ protected:
 
     Request options_;
     LodMetric metric_ = LodMetric::size;
-    double minLevelPop_ = 0.003;  // min RMSE of a pop of whole levels; the test proves little below
+    double minLevelPop_ = 0.003;  // min RMSE of a full level's change; else the test proves nothing
 };
 std::unique_ptr<GlContext> NoPopping::context_;
 
