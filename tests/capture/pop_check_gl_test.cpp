@@ -30,7 +30,7 @@ protected:
         return planFrame(frame_.world, view, settings);
     }
 
-    // Returns the largest pop, the image change by level switches, in a focus pull of five frames.
+    // Returns the largest pop, an image change by a switch of levels of detail, in a focus pull of five frames.
     std::optional<FramePop> popOf(LodMode lod) {
         PopCheck check(frame_.world, parseMethodUse("accumulation"), {});
         for (int i = 0; i < 5; ++i) check.note(10 + i, planAt(2.0 + 0.4 * i, lod));

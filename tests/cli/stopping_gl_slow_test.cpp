@@ -108,7 +108,8 @@ TEST_F(Stopping, theSecondThreadWritesTheImageSoFar) {
     EXPECT_EQ(readImage(folder() / "a.exr", metadata).width, 512);
 }
 
-// The time limit also ends a render within a wave, the samples drawn at once (--wave). 16 samples take seconds.
+// The time limit also ends a render within a wave, a group of samples that are drawn at once. A wave of 16 samples
+// takes seconds.
 TEST_F(Stopping, theTimeLimitEndsALargeWave) {
     warmUp(costly);
     Words words = costly;

@@ -68,7 +68,7 @@ TEST_F(Partial, mergedBlocksAreTheSingleRun) {
     }
 }
 
-// The file of a part contains only its finished blocks: their numbers, sample counts and sums.
+// A file with a part of a frame's samples has only finished blocks: their numbers, sample counts and sums.
 TEST_F(Partial, blocksHoldTheSumOfTheirSamples) {
     const auto small = fiveSpheres();
     FrameDriver driver = drawn(*small, LodMode::fractional, SampleRange{64, 150});

@@ -55,8 +55,8 @@ TEST(LevelOfDetail, isProportionalToTheBlurAndToTheReciprocalOfTheBox) {
     EXPECT_EQ(lambda({1, 75, 40}, 10), 0);
 }
 
-// With the metric `score`, λ is the level whose edges are threshold · c/d times as long as the edges of level 0. The
-// blur is c px wide, and edges of level 0 project to d px.
+// With the metric `score`, λ is the fractional level whose edges are threshold · c/d times as long as the edges of
+// level 0. The blur is c px wide, and edges of level 0 project to d px.
 TEST(LevelOfDetail, ByScoreFollowsTheBlurOverTheEdge) {
     const Pyramid pyramid = uniformPyramid();
     for (double coc = 0; coc < 90; coc += 1.3) {
