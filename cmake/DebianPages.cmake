@@ -1,5 +1,5 @@
-# Runs before cpack makes the Debian package: compresses the man page and adds Debian's changelog with the date of the
-# metainfo's release.
+# Runs before cpack makes the Debian package. Compresses the man page, and adds Debian's changelog, whose date is the
+# release date in the metainfo file.
 
 file(GLOB_RECURSE MANUAL "${CPACK_TEMPORARY_DIRECTORY}/defocus.1")
 file(GLOB_RECURSE COPYRIGHT "${CPACK_TEMPORARY_DIRECTORY}/copyright")

@@ -84,6 +84,6 @@ if(DEFOCUS_TESTS AND NOT DEFOCUS_SANITIZE)
     defocus_library(defocus_other ${OTHER_KIND})
     defocus_install_library(defocus_other ${OTHER_KIND} FALSE)
 endif()
-# `cmake --install` needs both. scripts/demo and scripts/test build the program and not everything.
+# `cmake --install` needs the library, too, after a build of the program alone, as in scripts/demo and scripts/test.
 add_dependencies(defocus_program defocus)
 install(TARGETS defocus_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program)

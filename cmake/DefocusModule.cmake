@@ -7,11 +7,11 @@ include(CheckIPOSupported)
 add_library(defocus_options INTERFACE)
 target_compile_features(defocus_options INTERFACE cxx_std_20)
 target_compile_options(defocus_options INTERFACE -Wall -Wextra -Wpedantic -Wnon-virtual-dtor)
-if(NOT CMAKE_UNITY_BUILD)  # in unity builds, a local name may shadow another file's helper
+if(NOT CMAKE_UNITY_BUILD)  # in unity builds, a local name may shadow a function of another source file
     target_compile_options(defocus_options INTERFACE -Wshadow)
 endif()
-# In unity builds, GCC's garbage collection takes up to a fifth of the compile time; start it only at a larger heap
-# size.
+# In unity builds, GCC's garbage collection takes up to a fifth of the compile time. A larger initial heap delays the
+# first collection.
 if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(defocus_options INTERFACE --param=ggc-min-heapsize=1000000)  # kB
 endif()

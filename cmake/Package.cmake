@@ -28,7 +28,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL program)
-# OpenGL is loaded while the program runs, so dpkg-shlibdeps does not see it.
+# The program loads OpenGL at run time, so dpkg-shlibdeps does not detect the dependency.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libgl1, libgl1-mesa-dri")
 if(DEFOCUS_PYTHON)
     list(APPEND CPACK_COMPONENTS_ALL python)
@@ -41,6 +41,6 @@ set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "fonts-dejavu-core")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "ffmpeg, blender")
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-# Debian's policy asks for a compressed man page and for a changelog.
+# Debian's policy requires a compressed man page and a changelog.
 set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_LIST_DIR}/DebianPages.cmake")
 include(CPack)

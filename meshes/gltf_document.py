@@ -1,4 +1,4 @@
-"""Builds glTF documents and their surfaces for the scripts of this folder. Needs only Python's standard library."""
+"""Builds glTF documents and surfaces for the scripts in this folder. Needs only Python's standard library."""
 
 import base64
 import json
@@ -70,13 +70,13 @@ class Document:
         return len(self.json["meshes"]) - 1
 
     def checks(self, light, dark):
-        """Adds a repeating texture of 2 x 2 checks, which stay sharp if magnified. light, dark: sRGB bytes."""
+        """Adds a repeating 2 x 2 checker texture without filtering for magnification. light, dark: sRGB bytes."""
         rows = b"".join(b"\0" + bytes(first) + bytes(second) for first, second in ((light, dark), (dark, light)))
         self.json["samplers"].append({"magFilter": 9728, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497})
         return self.texture(png(2, 2, rows), sampler=0)
 
     def texture(self, image, **fields):
-        """A texture of a PNG image."""
+        """Adds a texture with a PNG image and returns its index."""
         self.json["bufferViews"].append({"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(image)})
         self.binary += image + b"\0" * (-len(image) % 4)
         self.json["images"].append({"mimeType": "image/png", "bufferView": len(self.json["bufferViews"]) - 1})
@@ -84,7 +84,7 @@ class Document:
         return len(self.json["textures"]) - 1
 
     def slide(self, name, moves):
-        """Adds a clip of one second that moves nodes at constant speed. moves: {node: (x, y, z)}, distances in m."""
+        """Adds an animation of one second that moves nodes evenly. moves: {node: (x, y, z)}, distances in m."""
         times = self.accessor([(0.0,), (1.0,)], FLOAT, "SCALAR", bounds=True)
         samplers, channels = [], []
         for node, move in moves.items():
@@ -103,7 +103,7 @@ class Document:
         return number
 
     def camera(self, yfov, aspect, lens, **placement):
-        """Adds a camera. lens: its extras, which are fStop, focusDistance (m) and horizontalAperture (mm)."""
+        """Adds a camera. lens: the camera's extras: fStop, focusDistance (m) and horizontalAperture (mm)."""
         self.json["cameras"].append({"name": "Camera", "type": "perspective", "extras": lens,
                                      "perspective": {"yfov": round(yfov, 7), "aspectRatio": aspect, "znear": 0.01}})
         self.node("Camera", camera=len(self.json["cameras"]) - 1, **placement)
@@ -136,9 +136,9 @@ class Document:
 
 
 def png(width, height, rows, palette=b""):
-    """Returns a PNG with 8 bits per channel: RGB, or indices of a palette. rows: bytes of all rows, each after its filter
-    byte. palette: RGB bytes of the colours.
+    """Returns a PNG with 8 bits per channel: RGB, or palette indices.
 
+    rows: bytes of all rows, each preceded by its filter byte. palette: RGB bytes of the colours, if any.
     The PNG is not compressed, so that its bytes don't depend on the version of zlib.
     """
     def chunk(kind, data):
@@ -206,7 +206,7 @@ def smooth_normals(surface):
 def add_tube(surface, rings, color):
     """Adds a closed tube. rings: lists of points from head to tail; the first and the last ring are a single point.
 
-    The points of a ring run from the back over the left flank.
+    Faces point outwards if the points of each ring run counter-clockwise, seen from the head.
     """
     first = len(surface.positions)
     around = len(rings[1])

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Writes a ball of 100,000 thin curled strands, half a million triangles: visibility that no depth image has. It is too
-large to be kept here. Python's standard library only.
+"""Writes a ball of 100,000 thin curled strands, half a million triangles. Depth images cannot represent its visibility.
+
+The file is too large for the repository. Needs only Python's standard library.
 
     hairball.py OUT.glb [STRANDS]
 """
@@ -13,7 +14,7 @@ import sys
 sys.dont_write_bytecode = True
 from gltf_document import Document, Surface, linear, quaternion
 
-STRANDS_A_MESH = 9000  # a strand has 7 vertices, so that indices fit into 16 bits
+STRANDS_A_MESH = 9000  # strands per mesh: with 7 vertices per strand, indices fit into 16 bits
 PARTS = 3
 
 
@@ -27,7 +28,7 @@ def unit(a):
 
 
 def add_strand(surface, source):
-    """Adds a strand that leads outwards from inside the ball, curls about its direction and tapers to a point."""
+    """Adds a strand that grows outwards from inside the ball, curls about its axis and tapers to a point."""
     z = source.uniform(-1, 1)
     around = source.uniform(0, 2 * math.pi)
     radius = math.sqrt(1 - z * z)

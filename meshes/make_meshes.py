@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Writes the small test scenes of this folder: bokeh.gltf, staircase.gltf, thicket.gltf, fish.glb, chess.glb,
-artefact-*.gltf, swimmers.glb, reed.glb, painted-blur.glb and orrery.glb. Python's standard library only.
+artefact-*.gltf, swimmers.glb, reed.glb, painted-blur.glb and orrery.glb. Needs only Python's standard library.
 
     make_meshes.py            write them beside this file
-    make_meshes.py --check    compare them with what would be written; exit code 1 when one differs
+    make_meshes.py --check    compare the existing files with the output instead; exit code 1 if a file differs
 
 Output is deterministic: coordinates are rounded to 10 micrometres before they are stored.
 """
@@ -69,7 +69,7 @@ def bokeh():
 
 
 def checkered(surface, origin, right, up, cells_right, cells_up, light, dark):
-    """Adds a rectangle of checks, each with its own vertices. right, up: vectors along the complete sides."""
+    """Adds a checkered rectangle; each check has its own vertices. right, up: vectors along the full sides."""
     normal = (right[1] * up[2] - right[2] * up[1], right[2] * up[0] - right[0] * up[2],
               right[0] * up[1] - right[1] * up[0])
 
@@ -137,7 +137,7 @@ def leaf(length, width):
 
 
 def thicket():
-    """Returns thicket.gltf: a checkered court behind leaves near the lens, most of them beside the image."""
+    """Returns thicket.gltf: a checkered court behind leaves near the lens, most of which lie outside the image."""
     document = Document()
     stone = document.material("Stone", pbrMetallicRoughness={"metallicFactor": 0, "roughnessFactor": 0.7})
     pale, red, blue = linear(222, 214, 200), linear(176, 68, 44), linear(44, 92, 132)
@@ -153,7 +153,7 @@ def thicket():
         checkered(pillar, (-a, 1.1, a), (2 * a, 0, 0), (0, 0, -2 * a), 2, 2, pale, pale)
         document.node(f"Pillar {k + 1}", mesh=document.mesh(f"Pillar {k + 1}", pillar, stone), translation=[x, -0.7, z])
 
-    # Leaves around the axis at multiples of the golden angle, with a gap in the middle. Each points inwards.
+    # Leaves around the view axis at multiples of the golden angle, with a gap in the middle. Each leaf points inwards.
     green = document.material("Leaf", doubleSided=True,
                               pbrMetallicRoughness={"metallicFactor": 0, "roughnessFactor": 0.5})
     mesh = document.mesh("Leaf", leaf(0.022, 0.008), green)
@@ -161,7 +161,7 @@ def thicket():
     for k in range(count):
         turn = 137.507764 * k
         depth = 0.08 + 0.07 * ((k * 0.754877666) % 1)
-        reach = math.sqrt(1.3 + 4.2 * (k + 0.5) / count)  # distance from the axis; 1 is the image's left or right edge
+        reach = math.sqrt(1.3 + 4.2 * (k + 0.5) / count)  # distance from the view axis; 1: left and right image edge
         x, y = (0.36 * depth * reach * f(math.radians(turn)) for f in (math.cos, math.sin))
         document.node(f"Leaf {k + 1}", mesh=mesh, translation=[round(x, 5), round(y, 5), round(-depth, 5)],
                       rotation=quaternion((0, 0, 1), turn + 90 + 40 * math.sin(5.0 * k)))
@@ -372,7 +372,7 @@ QUEEN = FOOT + [(0.9, 3.6), (0.78, 5.8), (1.0, 6.0), (1.45, 6.12), (1.47, 6.32),
 
 
 def turned(profile, size, around=40):
-    """Returns a surface of revolution about the y axis. Its profile is a smooth curve (Catmull and Rom 1974)."""
+    """Returns a surface of revolution about the y axis. Its profile is a Catmull-Rom spline (1974)."""
     curve = []
     for i in range(len(profile) - 1):
         p = [profile[max(0, min(len(profile) - 1, i + k))] for k in (-1, 0, 1, 2)]
@@ -396,8 +396,8 @@ def turned(profile, size, around=40):
 def chess(cells=1):
     """Returns chess.glb: pieces on a board from 0.2 m to 1.4 m in evening light, with small lamps far behind.
 
-    The clip moves a queen close to the camera, and the bishop behind it. cells: number of cells along each side of the
-    board; each cell has two triangles.
+    The animation moves a queen close to the camera, and the bishop behind it. cells: number of grid cells, of two
+    triangles each, along each side of the board.
     """
     document = Document()
     cm = 0.01

@@ -1,5 +1,7 @@
-"""orrery.glb: a brass model of the planets on a wooden table, with strings of lamps behind it. In its clip of five seconds,
-"Run", six painted planets and their wheels turn about the sun."""
+"""Makes orrery.glb: a brass model of the planets on a wooden table, with strings of lamps behind it.
+
+In the animation "Run" of five seconds, six painted planets and their wheels turn about the sun.
+"""
 
 import math
 
@@ -9,8 +11,8 @@ SECONDS = 5.0
 KEYS = 8  # key frames per second
 TURN = 2 * math.pi
 
-# Each planet: name; radius, distance from the sun and height in m; start angle and angle of the clip in degrees; turns
-# about its own axis.
+# Each planet: name; radius, distance from the sun and height in m; start angle about the sun and rotation during the
+# animation in degrees; turns about its own axis.
 PLANETS = [
     ("Mercury", 0.006, 0.042, 0.100, 200, 330, 2),
     ("Venus", 0.010, 0.067, 0.094, 330, 190, 1),
@@ -25,7 +27,7 @@ PLANETS = [
 
 
 def chance(*numbers):
-    """A number from 0 to 1 that depends on some integers, the same on every machine."""
+    """Returns a pseudo-random number from 0 to 1 that depends only on the given integers."""
     value = 0x9e3779b9
     for number in numbers:
         value = ((value ^ (number & 0xffffffff)) * 0x85ebca6b) & 0xffffffff
@@ -34,7 +36,7 @@ def chance(*numbers):
 
 
 def noise(x, y, columns, seed):
-    """Smooth noise from 0 to 1 on a grid of integers; x repeats after `columns`."""
+    """Returns value noise from 0 to 1, interpolated between integer grid points; it repeats in x after `columns`."""
     i, j = math.floor(x), math.floor(y)
     u, v = (t * t * (3 - 2 * t) for t in (x - i, y - j))
     a, b, c, d = (chance((i + k) % columns, j + m, seed) for m in (0, 1) for k in (0, 1))
@@ -42,13 +44,13 @@ def noise(x, y, columns, seed):
 
 
 def clouds(x, y, columns, seed, octaves=4):
-    """Noise of several scales, from 0 to 1."""
+    """Returns fractal noise from 0 to 1: a sum of octaves of noise()."""
     total = sum(noise(x * 2 ** k, y * 2 ** k, columns * 2 ** k, seed + k) / 2 ** k for k in range(octaves))
     return total / (2 - 2 / 2 ** octaves)
 
 
 def gradient(stops, at):
-    """The colour at a place from 0 to 1 between (place, colour) stops, in sRGB bytes."""
+    """Returns the sRGB bytes of a gradient at `at`, from 0 to 1. stops: list of (position, colour)."""
     for (a, first), (b, second) in zip(stops, stops[1:]):
         if at <= b:
             share = max(0.0, (at - a) / (b - a))
@@ -57,7 +59,7 @@ def gradient(stops, at):
 
 
 def painting(width, height, value, stops):
-    """A PNG whose texels are a value from 0 to 1 of (column, row), coloured by a gradient of 256 steps."""
+    """Returns a PNG that shows value(column, row), from 0 to 1, in the colours of a gradient of 256 steps."""
     rows = b"".join(b"\0" + bytes(min(255, max(0, round(255 * value(x, y)))) for x in range(width))
                     for y in range(height))
     return png(width, height, rows, b"".join(bytes(gradient(stops, i / 255)) for i in range(256)))
@@ -82,7 +84,7 @@ def bands(x, y):
 
 
 def cratered(seed):
-    """Returns the values of a planet with craters."""
+    """Returns a function value(column, row) for painting() that draws a planet with craters."""
     craters = [(256 * chance(k, seed), 128 * chance(k, seed, 1), 2 + 7 * chance(k, seed, 2) ** 3) for k in range(46)]
 
     def value(x, y):
@@ -119,7 +121,7 @@ PAINT = {
 
 
 def engraving(x, y):
-    """The dial: rings and marks of degrees, from 0 (brass) to 1 (black)."""
+    """Returns the value of the dial's texture at (x, y): rings and degree marks, from 0 (brass) to 1 (black)."""
     across, along = (x - 255.5) / 256, (y - 255.5) / 256
     radius, angle = math.hypot(across, along), math.degrees(math.atan2(along, across)) % 360
     line = 0.0
@@ -145,7 +147,10 @@ def grain(x, y):
 
 
 def lathe(surface, profile, around, sharp=35):
-    """Turns a profile of (radius, height) from top to bottom about the y axis. Edges of more than `sharp` degrees stay."""
+    """Adds a surface of revolution about the y axis. Edges sharper than `sharp` degrees are not smoothed.
+
+    profile: list of (radius, height), from top to bottom.
+    """
     directions = []
     for (r0, y0), (r1, y1) in zip(profile, profile[1:]):
         length = math.hypot(r1 - r0, y1 - y0)
@@ -172,7 +177,7 @@ def lathe(surface, profile, around, sharp=35):
 
 
 def ball(around, rows):
-    """A sphere of radius 1 with texture coordinates: u eastwards, v from the north pole."""
+    """Returns a unit sphere with texture coordinates: u grows eastwards, v from the north pole."""
     surface = Surface()
     for j in range(rows + 1):
         polar = math.pi * j / rows
@@ -190,7 +195,7 @@ def ball(around, rows):
 
 
 def rod(radius, length):
-    """A rod along +x from the axis, with rounded edges at its end."""
+    """Returns a rod from the origin along +x, with a bevelled end."""
     upright = Surface()
     lathe(upright, [(0, length), (0.7 * radius, length), (radius, length - 0.4 * radius), (radius, 0)], 14)
     surface = Surface()
@@ -201,7 +206,9 @@ def rod(radius, length):
 
 
 def add_plate(surface, outline, hole, low, high):
-    """A plate between two heights, its outline and its hole given by as many (x, z) points, counter-clockwise from above."""
+    """Adds a plate with a hole, between two heights. Outline and hole have equal numbers of (x, z) points,
+    counter-clockwise as seen from above.
+    """
     for (x0, z0), (x1, z1) in zip(outline, outline[1:] + outline[:1]):
         length = math.hypot(x1 - x0, z1 - z0)
         surface.quad([(x0, low, z0), (x1, low, z1), (x1, high, z1), (x0, high, z0)],
@@ -225,7 +232,7 @@ def circle(radius, count):
 
 
 def wheel(teeth, radius, thickness):
-    """A gear wheel with a rim, five spokes and a hub."""
+    """Returns a gear wheel with a rim, five spokes and a hub."""
     surface = Surface()
     depth = 3.8 * radius / teeth
     outline = []
@@ -257,8 +264,8 @@ class Orrery:
     def __init__(self):
         self.document = Document()
         self.samplers, self.channels = [], []
-        self.times = None  # accessor of the key times
-        self.shared = None  # vertices and indices of a sphere
+        self.times = None  # accessor of the key frames' times
+        self.shared = None  # vertices and indices of the sphere that all globes share
         self.brass = self.plain("Brass", (0.88, 0.62, 0.28), 0.24, 1)
         self.steel = self.plain("Steel", (0.72, 0.72, 0.74), 0.3, 1)
 
@@ -277,7 +284,7 @@ class Orrery:
             extensions={"KHR_materials_emissive_strength": {"emissiveStrength": strength}})
 
     def turns(self, node, begin, degrees):
-        """Turns a node about the y axis, evenly over the clip."""
+        """Adds a rotation of a node about the y axis at constant speed during the animation."""
         count = round(SECONDS * KEYS)
         if self.times is None:
             self.times = self.document.accessor([(as_float32(SECONDS * i / count),) for i in range(count + 1)], FLOAT,
@@ -382,7 +389,7 @@ class Orrery:
         self.globe("Moon", 0.0034, self.plain("Moon", (0.62, 0.6, 0.57), 0.5, 0), orbit, translation=[0.022, 0.004, 0])
 
     def add_lamps(self):
-        """Strings of small lamps that hang behind the table."""
+        """Adds strings of small lamps that hang behind the table."""
         colors = [[1.0, 0.56, 0.2], [1.0, 0.66, 0.3], [1.0, 0.44, 0.16], [1.0, 0.74, 0.46], [0.36, 0.58, 1.0],
                   [1.0, 0.3, 0.26]]
         bulb = ball(12, 6)

@@ -1,4 +1,4 @@
-"""Makes painted-blur.glb, whose vertices have a blur in mm on the sensor. Needs only Python's standard library."""
+"""Makes painted-blur.glb, whose vertices have attributes with the blur diameter in mm on the sensor."""
 
 import math
 
@@ -40,8 +40,8 @@ def globe(radius, stacks, slices):
 def painted_blur():
     """Returns painted-blur.glb: a ball in focus whose blur grows towards its top (_COC_OFFSET), and lamps around it.
 
-    All lamps are at the same depth, and each has its own blur: on the left _COC, on the right a blur that shrinks to 0
-    while the shutter is open (_COC_0, _COC_1).
+    All lamps have the same depth, but different blurs. Lamps on the left have _COC. The blur of lamps on the right
+    shrinks to 0 while the shutter is open (_COC_0, _COC_1).
     """
     document = Document()
     matt = document.material("Matt", pbrMetallicRoughness={"metallicFactor": 0, "roughnessFactor": 0.55})

@@ -1,9 +1,9 @@
-"""Lamps whose blur grows away from the middle of the image: the radial example of Munkberg and others 2012, as printed.
+"""Writes lamps whose blur grows away from the middle of the image: the radial example of Munkberg and others (2012).
 
     meshes/radial_blur.py FILE
 
-C(p) = (a + b·w)·(1 + x² + y²) for the clip position p = (x, y, w) of a vertex, in m. a + b·w is the blur of the thin lens; the
-vertices have the second factor as _COC_SCALE. Python's standard library only.
+The blur at the clip-space position p = (x, y, w) of a vertex is C(p) = (a + b·w)·(1 + x² + y²). The first factor is the
+blur of the thin lens. The vertex attribute _COC_SCALE is the second factor. Needs only Python's standard library.
 """
 
 import math
@@ -14,7 +14,7 @@ from gltf_document import Document, Surface
 from painted_blur import painted
 
 DISTANCE = 2.0  # distance in m from the camera to the lamps
-TANGENT = (0.36, 0.27)  # tangents of half the field of view, horizontally and vertically
+TANGENT = (0.36, 0.27)  # tan(θx/2) and tan(θy/2) of the horizontal and vertical fields of view
 
 
 def radial_scale(x, y, w=DISTANCE):

@@ -1,6 +1,6 @@
 """Makes swimmers.glb: six fish of two kinds that swim for five seconds under water, among swaying kelp.
 
-Each fish has a skin of ten joints, and each plant a morph target. The clip "Swim" moves all of them.
+Each fish has a skin of ten joints, and each plant has a morph target. The animation "Swim" moves all of them.
 """
 
 import bisect
@@ -41,13 +41,13 @@ WIDTH = [(0, 0), (0.04, 0.013), (0.12, 0.021), (0.25, 0.027), (0.4, 0.028), (0.5
 
 
 def flank(a, turn):
-    """Returns a point of the skin. a: 0 at the snout, 1 at the tail's root. turn: radians from the back to the left."""
+    """Returns a point of the skin. a: 0 at the snout, 1 at the tail's root. turn: radians from the back towards +z."""
     up = math.cos(turn)
     return 0.11 - 0.22 * a, (curve(BACK, a) if up > 0 else curve(BELLY, a)) * up, curve(WIDTH, a) * math.sin(turn)
 
 
 def add_sheet(surface, root, tip, rays, steps, color, thickness=0.0012, lift=None):
-    """Adds a fin with two sides, closed at its edges. root, tip: border curves, functions from [0, 1] to points."""
+    """Adds a two-sided fin that is closed at its edges. root, tip: border curves, functions from [0, 1] to points."""
     first = len(surface.positions)
     places = {}
     for side in (1, -1):
@@ -100,12 +100,14 @@ def add_eye(surface, side):
 
 
 def fish(skin, fin):
-    """Returns a fish. skin(a, height): colour of the body, height −1 … 1. fin(v): colour of fins, root 0, edge 1."""
+    """Returns a fish. skin(a, height): colour of the body, with `a` from snout (0) to tail (1) and height from −1 to 1.
+    fin(v): colour of the fins, from root (0) to edge (1).
+    """
     surface = Surface()
     around, along = 40, 84
     rings = [[flank(0, 0)]]
     for i in range(1, along):
-        a = 0.5 - 0.5 * math.cos(math.pi * i / along)  # rings are denser at both ends
+        a = 0.5 - 0.5 * math.cos(math.pi * i / along)  # spaces rings more densely at both ends
         rings.append([flank(a, 2 * math.pi * k / around) for k in range(around)])
     rings.append([(-0.111, 0, 0)])
 
@@ -182,7 +184,7 @@ def rounded(values):
 
 
 class Clip:
-    """An animation. Channels with the same number of keys per second share their key times."""
+    """A glTF animation. Channels with the same number of keys per second share their key times."""
 
     def __init__(self, document, name):
         self.document, self.samplers, self.channels, self.inputs = document, [], [], {}
@@ -196,7 +198,7 @@ class Clip:
         rows = []
         for time in times:
             value = [rounded(function(time))]
-            if cubic:  # a key: in-tangent, value, out-tangent
+            if cubic:  # each cubic key has an in-tangent, a value and an out-tangent
                 tangent = rounded(derivative(function, time))
                 value = [tangent] + value + [tangent]
             rows += value
@@ -206,9 +208,9 @@ class Clip:
 
 
 def swim(clip, path, joints, beat, phase, start, velocity, sway):
-    """Adds the channels of a fish that swims along a wavy line from `start` (m) with `velocity` (m/s).
+    """Adds the channels of a fish that swims along a wavy path from `start` (m) with `velocity` (m/s).
 
-    A wave runs along the body from head to tail, `beat` times a second. sway: amplitude of the line, m.
+    A wave runs along the body from head to tail `beat` times per second. sway: amplitude of the path in m.
     """
     def place(time):
         turn = 2 * math.pi * (0.22 * time + phase)
@@ -268,7 +270,7 @@ def add_school(document, clip):
 
 
 def kelp(number):
-    """Returns blades that grow from one place, and the largest displacement of each vertex by the current (m)."""
+    """Returns the blades of a plant, and the largest displacement of each vertex by the water current in m."""
     surface, sway = Surface(), []
     for blade in range(6):
         chance = math.sin(12.9898 * (blade + 7 * number)) * 43758.5453 % 1

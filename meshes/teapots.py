@@ -1,10 +1,10 @@
-"""Three teapots on a checkered floor, with lamps behind them: near, in focus and far. For pictures of line samples.
+"""Writes a scene for figures of line sampling: a near, a sharp and a far teapot on a checkered floor, before lamps.
 
     meshes/teapots.py FILE [--steps N]
 
 The teapots have the control points of Martin Newell's teapot (1975): two Bézier patches each for handle and spout, and
-a profile for body and lid. The profile is turned around its axis exactly, without patches. N: parts of each Bézier
-curve (default 6, which gives 2,300 triangles per teapot). Python's standard library only.
+a profile for body and lid, which are exact surfaces of revolution without patches. N: segments of each Bézier curve
+(default 6, which gives 2,300 triangles per teapot). Needs only Python's standard library.
 """
 
 import argparse
@@ -14,15 +14,15 @@ import pathlib
 from gltf_document import Document, Surface, linear, quaternion, smooth_normals
 from make_meshes import checkered
 
-# Radius and height of the control points of lid, gap and body, from the knob to the middle of the bottom. Four points are
-# a Bézier curve, two are a line. The curves of one list are smooth where they meet.
+# Control points (radius, height) of lid, gap and body, from the knob to the middle of the bottom. Four points are a
+# Bézier curve, and two are a line. The curves of one list join smoothly.
 PROFILES = [
     [[(0, 3.15), (0.8, 3.15), (0, 2.85), (0.2, 2.7)], [(0.2, 2.7), (0.4, 2.55), (1.3, 2.55), (1.3, 2.4)]],
     [[(1.3, 2.4), (1.4, 2.4)]],
     [[(1.4, 2.4), (1.3375, 2.53125), (1.4375, 2.53125), (1.5, 2.4)], [(1.5, 2.4), (1.75, 1.875), (2, 1.35), (2, 0.9)],
      [(2, 0.9), (2, 0.45), (1.5, 0.225), (1.5, 0.15)], [(1.5, 0.15), (1.5, 0.075), (1.425, 0), (0, 0)]]]
-# Control points of a bent tube: two opposite points (x, z) of its outline in the middle plane, and half its width. Rows 0
-# to 3 and 3 to 6 are Bézier patches.
+# Control points of a bent tube. Each row has two opposite points (x, z) of its outline in the plane of symmetry, and
+# half its width. Rows 0 to 3 and rows 3 to 6 are Bézier patches.
 HANDLE = [((-1.6, 2.025), (-1.5, 2.25), 0.3), ((-2.3, 2.025), (-2.5, 2.25), 0.3), ((-2.7, 2.025), (-3, 2.25), 0.3),
           ((-2.7, 1.8), (-3, 1.8), 0.3), ((-2.7, 1.575), (-3, 1.35), 0.3), ((-2.5, 1.125), (-2.65, 0.9375), 0.3),
           ((-2, 0.9), (-1.9, 0.6), 0.3)]
@@ -40,7 +40,7 @@ def bezier(points, t):
 
 
 def add_grid(surface, rings):
-    """Adds the triangles between closed rings with equal numbers of points. Triangles without an area are left out."""
+    """Adds the triangles between closed rings with equal numbers of points. Degenerate triangles are omitted."""
     first, around = len(surface.positions), len(rings[0])
     for ring in rings:
         surface.positions += [(SCALE * x, SCALE * z, -SCALE * y) for x, y, z in ring]  # y is up in glTF
@@ -53,12 +53,12 @@ def add_grid(surface, rings):
 
 
 def along(curves, steps):
-    """Returns points along Bézier curves that follow one another. steps: parts of each curve."""
+    """Returns points along consecutive Bézier curves. steps: number of segments per curve."""
     return [bezier(curve, step / steps) for number, curve in enumerate(curves) for step in range(number > 0, steps + 1)]
 
 
 def add_turned(surface, curves, steps):
-    """Adds the surface of a profile that turns around the z axis."""
+    """Adds the surface of revolution of a profile about the z axis."""
     angles = [2 * math.pi * i / (4 * steps) for i in range(4 * steps)]
     add_grid(surface, [[(radius * math.cos(angle), radius * math.sin(angle), height) for angle in angles]
                        for radius, height in along(curves, steps if len(curves[0]) == 4 else 1)])
@@ -78,7 +78,7 @@ def add_bent_tube(surface, rows, steps):
 
 
 def teapot(steps=6):
-    """Returns the surface of a teapot, whose bottom is at the origin."""
+    """Returns the surface of a teapot with the middle of its bottom at the origin."""
     surface = Surface()
     for curves in PROFILES:
         add_turned(surface, curves, steps)

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Writes an object of thin parts, which is hard to simplify. Too large to be kept here. Python's standard library only.
+"""Writes an object of thin parts, which is hard to simplify. The file is too large for the repository.
 
     thin_parts.py wires|leaves|relief|lattice OUT.gltf
 
-wires: a cage of round wires; leaves: a shrub of curved sheets; relief: a plate with raised letters; lattice: beams of a cube.
+wires: a cage of round wires; leaves: a shrub of curved sheets; relief: a plate with raised and sunk letters;
+lattice: beams along the edges of a grid of cubes.
+Needs only Python's standard library.
 """
 
 import math
@@ -27,7 +29,7 @@ def cross(a, b):
 
 
 def along(origin, *terms):
-    """Returns the origin plus the sum of all (factor, vector)."""
+    """Returns the origin plus the sum of factor · vector over all terms (factor, vector)."""
     return tuple(origin[axis] + sum(factor * vector[axis] for factor, vector in terms) for axis in range(3))
 
 
@@ -55,7 +57,7 @@ def add_wire(surface, points, radius, color, around=8, closed=False):
 
 
 def wires(surface):
-    """Meridians, parallels and a coil, 0.006 to 0.012 thick in a cage of size 2."""
+    """Adds a cage of size 2 around a coil. Its wires follow meridians and parallels and are 0.006 to 0.012 thick."""
     def on_cage(turn, height):
         width = 0.35 + 0.65 * math.sin(math.pi * min(max(height, 0), 1)) ** 0.6
         return (width * math.cos(turn), 2 * height - 1, width * math.sin(turn))
@@ -87,7 +89,7 @@ def add_leaf(surface, root, direction, length, color, steps=5):
 
 
 def leaves(surface):
-    """2,200 leaves of 0.05 to 0.11 on 60 twigs, in a shrub of size 2."""
+    """Adds a shrub of size 2: 60 twigs with 2,160 leaves, each 0.05 to 0.11 long."""
     source = random.Random(1845)
     for twig in range(60):
         height = 1 - 2 * (twig + 0.5) / 60
@@ -111,7 +113,7 @@ LETTERS = {  # rows of five pixels for each letter, from the top
 
 
 def relief(surface, columns=320, rows=160):
-    """A round-edged plate of 2 by 1 with raised and sunk letters of 0.03; strokes are 0.05 wide with narrow slopes."""
+    """Adds a plate of 2 by 1 with rounded edges. Letters are raised or sunk by 0.03, with strokes 0.05 wide."""
     text = ("BOKEH", "FOCUS", "DEFOC")
 
     def ink(x, y):
@@ -143,7 +145,7 @@ def relief(surface, columns=320, rows=160):
 
 
 def lattice(surface, cells=5, parts=10):
-    """The square beams of 5 x 5 x 5 cells, 0.02 thick and finely divided, slightly bent."""
+    """Adds slightly bent beams, 0.024 thick, along the edges of a grid of 5 x 5 x 5 cubes in a cube of size 2."""
     def bent(p):
         return along(p, (0.04 * math.sin(2.1 * p[1]), (1, 0, 0)), (0.04 * math.sin(1.7 * p[2]), (0, 1, 0)))
     for axis in range(3):

@@ -1,7 +1,7 @@
-"""The camera of a scene as options of the program.
+"""Converts the camera of a scene to options of the program.
 
-Blender's camera can be shifted, and can render a part of the picture. The program's camera cannot. The program therefore
-draws a larger picture around the optical axis, the canvas, and Blender's picture is a part of it.
+Blender can shift the camera, and can render only a part of the picture. The program can do neither, so it draws a
+larger picture centred on the optical axis, the canvas. Blender's picture is a part of the canvas.
 """
 
 import dataclasses
@@ -12,11 +12,11 @@ from .failure import Failure
 
 @dataclasses.dataclass
 class View:
-    """The canvas and Blender's picture in it. Lengths in pixels; y points up from the lower edge of the canvas."""
+    """Sizes of the canvas, which the program draws, and of the part that Blender shows, in pixels; y points up."""
 
     width: int  # size of the canvas
     height: int
-    x: int  # lower left corner of Blender's picture in the canvas
+    x: int  # lower left corner of Blender's picture, from the lower left corner of the canvas
     y: int
     picture_width: int
     picture_height: int
@@ -30,7 +30,7 @@ def frame_size(render):
 
 
 def border(render):
-    """Returns the left, right, lower and upper edge in pixels of the part of the frame that is rendered."""
+    """Returns the left, right, lower and upper edges of the rendered part of the frame, in pixels."""
     width, height = frame_size(render)
     if not render.use_border:
         return 0, width, 0, height
@@ -51,7 +51,10 @@ def fit_is_horizontal(camera, width, height):
 
 
 def margin(shift):
-    """Returns (canvas pixels to add, pixels from the canvas's edge to the frame) for a shift in pixels, to 1/4 px."""
+    """Returns how many pixels a camera shift adds to the canvas, and how many of these precede the frame.
+
+    The shift, in pixels, may be negative; it is rounded to the nearest half pixel.
+    """
     halves = round(2 * shift)
     return abs(halves), max(halves, 0)
 
@@ -63,7 +66,7 @@ def view_of(camera, render):
         raise Failure(f"The camera '{camera.name}' is {kind}; Defocus needs a perspective camera")
     width, height = frame_size(render)
     horizontal = fit_is_horizontal(camera, width, height)
-    # sensor_height counts for a vertical fit only: an automatic fit puts sensor_width along the longer side.
+    # Blender uses sensor_height only with a vertical fit; an automatic fit puts sensor_width along the longer side.
     sensor = camera.sensor_height if camera.sensor_fit == "VERTICAL" else camera.sensor_width
     sensor_width = sensor if horizontal else sensor * width / height
 
@@ -75,7 +78,7 @@ def view_of(camera, render):
 
 
 def focus_distance(camera_object):
-    """Returns the distance in m of the focus plane along the view axis."""
+    """Returns the distance from the camera to the focus plane along the view axis, in m."""
     dof = camera_object.data.dof
     if dof.focus_object is None:
         return dof.focus_distance
@@ -97,8 +100,8 @@ def camera_words(camera_object, view):
     words += ["--fstop", f"{dof.aperture_fstop:.7g}", "--focus-distance", f"{max(focus_distance(camera_object), 1e-5):.7g}m",
               "--anamorphic-ratio", f"{dof.aperture_ratio:.7g}"]
     if dof.aperture_blades >= 3:
-        # At rotation 0, Blender's aperture has the middle of an edge at its right, the program's aperture has a corner
-        # there.
+        # At rotation 0, the rightmost point of the aperture is the middle of an edge in Blender, but a corner in the
+        # program.
         rotation = math.degrees(dof.aperture_rotation) + 180 / dof.aperture_blades
         words += ["--blades", str(dof.aperture_blades), "--blade-rotation", f"{rotation:.7g}"]
     return words

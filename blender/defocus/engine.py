@@ -17,7 +17,7 @@ from .passes import passes_of, read_passes, words_for
 from .preferences import find_program
 from .scratch import new_folder
 
-pictures = {}  # last picture of a (scene, view layer): (pixels of each pass, texts, width, height)
+pictures = {}  # picture_key() → last picture: (pixels of each pass, metadata texts, width, height)
 reports = {}  # scene name → lines about everything that the last export left out
 
 
@@ -46,7 +46,7 @@ class DefocusEngine(bpy.types.RenderEngine):
         return on_main_thread(function, self.test_break)
 
     def render_frame(self, depsgraph):
-        """Returns the pixels of each pass (name → array of all values), the texts for the metadata, and the View."""
+        """Renders a frame. Returns the pixels of each pass (name → flat array), the metadata texts, and the View."""
         scene = depsgraph.scene_eval
         found = find_program()
         with new_folder("render", tempfile.TemporaryDirectory) as folder:
@@ -79,7 +79,7 @@ class DefocusEngine(bpy.types.RenderEngine):
             return
         result = self.begin_result(0, 0, *size, layer=depsgraph.view_layer_eval.name)
         passes = result.layers[0].passes
-        # Only foreach_set of the collection accepts arrays of vectors. Its array has the pixels of all passes in order.
+        # Only the collection's foreach_set accepts arrays of vectors. Its array has the pixels of all passes in order.
         passes.foreach_set("rect", numpy.concatenate([
             pixels.get(one.name, numpy.zeros(size[0] * size[1] * one.channels, numpy.float32)) for one in passes]))
         self.end_result(result)

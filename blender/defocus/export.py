@@ -1,4 +1,4 @@
-"""Exports a scene for the program: a glTF file, an environment map, and options. Needs the main thread."""
+"""Exports a scene for the program: a glTF file, an environment map, and options. Must run on the main thread."""
 
 import contextlib
 import dataclasses
@@ -22,7 +22,7 @@ EXPORTER = "io_scene_gltf2"
 
 @dataclasses.dataclass
 class Export:
-    words: list  # scene and options for the program
+    words: list  # scene file and options, as command-line arguments of the program
     view: object  # camera.View
     notes: list  # one line for each item that is not exported
 
@@ -53,13 +53,13 @@ def lighting_option():
 
 
 def reason_of(error):
-    """Returns the line of an operator's error that names the cause: the last one of its traceback."""
+    """Returns the last line of an operator's traceback, which names the cause of the error."""
     lines = [line for line in str(error).splitlines() if line.strip() and not line.startswith(("Location:", " "))]
     return lines[-1].removeprefix("Error: ") if lines else "it gave no reason"
 
 
 def export_gltf(scene, file):
-    """Writes a scene as glTF. Throws Failure with the exporter's last line if it fails."""
+    """Writes a scene as glTF. If that fails, throws Failure with the last line of the exporter's message."""
     if EXPORTER not in bpy.context.preferences.addons:
         raise Failure("Blender's glTF exporter is off; turn on the add-on 'Import-Export: glTF 2.0 format'")
     said = io.StringIO()
@@ -77,7 +77,7 @@ def export_gltf(scene, file):
 
 
 def light_words(copy):
-    """Returns the sizes of the lights. The program has one angle for all suns, and one radius for all other lights."""
+    """Returns the light size options. The program has one angle for all suns and one radius for all other lights."""
     words = []
     for sizes, option, factor, what in ((copy.light_angles, "--light-angle", 180 / math.pi, "sun lights have different angles"),
                                         (copy.light_radii, "--light-radius", 1, "point and spot lights have different radii")):
@@ -96,10 +96,11 @@ def exported_file(depsgraph, camera, view, folder):
 
 
 def export(depsgraph, folder, poses=(), for_view=False, is_film=False):
-    """Exports the evaluated scene of a depsgraph and returns an Export. Its files are in `folder`; those of a film in another one.
+    """Exports the evaluated scene of a depsgraph into `folder` and returns an Export.
 
-    poses: the poses at the frames of exposure_of (motion.poses_during); none: no motion blur.
-    is_film: use the file of an earlier frame if only objects, camera, lens or world have changed.
+    poses: poses during the exposure, from motion.poses_during(); empty for no motion blur.
+    is_film: whether the frame belongs to an animation. The glTF file is then in the animation's folder, and is reused
+    if only object poses, camera, lens or world have changed.
     """
     scene = depsgraph.scene_eval
     if scene.camera is None:

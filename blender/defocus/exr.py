@@ -1,4 +1,4 @@
-"""Reads the program's EXR files: one part of scan lines, stored or compressed as ZIP.
+"""Reads the program's EXR files: a single part of scan lines, uncompressed or ZIP-compressed.
 
 Blender's Python has no reader for channels of a multi-layer file. Source of the format: OpenEXR File Layout, openexr.com.
 """
@@ -12,17 +12,17 @@ import numpy
 from .failure import Failure
 
 TYPES = {0: numpy.dtype("<u4"), 1: numpy.dtype("<f2"), 2: numpy.dtype("<f4")}
-LINES = {0: 1, 2: 1, 3: 16}  # compression → number of lines in a block, for uncompressed, ZIPS and ZIP files
+LINES = {0: 1, 2: 1, 3: 16}  # compression (none, ZIPS, ZIP) → scan lines per block
 
 
 def text_at(data, place):
-    """Returns the text that ends with a zero byte, and the place behind it."""
+    """Returns the zero-terminated text at the offset `place`, and the offset after its zero byte."""
     end = data.index(b"\0", place)
     return data[place:end].decode(), end + 1
 
 
 def read_header(data):
-    """Returns the attributes (name → bytes) and the place behind them."""
+    """Returns the attributes (name → bytes), and the offset after them."""
     if data[:4] != b"\x76\x2f\x31\x01":
         raise Failure("the picture is not an EXR file")
     attributes, place = {}, 8
@@ -46,7 +46,7 @@ def channels_of(attribute):
 
 
 def unpacked(block, size):
-    """Returns the bytes of a block of ZIP compression: differences of bytes, even bytes before odd ones."""
+    """Decompresses a ZIP block, which stores the differences between bytes, with all even bytes before the odd ones."""
     if len(block) == size:
         return block
     steps = numpy.frombuffer(zlib.decompress(block), numpy.uint8).astype(numpy.int64)
@@ -58,7 +58,7 @@ def unpacked(block, size):
 
 
 def read(file):
-    """Returns the channels (name → height × width floats, row 0 at the bottom) and the texts among the attributes."""
+    """Returns the channels (name → height × width floats, row 0 at the bottom) and the text attributes."""
     try:
         with open(file, "rb") as opened:
             data = opened.read()

@@ -1,8 +1,8 @@
-"""The exceptions of this add-on."""
+"""Exceptions of this add-on."""
 
 
 class Failure(Exception):
-    """One line for Blender's report: what failed and what to do."""
+    """An error. Its message is one line for Blender's report: what failed and what to do."""
 
 
 class Cancelled(Exception):

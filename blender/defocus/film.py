@@ -1,7 +1,7 @@
-"""One export for the frames of an animation in which only objects, camera and lens move.
+"""Reuses the exported file for all frames of an animation between which only poses, camera or lens change.
 
-Blender makes a depsgraph for each frame and tells nothing of the frames before. The frames are therefore compared by a
-hash of all that the exporter writes, except for the poses of objects.
+Blender makes a depsgraph for each frame, without information about earlier frames. Frames are therefore compared by a
+hash of everything that the exporter writes except object poses.
 """
 
 import hashlib
@@ -42,7 +42,7 @@ def mesh_hash(mesh):
 
 
 def signature_of(depsgraph):
-    """Returns a hash of the exported scene without the poses of objects that a node of glTF can hold."""
+    """Returns a hash of the exported scene without object poses, except sheared ones, which no glTF node can store."""
     digest, meshes = hashlib.blake2b(), {}
     scene = depsgraph.scene_eval
     camera = scene.camera.evaluated_get(depsgraph).data
@@ -50,7 +50,7 @@ def signature_of(depsgraph):
     for instance in depsgraph.object_instances:
         thing = instance.object
         if not instance.show_self or thing.type not in {"MESH", "LIGHT"}:
-            continue  # Blender also lists the mesh of a curve or text as an instance
+            continue  # such as curves and texts; Blender also lists their meshes as instances
         digest.update(repr((instance_key(instance), thing.type)).encode())
         if thing.type == "LIGHT":
             digest.update(repr([tuple(value) if name == "color" else value for name in (*LIGHT_VALUES, "angle", "shadow_soft_size")

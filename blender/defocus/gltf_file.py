@@ -1,4 +1,4 @@
-"""The glTF file of the exporter: the user's names, the poses of its nodes, and their motion."""
+"""Edits the exporter's glTF file: restores the user's names, and writes the poses and motion of its nodes."""
 
 import copy
 import dataclasses
@@ -15,8 +15,8 @@ LIGHTS = "KHR_lights_punctual"
 class GltfFile:
     folder: str  # folder of the file, its buffers and its images
     content: dict
-    nodes: list  # (index of a node, key of its instance, whether the exporter turns it)
-    words: list  # options of the program that hold for all frames
+    nodes: list  # (node index, key of its instance, whether the exporter rotates its axes)
+    words: list  # options of the program that are the same for all frames
     notes: list  # one line for each item that is not exported
 
     @property
@@ -24,7 +24,7 @@ class GltfFile:
         return os.path.join(self.folder, NAME)
 
     def write(self, now, seconds, poses):
-        """Writes the file with the poses `now`, and with the motion through `poses` in `seconds`; returns further options."""
+        """Writes the file with the poses `now` and an animation through `poses` over `seconds`; returns the options."""
         content = copy.deepcopy(self.content)
         for index, key, turned in self.nodes:
             if key in now:
@@ -39,7 +39,7 @@ class GltfFile:
 
 
 def restore_names(content, scene_copy):
-    """Gives nodes, their data and materials the user's names, which messages and options of the program use."""
+    """Restores the user's names of nodes, their data and materials, because messages and options refer to them."""
     lights = content.get("extensions", {}).get(LIGHTS, {}).get("lights")
     for node in content.get("nodes", []):
         node["name"] = scene_copy.names.get(node["name"], node["name"])

@@ -1,6 +1,7 @@
 """Calls functions on Blender's main thread.
 
-F12 renders on a thread of its own. Operators such as the exporter, and new data-blocks, need the main thread.
+Blender renders on a separate thread, but operators, such as the exporter, and the creation of data-blocks need the main
+thread.
 """
 
 import threading
@@ -13,9 +14,10 @@ SECONDS_BETWEEN_CHECKS = 0.1
 
 
 def on_main_thread(function, is_cancelled):
-    """Returns function() of the main thread; exceptions are passed on.
+    """Calls function() on the main thread and returns its result; its exceptions are raised here.
 
-    Throws Cancelled if is_cancelled() before the function begins: the main thread may wait for this one to end.
+    Throws Cancelled if is_cancelled() is true before the call begins. The main thread may then wait for the calling
+    thread to end, so the call would never begin.
     """
     if threading.current_thread() is threading.main_thread():
         return function()

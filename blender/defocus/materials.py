@@ -1,10 +1,10 @@
-"""What of the materials of a scene glTF cannot hold."""
+"""Reports the parts of materials that glTF cannot represent, and copies animated materials."""
 
 import os
 
 import bpy
 
-# Nodes that Blender's glTF exporter understands between an input of a Principled BSDF and an image.
+# Types of nodes that Blender's glTF exporter supports between an image and an input of a Principled BSDF.
 EXPORTED_NODES = {"TEX_IMAGE", "MAPPING", "UVMAP", "TEX_COORD", "NORMAL_MAP", "SEPRGB", "SEPARATE_COLOR", "MIX_RGB", "MIX", "RGB", "VALUE",
                   "VERTEX_COLOR", "ATTRIBUTE", "MATH", "REROUTE", "INVERT", "GROUP", "GROUP_INPUT", "RGBTOBW"}
 SHADERS = {"BSDF_PRINCIPLED", "EMISSION", "BACKGROUND"}
@@ -12,7 +12,7 @@ INPUTS = ("Base Color", "Metallic", "Roughness", "Normal", "Alpha", "Emission", 
 
 
 def upstream(socket, seen):
-    """Returns all nodes that an input depends on."""
+    """Adds all nodes that an input depends on to `seen`, and returns it."""
     for link in socket.links:
         if link.from_node not in seen:
             seen.add(link.from_node)
@@ -34,7 +34,7 @@ def missing_images(material):
 
 
 def material_notes(material):
-    """Returns a line for each part of a material that is not exported."""
+    """Returns a message for each part of a material that is not exported."""
     if not material.use_nodes or material.node_tree is None:
         return []
     output = material.node_tree.get_output_node("ALL")
@@ -69,7 +69,7 @@ def changes_with_time(material):
 def posed_material(material, evaluated):
     """Returns a copy of a material with the values of its evaluated nodes.
 
-    Blender's exporter reads the original material, which need not have the values of the rendered frame.
+    Blender's exporter reads original materials, whose animated values may belong to another frame.
     """
     posed = material.copy()
     for data in (posed, posed.node_tree):

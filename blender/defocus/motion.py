@@ -1,4 +1,4 @@
-"""Motion blur: the paths of objects and camera while the shutter is open, as an animation in the glTF file."""
+"""Exports motion blur: an animation in the glTF file moves objects and camera while the shutter is open."""
 
 import base64
 import math
@@ -6,14 +6,14 @@ import struct
 
 from mathutils import Quaternion
 
-SEGMENTS = 4  # number of straight segments of a path
-# The exporter turns cameras and lights, because they look along other axes in glTF.
+SEGMENTS = 4  # straight segments per path
+# The exporter rotates cameras and lights, because they look along a different axis in glTF's coordinate system.
 TURNED = Quaternion((math.sqrt(0.5), -math.sqrt(0.5), 0, 0))
 FLOAT = 5126  # glTF's component type for floats
 
 
 def exposure_of(scene):
-    """Returns (time in s that the shutter is open, frames from opening to closing); (0, []) without motion blur."""
+    """Returns the exposure time in s and the frame numbers at which to sample it; (0, []) without motion blur."""
     render = scene.render
     if not render.use_motion_blur or render.motion_blur_shutter <= 0:
         return 0, []
@@ -24,7 +24,7 @@ def exposure_of(scene):
 
 
 def instance_key(instance):
-    """Returns a key of an instance that holds at all times."""
+    """Returns a key that identifies an instance in all frames."""
     parent = instance.parent.name if instance.parent else ""
     return instance.object.name, parent, tuple(instance.persistent_id)
 
@@ -39,7 +39,7 @@ def poses_at(depsgraph):
 
 
 def poses_during(engine, depsgraph, frames):
-    """Returns the poses at each of the frames, and sets the depsgraph to the frame that it had."""
+    """Returns the poses at each of the frames. The depsgraph returns to its original frame."""
     if not frames:
         return []
     scene = depsgraph.scene
@@ -87,7 +87,10 @@ def add_accessor(content, rows, minimum=None, maximum=None):
 
 
 def add_motion(content, nodes, seconds, poses):
-    """Adds an animation of `seconds` to glTF content. nodes: list of (index of a node, key of its instance, is it turned)."""
+    """Adds an animation of `seconds` to glTF content, and returns whether any node moves.
+
+    nodes: list of (node index, key of its instance, whether the exporter rotates its axes).
+    """
     samplers, channels = [], []
     times = None
     for node, key, turned in nodes:

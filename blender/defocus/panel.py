@@ -1,4 +1,4 @@
-"""Panels: the settings of the engine, and Blender's own panels that apply to it."""
+"""Adds panels with the engine's settings, and shows Blender's own panels that apply to the engine."""
 
 import textwrap
 
@@ -9,10 +9,10 @@ from .passes import PROPERTIES
 
 LETTER_WIDTH = 6.5  # mean width of a letter in Blender's font, px
 
-# Eevee's panels for data that the engine exports.
+# Panels that Blender shows for Eevee, with data that this engine exports.
 EEVEE_PANELS = {"EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "EEVEE_MATERIAL_PT_settings", "EEVEE_WORLD_PT_surface",
                 "DATA_PT_EEVEE_light"}
-# Panels of Blender's internal engine for features that this engine does not have.
+# Blender's generic panels (engine BLENDER_RENDER) for features that this engine lacks.
 NOT_FOR_US = {"VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "RENDER_PT_gpencil", "RENDER_PT_freestyle", "RENDER_PT_stereoscopy",
               "DATA_PT_light", "DATA_PT_area", "DATA_PT_spot", "DATA_PT_falloff_curve"}
 
@@ -90,7 +90,7 @@ CLASSES = (DEFOCUS_PT_sampling, DEFOCUS_PT_motion, DEFOCUS_PT_report, DEFOCUS_PT
 
 
 def blender_panels():
-    """Returns Blender's panels that apply to this engine."""
+    """Yields Blender's own panels that apply to this engine."""
     for panel in bpy.types.Panel.__subclasses__():
         engines, name = getattr(panel, "COMPAT_ENGINES", ()), panel.__name__
         if name in EEVEE_PANELS or ("BLENDER_RENDER" in engines and name not in NOT_FOR_US):

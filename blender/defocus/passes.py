@@ -1,4 +1,4 @@
-"""Passes: what Blender wants, the program's layers for them, and the pixels of each."""
+"""Blender's render passes: which ones a view layer needs, the program's layers for them, and their pixels."""
 
 import dataclasses
 
@@ -6,8 +6,8 @@ import numpy
 
 from . import exr
 
-FAR = 1e10  # Blender's depth of the background, m
-CRYPTOMATTE_PASSES = 3  # passes of two ranks each; the program's files have six ranks
+FAR = 1e10  # depth of the background in Blender, m
+CRYPTOMATTE_PASSES = 3  # each pass stores two of the six ranks in the program's files
 
 
 @dataclasses.dataclass
@@ -15,7 +15,7 @@ class Pass:
     name: str  # name in Blender and in the program's files with --exr-names blender
     channels: str
     kind: str  # Blender's type of the pass's values
-    wanted: str = ""  # property of the view layer; empty: always
+    wanted: str = ""  # property of the view layer that enables the pass; empty: always enabled
     layer: str = ""  # layer name in --exr-layers; empty: none
 
 
@@ -37,7 +37,7 @@ PROPERTIES = list(dict.fromkeys(one.wanted for one in ALL if one.wanted))
 
 
 def passes_of(view_layer):
-    """Returns the passes that a view layer wants; without a view layer (None), those that are always there."""
+    """Returns the passes that a view layer enables; for None, the passes that are always enabled."""
     return [one for one in ALL if not one.wanted or (view_layer is not None and getattr(view_layer, one.wanted))]
 
 
@@ -45,12 +45,12 @@ def words_for(passes):
     """Returns the options of the program for the passes."""
     layers = list(dict.fromkeys(one.layer for one in passes if one.layer))
     words = ["--exr-layers", ",".join(layers), "--exr-names", "blender"] if layers else []
-    # Blender's depth pass has the depths of a pinhole image, so that Blender's nodes can blur by it.
+    # Blender's depth pass has the depths of a pinhole image, from which compositor nodes can compute blur.
     return words + (["--aov", "depth"] if any(one.name == "Depth" for one in passes) else [])
 
 
 def in_blender(name, pixels):
-    """Returns the values of a pass in Blender's axes, with z up; the program's are glTF's, with y up."""
+    """Converts the values of a pass from the program's axes (glTF, y up) to Blender's axes (z up)."""
     if name in ("Position", "Normal"):
         return numpy.stack([pixels[..., 0], -pixels[..., 2], pixels[..., 1]], -1)
     if name == "Depth":
@@ -59,8 +59,8 @@ def in_blender(name, pixels):
 
 
 def read_passes(passes, file, depth_file, view):
-    """Returns the values of each pass (name → array) in the part of the canvas that Blender shows, and the texts of
-    Cryptomatte for the picture's metadata."""
+    """Returns the values of each pass (name → flat array), cropped to the part that Blender shows, and the texts that
+    Cryptomatte needs in the picture's metadata."""
     channels, texts = exr.read(file)
     if any(one.name == "Depth" for one in passes):
         depth = exr.read(depth_file)[0]

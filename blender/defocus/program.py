@@ -1,4 +1,4 @@
-"""Runs the program: progress, cancelling, messages."""
+"""Runs the program: reports its progress and messages, and cancels it on request."""
 
 import os
 import queue
@@ -20,7 +20,7 @@ def read_lines(stream, lines):
 
 
 def stop(process):
-    """Ends a process: asks first, and kills the process if it does not stop."""
+    """Ends a process with SIGTERM, or kills it if it does not stop within SECONDS_TO_STOP."""
     process.send_signal(signal.SIGTERM)
     try:
         process.wait(SECONDS_TO_STOP)
@@ -32,8 +32,8 @@ def stop(process):
 def run(words, folder, on_progress, is_cancelled):
     """Runs the program in `folder` and returns its messages.
 
-    on_progress(stage, share) gets a share from 0 to 1. Throws Failure with the program's last message if it fails, and
-    Cancelled.
+    on_progress(stage, share) receives a share from 0 to 1. If the program fails, throws Failure with its last message.
+    Throws Cancelled once is_cancelled() is true.
     """
     try:
         process = subprocess.Popen(words, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,

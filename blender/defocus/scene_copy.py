@@ -1,6 +1,6 @@
-"""A copy of the evaluated scene, which Blender's glTF exporter can write as it will be rendered.
+"""Copies the evaluated scene, so that Blender's glTF exporter writes it as a render shows it.
 
-The exporter takes modifiers, instances and visibility from the viewport. The copy takes them from the render.
+The exporter itself would use the viewport's modifiers, instances and visibility. The copy has those of the render.
 """
 
 import contextlib
@@ -19,17 +19,17 @@ CAMERA_VALUES = ("lens", "sensor_width", "sensor_height", "sensor_fit", "clip_st
 
 
 class SceneCopy:
-    """The copied scene, the user's names of its objects, and a line for each thing that is not exported."""
+    """A copied scene, the user's names of its objects, and a message for each item that is not exported."""
 
     def __init__(self):
         self.scene = bpy.data.scenes.new("defocus export")
         self.material_names = {}  # name of a copied material → the user's name
-        self.names = {}  # name of an object of the copy → the user's name
-        self.moving = {}  # name of an object of the copy → (key of its instance, whether the exporter turns it)
+        self.names = {}  # name of a copied object → the user's name
+        self.moving = {}  # name of a copied object → (key of its instance, whether the exporter rotates its axes)
         self.notes = []
         self.light_angles = set()  # angles of the sun lights, rad
         self.light_radii = set()  # radii of the point and spot lights, m
-        self.made = []  # data-blocks to remove
+        self.made = []  # data-blocks to remove with the copy
         self.materials = {}  # material that changes with time → its copy
         self.meshes = {}  # key of the evaluated data → mesh
         self.noted = set()
@@ -55,7 +55,7 @@ class SceneCopy:
 
 
 def is_sheared(matrix):
-    """Returns whether a matrix has no decomposition into translation, rotation and scale, which a node of glTF needs."""
+    """Returns whether a matrix is sheared, which translation, rotation and scale of a glTF node cannot represent."""
     x, y, z = matrix.to_3x3().col
     scale = max(x.length, y.length, z.length) ** 2
     return max(abs(x.dot(y)), abs(y.dot(z)), abs(z.dot(x))) > 1e-5 * scale
@@ -65,16 +65,16 @@ def new_mesh(thing, depsgraph):
     """Returns a new mesh of an evaluated object."""
     source = thing.original.evaluated_get(depsgraph)
     if thing.type != "MESH" or source.data.as_pointer() == thing.data.as_pointer():
-        # With preserve_all_data_layers, Blender would evaluate the modifiers again, without the changes of edit mode.
+        # preserve_all_data_layers=True would evaluate the modifiers again, without unfinished changes in edit mode.
         return bpy.data.meshes.new_from_object(source, preserve_all_data_layers=False, depsgraph=depsgraph)
-    mesh = thing.data.copy()  # mesh that a node tree creates and instances
+    mesh = thing.data.copy()  # geometry nodes have created and instanced this mesh
     for index, material in enumerate(mesh.materials):
         mesh.materials[index] = material.original if material else None
     return mesh
 
 
 def material_of(copy, material, depsgraph):
-    """Returns a material, or a copy with the values of the frame if it changes with time."""
+    """Returns the material; if it is animated, returns a copy with its values in the current frame."""
     if not changes_with_time(material):
         return material
     if material not in copy.materials:
@@ -161,7 +161,7 @@ def add_camera(copy, camera, view):
     for name, value in camera.data.items():
         data[name] = value
     data.shift_x = data.shift_y = 0
-    # The canvas determines the field of view; its width on the sensor is known.
+    # The field of view is the canvas's, whose width on the sensor is known.
     data.sensor_fit, data.sensor_width = "HORIZONTAL", view.sensor_width
     copy.scene.camera = copy.add(camera.name, data, camera.matrix_world.copy(), turned=True)
     render = copy.scene.render
@@ -171,7 +171,7 @@ def add_camera(copy, camera, view):
 
 @contextlib.contextmanager
 def scene_copy(depsgraph, camera, view):
-    """Yields a SceneCopy of what a render of the depsgraph shows; removes it at the end."""
+    """Yields a SceneCopy of the objects that a render of the depsgraph shows, and finally removes the copy."""
     copy = SceneCopy()
     try:
         add_camera(copy, camera, view)

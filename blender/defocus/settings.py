@@ -1,4 +1,4 @@
-"""Render settings of a scene, and the options of the program that they stand for."""
+"""Render settings of a scene, and their conversion to options of the program."""
 
 import shlex
 
@@ -61,9 +61,9 @@ class DefocusSettings(bpy.types.PropertyGroup):
 
 
 def setting_words(settings, for_view=False):
-    """Returns the options of the program. Values at their default are left to the preset.
+    """Returns the options of the program. Settings at their default give no option, so that the preset can set them.
 
-    A choice that this version does not know, of a file of another version, is empty and stands for the default.
+    If a file of another version stores an unknown choice, Blender returns an empty string, which means the default.
     """
     words = []
     preset = settings.preset if settings.preset != "none" else ""

@@ -12,7 +12,7 @@ from .preferences import find_program
 from .scratch import new_folder
 
 SECONDS_BETWEEN_CHECKS = 1.0
-views = []  # open views: (process, its folder)
+views = []  # open windows: (process, folder with its files)
 
 
 class DefocusView(bpy.types.Operator):
@@ -34,7 +34,7 @@ class DefocusView(bpy.types.Operator):
 
 
 def open_view(depsgraph):
-    """Opens the scene in the window, and returns the notes of its export. Throws Failure or OSError."""
+    """Opens the scene in the program's window, and returns the export's warnings. Throws Failure or OSError."""
     found = find_program()
     folder = new_folder("view")
     try:
@@ -47,7 +47,7 @@ def open_view(depsgraph):
 
 
 def remove_closed():
-    """Removes the folders of closed windows. Returns the time in s until the next call; None: no window is open."""
+    """Removes the folders of closed windows. Returns the seconds until the next call, or None if no window is open."""
     for view in list(views):
         if view[0].poll() is not None:
             shutil.rmtree(view[1], ignore_errors=True)

@@ -1,4 +1,4 @@
-"""The world of a scene as an environment map for the program."""
+"""Converts the world of a scene to an environment map for the program."""
 
 import math
 import os
@@ -10,7 +10,7 @@ PLAIN_SIZE = (16, 8)  # size in px of the map for a world of one colour
 
 
 def linked_node(socket):
-    """Returns the node that is linked to a socket, behind reroutes; None if there is none."""
+    """Returns the node that is linked to a socket, skipping reroute nodes; None if there is none."""
     while socket is not None and socket.is_linked:
         node = socket.links[0].from_node
         if node.type != "REROUTE":
@@ -20,7 +20,7 @@ def linked_node(socket):
 
 
 def background_node(world):
-    """Returns the Background node of a world; None if the world has another surface."""
+    """Returns the Background node of a world; None if its surface is not a Background node."""
     output = world.node_tree.get_output_node("ALL")
     node = linked_node(output.inputs["Surface"]) if output else None
     return node if node and node.type == "BACKGROUND" else None
@@ -65,7 +65,7 @@ def write_exr(pixels, file):
 
 
 def environment_of(world, notes):
-    """Returns (pixels, rotation in radians) of a world; adds what is not exported to `notes`."""
+    """Returns the pixels and the rotation (radians) of a world's map. Adds a note for each omitted feature."""
     color, strength = (0, 0, 0), 1
     if world is not None and not world.use_nodes:
         color = world.color
@@ -94,12 +94,12 @@ def environment_of(world, notes):
 def world_words(world, transparent, folder, notes):
     """Writes the environment map into `folder` and returns the options of the program.
 
-    The map is needed for a black world, too: without a map, the program lights a scene without lights by its own ones.
+    A black world also needs a map: without a map, the program adds default lighting to scenes that have no lights.
     """
     pixels, rotation = environment_of(world, notes)
     file = os.path.join(folder, "world.exr")
     write_exr(pixels, file)
-    # The middle of a map lies in the direction +x of Blender and in the direction -z of glTF, which is Blender's +y.
+    # The map's centre points along +x in Blender, but along -z in glTF, which is Blender's +y.
     degrees = math.remainder(-90 - math.degrees(rotation), 360)
     words = ["--environment", file, "--environment-rotation", f"{degrees:.7g}"]
     return words + ["--background", "none"] if transparent else words

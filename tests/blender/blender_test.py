@@ -1,6 +1,7 @@
-"""Runs the add-on's tests in Blender: blender_test.py PROGRAM [TEST …]. Exits with 77, skipped, without Blender 3.4 or later.
+"""Runs the add-on's tests in Blender: blender_test.py PROGRAM [TEST …].
 
-The add-on is installed from the package of scripts/blender-package, in a folder of its own.
+Exits with 77 (skipped) without Blender 3.4 or later. Installs the package that scripts/blender-package builds in a
+temporary folder.
 """
 
 import os

@@ -1,6 +1,7 @@
-"""Runs the tests in this folder inside Blender; blender_test.py starts it. Words after -- are parts of tests' names.
+"""Runs the tests in this folder inside Blender, started by blender_test.py.
 
-Results go to stderr, because Blender writes its progress to stdout.
+Arguments after -- select tests by parts of their names. Results go to stderr, because Blender writes its progress to
+stdout.
 """
 
 import os

@@ -1,4 +1,4 @@
-"""Renders in Blender, and measures of pictures. Arrays are height × width × 4; row 0 is the bottom row."""
+"""Renders and measures pictures in Blender. Pictures are arrays of height × width × 4; row 0 is the bottom row."""
 
 import math
 import pathlib
@@ -16,7 +16,7 @@ def say(text):
 
 
 def save_png(file, *rows):
-    """Writes pictures in [0, 1] as a PNG file; each row is a list of pictures of one size."""
+    """Writes pictures with values in [0, 1] side by side into a PNG file. rows: lists of pictures of equal size."""
     strip = numpy.concatenate([numpy.concatenate(row, axis=1) for row in rows[::-1]])
     strip = numpy.dstack([strip, numpy.ones(strip.shape[:2])]).astype(numpy.float32)
     image = bpy.data.images.new("strip", strip.shape[1], strip.shape[0])
@@ -27,7 +27,7 @@ def save_png(file, *rows):
 
 
 def rendered(engine, scene):
-    """Returns the picture of an engine as linear, premultiplied colours."""
+    """Renders the scene with an engine. Returns linear, premultiplied colours."""
     scene.render.engine = engine
     scenes.show_for(engine)
     with tempfile.TemporaryDirectory(prefix="picture-") as folder:
@@ -58,13 +58,13 @@ def psnr(first, second):
 
 
 def crossings(row, steepness=0.0, level=0.5):
-    """Returns the positions in px where a row of a mask crosses a level, in steps of at least `steepness`."""
+    """Returns the positions in px where a mask row crosses `level` between pixels that differ by >= `steepness`."""
     steps = numpy.flatnonzero((row[:-1] < level) != (row[1:] < level))
     return [i + (level - row[i]) / (row[i + 1] - row[i]) for i in steps if abs(row[i + 1] - row[i]) >= steepness]
 
 
 def silhouette_distance(first, second):
-    """Returns the largest distance in px, along rows and columns, between the outlines of two pictures' alpha."""
+    """Returns the largest distance in px, along rows and columns, between the alpha outlines of two pictures."""
     largest, count = 0, 0
     for one, other in ((first[..., 3], second[..., 3]), (first[..., 3].T, second[..., 3].T)):
         for row, other_row in zip(one, other):
@@ -77,10 +77,10 @@ def silhouette_distance(first, second):
 
 
 def disk(light):
-    """Returns ((x, y), radius) in px of a disk by its moments: the variance of a disk along an axis is radius² / 4."""
+    """Returns (centre, radius) of a disk in px. The radius r follows from the variance along an axis, which is r²/4."""
     x, y = numpy.arange(light.shape[1]), numpy.arange(light.shape[0])
     across, up = light.sum(0) / light.sum(), light.sum(1) / light.sum()
     centre = across @ x, up @ y
-    # Along each axis, a pixel adds the variance 1/12 px².
+    # The width of a pixel adds a variance of 1/12 px² along each axis.
     variance = across @ (x - centre[0]) ** 2 + up @ (y - centre[1]) ** 2 - 2 / 12
     return centre, math.sqrt(2 * variance)

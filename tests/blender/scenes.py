@@ -1,4 +1,4 @@
-"""Scenes of the add-on's tests, made with Blender's Python. Lengths in m, directions in Blender's axes (z up)."""
+"""Builds the scenes of the add-on's tests. Lengths are in m, and directions are in Blender's axes (z up)."""
 
 import math
 
@@ -7,7 +7,7 @@ import numpy
 
 
 def empty_scene(width=256, height=192):
-    """Returns an empty scene that both engines render alike: no bounces, a box of one pixel as filter, no clamping."""
+    """Returns an empty scene that both engines render alike: no bounces, a pixel-sized box filter, and no clamping."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=False)
     scene = bpy.context.scene
     render, cycles = scene.render, scene.cycles
@@ -25,7 +25,7 @@ def empty_scene(width=256, height=192):
 def checker(name, first, second, cells=12, size=768):
     """Returns a packed image of a checker board; colours are sRGB-encoded.
 
-    Texels are small, because Cycles interpolates encoded colours, and glTF linear ones.
+    Texels are small, because Cycles interpolates encoded colours, whereas glTF interpolates linear colours.
     """
     cell = numpy.arange(size) * cells // size
     colors = numpy.where(((cell[:, None] + cell) % 2 == 0)[..., None], (*first, 1), (*second, 1)).astype(numpy.float32)
@@ -36,9 +36,9 @@ def checker(name, first, second, cells=12, size=768):
 
 
 def diffuse(name, image=None, color=(0.8, 0.8, 0.8)):
-    """Returns a material of Lambert's law: a Diffuse BSDF for Cycles, and a Principled BSDF for the glTF exporter.
+    """Returns a Lambertian material: a Diffuse BSDF for Cycles, and a Principled BSDF for the glTF exporter.
 
-    Cycles' Principled BSDF has another diffuse reflection (Burley 2012) than glTF. `show_for` chooses the BSDF.
+    The diffuse reflection of Cycles' Principled BSDF (Burley 2012) differs from glTF's. show_for() chooses the BSDF.
     """
     material = bpy.data.materials.new(name)
     material.use_nodes = True
@@ -56,7 +56,7 @@ def diffuse(name, image=None, color=(0.8, 0.8, 0.8)):
 
 
 def show_for(engine):
-    """Links each material's output to the Diffuse BSDF for Cycles, to the Principled BSDF for Defocus."""
+    """Links each material's output to its Diffuse BSDF for Cycles, or to its Principled BSDF for Defocus."""
     for material in bpy.data.materials:
         nodes = material.node_tree.nodes
         if "Diffuse BSDF" in nodes:
@@ -82,7 +82,7 @@ def with_material(material, smooth=False):
 
 
 def camera(place=(0, 0, 0.25), focus=1.0, fstop=1.4, pitch=8):
-    """Adds a camera of 50 mm on a sensor of 36 mm that looks along +y and `pitch` degrees down."""
+    """Adds a 50 mm camera with a 36 mm sensor that looks along +y, tilted down by `pitch` degrees."""
     bpy.ops.object.camera_add(location=place, rotation=(math.radians(90 - pitch), 0, 0))
     bpy.context.scene.camera = bpy.context.object
     data = bpy.context.object.data
@@ -99,7 +99,7 @@ def light(kind, name, place, energy, rotation=(0, 0, 0)):
 
 
 def still_life():
-    """Six textured objects, a sun, a point and a spot light, an area light, and a camera at f/1.4 with a focus object."""
+    """Returns six objects, a sun, a point, a spot and an area light, and a camera at f/1.4 with a focus object."""
     scene = empty_scene()
     tiles = checker("tiles", (0.9, 0.9, 0.85), (0.25, 0.35, 0.6))
     bricks = checker("bricks", (0.75, 0.3, 0.2), (0.85, 0.75, 0.55), 8)
@@ -126,7 +126,7 @@ def still_life():
 
 
 def lamps(width, height):
-    """A small glowing ball in front of the focus and one behind it; returns (scene, camera, balls)."""
+    """Makes two small glowing balls, in front of and behind the focus plane. Returns (scene, camera, balls)."""
     scene = empty_scene(width, height)
     scene.cycles.samples, scene.defocus.samples = 128, 128
     view = camera(place=(0, 0, 0), focus=1.0, pitch=0)

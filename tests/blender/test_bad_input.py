@@ -1,4 +1,4 @@
-"""Scenes and systems with faults: one message, no temporary files, no new data, and the last picture stays."""
+"""Tests of faulty scenes and systems. Each gives one message, leaves no files or data, and keeps the last picture."""
 
 import os
 import pathlib
@@ -24,7 +24,7 @@ def small_scene():
 
 
 def brightness(scene):
-    """Returns the mean of the render result."""
+    """Returns the mean of the render result's red channel."""
     with tempfile.TemporaryDirectory() as folder:
         bpy.data.images["Render Result"].save_render(f"{folder}/all.exr", scene=scene)
         import pictures
@@ -33,7 +33,7 @@ def brightness(scene):
 
 class BadInput(unittest.TestCase):
     def message(self):
-        """Renders; returns the error's line. Checks that nothing is left behind."""
+        """Renders, and returns the single line of the error. Checks that no data or files are left behind."""
         data = self.data()
         with self.assertRaises(RuntimeError) as caught:
             bpy.ops.render.render()
@@ -123,7 +123,7 @@ class BadInput(unittest.TestCase):
         bpy.ops.render.render()
         scene.defocus.samples = 65536
         run = program.run
-        # Blender's own test_break cannot be replaced.
+        # Replaces program.run() to simulate a cancelled render, because Blender's test_break() cannot be replaced.
         program.run = lambda words, folder, on_progress, _: run(words, folder, on_progress, is_cancelled=lambda: True)
         try:
             bpy.ops.render.render()

@@ -1,4 +1,4 @@
-"""Multi-layer files of the program in Blender: Cryptomattes in the compositor, and passes of the multi-layer reader."""
+"""Tests that Blender reads the program's multi-layer files: Cryptomattes in the compositor, and passes."""
 
 import os
 import pathlib
@@ -16,7 +16,7 @@ COLOURS = {"Würfel": (1, 0, 0, 1), "green": (0, 1, 0, 1), "far away": (0, 0, 1,
 
 
 def three_lamps():
-    """Makes a scene of three glowing squares in front of each other, in red, green and blue, and a camera at f/1."""
+    """Makes a scene with red, green and blue glowing squares, one behind another, and a camera at f/1."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     for place, (name, colour) in enumerate(COLOURS.items()):
@@ -54,7 +54,7 @@ class Layers(unittest.TestCase):
         return str(pathlib.Path(self.folder.name) / name)
 
     def composited(self, file, layer, name):
-        """Returns the matte of an object that the compositor's Cryptomatte node picks by its name."""
+        """Returns the matte of the object `name`, from the compositor's Cryptomatte node."""
         self.scene.use_nodes = True
         nodes, links = self.scene.node_tree.nodes, self.scene.node_tree.links
         nodes.clear()

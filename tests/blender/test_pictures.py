@@ -1,4 +1,4 @@
-"""Pictures of the engine against Cycles with direct light, and against the thin lens."""
+"""Compares the engine's pictures with Cycles, without indirect light, and with the thin-lens equation."""
 
 import json
 import math
@@ -13,13 +13,13 @@ import numpy
 import pictures
 import scenes
 
-# PNG file for three pictures of the still life: by Cycles with 1,024 samples, by Defocus, and 5 times the difference.
-# No file is written if the variable is not set.
+# PNG file for three pictures of the still life, if the variable is set: by Cycles with 1,024 samples, by Defocus, and
+# their difference times 5.
 FIGURE = os.environ.get("DEFOCUS_BLENDER_FIGURE")
 
 
 def pixels_per_angle(camera, width, height):
-    """Returns pixels per tangent of the angle from the view axis, by Blender's documentation of sensor fit."""
+    """Returns the focal length in pixels, which depends on the sensor fit as Blender's documentation says."""
     data = camera.data
     horizontal = data.sensor_fit == "HORIZONTAL" or (data.sensor_fit == "AUTO" and width >= height)
     sensor = data.sensor_height if data.sensor_fit == "VERTICAL" else data.sensor_width
@@ -27,13 +27,13 @@ def pixels_per_angle(camera, width, height):
 
 
 def blur_radius(camera, depth, width, height):
-    """Returns the CoC radius in px of the thin lens."""
+    """Returns the circle of confusion radius of a thin lens in px."""
     lens, focus = camera.data.lens * 1e-3, camera.data.dof.focus_distance
     return 0.5 * lens / camera.data.dof.aperture_fstop * abs(1 / focus - 1 / depth) * pixels_per_angle(camera, width, height)
 
 
 def lamp_radius(camera, lamp, width, height):
-    """Returns the radius in px of a lamp's image without blur."""
+    """Returns the radius of a lamp's unblurred image in px."""
     return 0.5 * lamp.dimensions.z / lamp.location.y * pixels_per_angle(camera, width, height)
 
 
@@ -70,7 +70,7 @@ class StillLife(unittest.TestCase):
 
 class Lens(unittest.TestCase):
     def check(self, width, height, fit, shift=(0, 0), count=1):
-        """Compares the disks of the first `count` lamps."""
+        """Compares the blur disks of the first `count` lamps in both engines with each other and with the thin lens."""
         scene, camera, lamps = scenes.lamps(width, height)
         camera.data.sensor_fit, camera.data.shift_x, camera.data.shift_y = fit, *shift
         for lamp in lamps[:count]:
@@ -110,7 +110,7 @@ class Features(unittest.TestCase):
         camera.data.dof.aperture_ratio, camera.data.dof.aperture_fstop = 1.5, 1
         scene.cycles.samples = 512
         one, other = (pictures.rendered(engine, scene)[..., 0] for engine in ("CYCLES", "DEFOCUS"))
-        # means of 3 x 3 px, to suppress the noise of Cycles
+        # sums over 3 x 3 px suppress the noise of Cycles
         one, other = (light.reshape(24, 3, 32, 3).sum((1, 3)) for light in (one, other))
         overlap = numpy.minimum(one / one.sum(), other / other.sum()).sum()
         turned = numpy.minimum(one / one.sum(), other[::-1] / other.sum()).sum()
@@ -214,7 +214,7 @@ class Features(unittest.TestCase):
         size = 64
         sky = numpy.zeros((size // 2, size, 4), numpy.float32)
         sky[..., 3], sky[..., :3] = 1, 0.1
-        sky[16:, 8:24, 0] = 2  # a red patch on one side, a blue one on another
+        sky[16:, 8:24, 0] = 2  # a red patch on one side of the map, and a blue patch on another side
         sky[4:12, 40:48, 2] = 5
         image = bpy.data.images.new("sky", size, size // 2, float_buffer=True)
         image.pixels.foreach_set(sky.ravel())
@@ -271,7 +271,7 @@ class Features(unittest.TestCase):
         camera.data.dof.use_dof, scene.defocus.samples = False, 256
         bpy.ops.mesh.primitive_uv_sphere_add(radius=0.02, location=(0, 1, 0))
         ball = scenes.with_material(scenes.glowing("ball", 1))
-        for frame, across in ((0, -0.1), (2, 0.1)):  # moves by 0.1 m per frame
+        for frame, across in ((0, -0.1), (2, 0.1)):  # the ball moves by 0.1 m per frame
             ball.location.x = across
             ball.keyframe_insert("location", frame=frame)
         for point in ball.animation_data.action.fcurves[0].keyframe_points:
@@ -284,7 +284,7 @@ class Features(unittest.TestCase):
         scene.render.use_motion_blur = False
         still = pictures.rendered("DEFOCUS", scene)[..., 0].sum(axis=0)
         width = math.sqrt(12 * (light @ (x - mean) ** 2 / light.sum() - still @ (x - 48) ** 2 / still.sum()))
-        expected = 0.05 * 96 * 50 / 36  # length in px of a path of 0.05 m at a distance of 1 m
+        expected = 0.05 * 96 * 50 / 36  # a path of 0.05 m at a distance of 1 m, in px
         pictures.say(f"motion blur: {width:.2f} px, expected {expected:.2f} px")
         self.assertAlmostEqual(mean, 48, delta=0.1)
         self.assertAlmostEqual(width / expected, 1, delta=0.02)

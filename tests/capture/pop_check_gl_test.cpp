@@ -1,4 +1,4 @@
-// Tests of PopCheck, which measures how much changed levels of detail change the images of a shot.
+// Tests of PopCheck, which measures how visibly a shot's images change when objects change their level of detail.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ protected:
         return planFrame(frame_.world, view, settings);
     }
 
-    // Returns the largest pop of a focus pull of five frames.
+    // Returns the largest pop, an image change by a switch of levels of detail, in a focus pull of five frames.
     std::optional<FramePop> popOf(LodMode lod) {
         PopCheck check(frame_.world, parseMethodUse("accumulation"), {});
         for (int i = 0; i < 5; ++i) check.note(10 + i, planAt(2.0 + 0.4 * i, lod));

@@ -128,7 +128,7 @@ std::string parserFault(const json& shot) {
     return "";
 }
 
-// Returns whether the fault is of a kind that no schema can express: the order of numbers, or an unknown method name.
+// Returns whether a schema cannot express the fault: wrongly ordered numbers, or an unknown method name.
 bool beyondSchemas(const std::string& fault) {
     for (const char* part : {"a frame after the previous key", "a last frame", "/method:"})
         if (fault.find(part) != std::string::npos) return true;
@@ -307,7 +307,7 @@ TEST(ShotSchema, eachPropertySaysWhatItIsAndWhatItMayBe) {
     const Schema schema = publishedSchema();
     std::size_t properties = 0;
     eachProperty(schema.root(), "", [&](const std::string& place, const json& property) {
-        // The property has a description, or refers to a definition that has one.
+        // The property has a description, or refers to a definition with a description.
         json told = property;
         if (const auto reference = property.find("$ref"); reference != property.end()) {
             told = schema.root().at(json::json_pointer(reference->get<std::string>().substr(1)));

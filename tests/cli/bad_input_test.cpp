@@ -339,8 +339,8 @@ TEST_F(BadInput, switchesTakeNoValue) {
         expectFault(2, std::string(word).substr(0, std::string(word).find('=')), {word});
 }
 
-// An aperture image that the scene names must be a regular file inside the scene's folder: pipes, devices and paths
-// outside the folder are rejected.
+// An aperture image named in a scene must be a regular file inside the scene's folder. Pipes, devices and paths outside
+// the folder are rejected.
 TEST_F(BadInput, apertureImagesOfTheSceneThatAreNoFilesBesideIt) {
     fs::create_directory(folder() / "scenes");
     writeImage(folder() / "outside.png", Image(4, 4, 3));

@@ -110,7 +110,7 @@ const std::vector<Watched>& watched() {
 
 class EveryOption : public OptionTest {
 protected:
-    // Returns the results of a command line. Each line runs only once, even if several options are compared with it.
+    // Returns the results of a command line. Runs each command line once, even if several options are compared with it.
     const Results& resultsOf(const Watched& command, const Words& line) {
         const auto known = results_.find(line);
         return known != results_.end() ? known->second

@@ -152,11 +152,11 @@ TEST_F(OwnOption, changedSourcesAreRefusedUnlessAllowed) {
     }
 }
 
-// `bench scaling` runs the axis that --axes names; the axis "blur" takes seconds. --large needs the triangle axis,
-// which takes minutes. Therefore only the error without that axis and the larger number of points are checked.
+// `bench scaling` varies the scene property that --axes names; "blur" takes seconds. --large needs the axis
+// "triangles", which takes minutes, so only the error without this axis and the larger number of points are checked.
 TEST_F(OwnOption, scalingGoesAlongItsAxis) {
     const Words line = {"bench", "scaling", "--axes", "blur", "--allow-changed"};
-    // Without the option, --runs is three.
+    // --runs defaults to three, so 1 proves that the option has an effect.
     ASSERT_EQ(run(joined(line, {"--runs", "1", "-o", "rows"})).exitCode, 0);
     ASSERT_EQ(run(joined(line, {"--runs", "1", "--report", "page"})).exitCode, 0);
     for (const char* made : {"rows", "page"}) {

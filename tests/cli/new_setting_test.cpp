@@ -22,7 +22,7 @@ namespace {
 void checkNewSetting() {
     addSetting(newSetting());
 
-    // The setting on the command line and in its help.
+    // The command line accepts the setting, and --help lists it.
     Request request;
     CLI::App command;
     addSettings(command, request, settingsOf({SettingGroup::samples}));
@@ -31,7 +31,7 @@ void checkNewSetting() {
     EXPECT_EQ(settingNamed("newSetting")->text(request), "4");
     EXPECT_THROW(command.parse("--new-setting 4 --seed 1", false), CLI::ExcludesError);
 
-    // The setting in shots and in their schema.
+    // Shot files and their schema accept the setting.
     const Shot shot = parseShot(R"({"newSetting": 5})", "shot.json");
     EXPECT_TRUE(shot.given.contains("newSetting"));
     EXPECT_EQ(settingNamed("newSetting")->text(shot.request), "5");

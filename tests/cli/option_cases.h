@@ -26,13 +26,13 @@ inline Words joined(Words words, const Words& more) {
     return words;
 }
 
-// `words`: the option with its value. `with`: further options that the case needs; a command uses those that it has.
+// `words`: the option with its value. `with`: further options that the case needs; commands ignore those they lack.
 // `against`: the same option with another value to compare with. If empty, the comparison is with a line without the
 // option.
 struct OptionCase {
     Words words;
     Words with;
-    bool still = false;  // whether the scene is a fish of the school instead of the moving ball
+    bool still = false;  // whether the scene is a still fish instead of the moving ball
     Words against = {};
     bool needsDriver = false;  // whether some drivers ignore the option; the image must be the same in any case
 };
@@ -116,7 +116,7 @@ inline const Words farFocus = {"--fstop", "0.5", "--focus-distance", "8"};
 inline const Words nearFocus = {"--fstop", "0.5", "--focus-distance", "1"};
 inline const Words nearRange = {"--fstop", "0.5", "--focus-distance", "1", "--focus-range-behind", "1"};
 
-// Returns options for cases of settings that only `method` has: the method and a wide aperture.
+// Returns the options that cases of a method's own settings need: the method and a wide aperture.
 inline Words only(const char* method) {
     return {"--method", method, "--fstop", "0.5"};
 }
@@ -343,7 +343,7 @@ struct CommandLine {
     std::string name;
     Words command;
     Words ball = {"ball.glb"};  // arguments that select the scene with the ball
-    // arguments that select the school of fish: options, or the name of a shot
+    // arguments that select a scene of fish: options, or the name of a shot file
     Words fish = {"--fish", "1", "--fish-triangles", "900"};
     std::string size = "48x36";
     Words rest;

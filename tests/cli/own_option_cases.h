@@ -9,7 +9,7 @@ namespace defocus::engine {
 struct OwnOptionCase {
     Words words;                     // the option with its value
     Words more = {};                 // further options that both command lines have
-    Words without = {};              // options of the command's usual line that both lines omit
+    Words without = {};              // options of usualLines() that both command lines omit
     std::vector<Words> before = {};  // command lines to run before the case
 };
 

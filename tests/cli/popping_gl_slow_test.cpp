@@ -1,6 +1,6 @@
-// Fractional levels avoid popping in a focus pull, a dolly and a walk cycle: from frame to frame, they change the image
-// by a small fraction of the change that a full level would cause. The tests measure the part of each movement with the
-// most level changes; eval/popping/popping.h defines the measurements.
+// Fractional levels, which divide an object's lens samples between two levels of detail, avoid popping in a focus pull,
+// a dolly and a walk cycle. From frame to frame, they change the image by a small fraction of a full level's change.
+// The tests measure the part of each movement with the most level changes (measurements: eval/popping/popping.h).
 //
 // If one of N samples changes its level, the image changes by √(c/w)/N of a full level's change, for a blur of c px and
 // a level deviation of w px. Here c/w is at most about 30/0.4, so a step is at most 8.7/N. Steps of k samples of an
@@ -96,7 +96,7 @@ protected:
 
     Request options_;
     LodMetric metric_ = LodMetric::size;
-    double minLevelPop_ = 0.003;  // min change (RMSE) by the nearest level, so that the test is meaningful
+    double minLevelPop_ = 0.003;  // min RMSE of a full level's change; else the test proves nothing
 };
 std::unique_ptr<GlContext> NoPopping::context_;
 
@@ -110,7 +110,7 @@ TEST_F(NoPopping, ofTheSchoolOfFishInADolly) {
     expectNoneAlong(Movement::dolly);
 }
 
-// The default metric keeps a level's change small, so even the change of a complete level is hardly visible.
+// The default metric selects levels that differ so little that even a switch of all samples is hardly visible.
 TEST_F(NoPopping, ofLevelsByMeasuredErrorInAFocusPull) {
     school();
     metric_ = LodMetric::measured;

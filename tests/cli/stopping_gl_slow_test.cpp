@@ -56,7 +56,7 @@ protected:
     const Words costly = {"render", "--quiet", "--size", "512x384", "--field-curvature", "1000"};
 };
 
-// On two cores, the frame takes minutes, and its first block half of that time.
+// On two cores, the frame takes minutes. Its first block of 64 samples takes half of that time.
 TEST_F(Stopping, aSignalEndsARenderWithinASecond) {
     warmUp(costly);
     for (const int signal : {SIGINT, SIGTERM}) {
@@ -85,7 +85,7 @@ TEST_F(Stopping, partialImagesAreKeptOnDemand) {
     EXPECT_LT(samples, 128);
 }
 
-// A step of method line takes ten seconds or more, so the signal arrives within a step.
+// A step of the method `line` takes ten seconds or more, so the signal arrives within a step.
 TEST_F(Stopping, aLongStepIsNotAwaited) {
     warmUp({"render", "--quiet", "--size", "512x384"});
     const Words words = {"render",    "--quiet", "--size",         "512x384", "--method", "line",
@@ -108,7 +108,8 @@ TEST_F(Stopping, theSecondThreadWritesTheImageSoFar) {
     EXPECT_EQ(readImage(folder() / "a.exr", metadata).width, 512);
 }
 
-// The time limit holds for any --wave, because a wave of 16 samples takes seconds.
+// The time limit also ends a render within a wave, a group of samples that are drawn at once. A wave of 16 samples
+// takes seconds.
 TEST_F(Stopping, theTimeLimitEndsALargeWave) {
     warmUp(costly);
     Words words = costly;
@@ -118,7 +119,7 @@ TEST_F(Stopping, theTimeLimitEndsALargeWave) {
     EXPECT_LT(end.seconds, 7);
 }
 
-// The frame of 64 samples, which are one block, takes more than ten seconds.
+// The frame has a single block of 64 samples, which takes more than ten seconds.
 TEST_F(Stopping, theTimeLimitEndsABlock) {
     warmUp(costly);
     Words words = costly;

@@ -16,13 +16,13 @@ namespace fs = std::filesystem;
 class ShortOfMemory : public TileCommand {
 protected:
     static constexpr const char* size = "2400x1800";
-    // Without tiles, the frame's pixels take 880 MB; a single layer takes 50 MB of these.
+    // Without tiles, the frame's pixels take 880 MB, of which a layer (the image of one lens sample) takes 50 MB.
     static std::vector<std::string> inTiles(std::vector<std::string> more, const char* memory = "350MiB") {
         more.insert(more.end(), {"--memory", memory});
         return line(more, size, "3");
     }
 
-    // Returns the value that a refusal recommends for --memory, such as "320MiB".
+    // Returns the value that an error message recommends for --memory, such as "320MiB".
     static std::string recommended(const Outcome& refusal) {
         const std::string option = "--memory ";
         const std::size_t begin = refusal.err.find(option);
@@ -76,8 +76,8 @@ TEST_F(ShortOfMemory, aFineSceneInTilesKeepsToIt) {
     EXPECT_LE(stats.at("peakBytes").get<double>(), 400 << 20);
 }
 
-// The driver's copies of fine meshes may leave too little of a limit. Then the message names a limit that suffices.
-// Memory stays within each limit.
+// If the driver's copies of fine meshes leave too little memory for the image, the message names a limit that suffices.
+// With this limit, the memory stays within it.
 TEST_F(ShortOfMemory, aFineSceneKeepsToTheMemoryThatIsSaidToDo) {
     if (!createHeadlessContext()->software()) GTEST_SKIP() << "no option limits a GPU's own memory";
     const auto fish = [&](const std::string& memory) {

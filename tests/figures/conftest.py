@@ -1,4 +1,4 @@
-"""Tests of bench/figures import it from the sources."""
+"""Lets the tests import the package `figures` from bench/."""
 
 import sys
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Tests of all commands of scripts/figures, and of the report script inside the program."""
+"""Tests of all commands of scripts/figures, and of the report script that is embedded in the program."""
 
 import ast
 import re
@@ -51,7 +51,7 @@ def test_the_report_draws_committed_results(tmp_path):
 
 
 def test_modules_in_the_program_share_no_names():
-    """The program joins these modules to one script, so their names must not collide."""
+    """The build joins these modules into one script, so their names must not collide."""
     modules = re.search(r"foreach\(MODULE IN ITEMS (files [^)]*)\)", (ROOT / "src" / "CMakeLists.txt").read_text())[1].split()
     names = []
     for module in modules:

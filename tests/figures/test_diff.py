@@ -1,4 +1,4 @@
-"""Tests of the comparison of two results of one bench."""
+"""Tests of the comparison of two results of the same bench."""
 
 import csv
 import io
@@ -18,11 +18,11 @@ def row(samples, median, low, high, flip=0.01, mse=1e-4, ssim=0.99, runs=3):
 
 
 OLD = [row(8, 100, 90, 110), row(16, 200, 190, 210), row(32, 400, 390, 410), row(64, 800, 800, 800), row(256, 10, 9, 11)]
-NEW = [row(32, 500, 411, 510),  # slower
-       row(16, 150, 130, 190, flip=0.015),  # equal, since the spreads touch at 190
-       row(8, 50, 40, 80),  # faster
+NEW = [row(32, 500, 411, 510),  # slower than OLD
+       row(16, 150, 130, 190, flip=0.015),  # equally fast, since both spreads include 190
+       row(8, 50, 40, 80),  # faster than OLD
        row(128, 1, 1, 1),
-       row(256, 20, 11, 30)]  # equal, since the spreads touch at 11
+       row(256, 20, 11, 30)]  # equally fast, since both spreads include 11
 
 
 def csv_of(rows):
@@ -69,7 +69,8 @@ def test_few_runs_have_no_verdict(runs, verdict):
     assert rows["accumulation lod=off 8"][0].verdict == verdict
 
 
-# Errors count as changed from 1 %: 0.0864 dB of PSNR for the RMSE, and 0.0001 for 1 - SSIM at an SSIM of 0.99.
+# Errors count as changed if they differ by 1 %. For the RMSE, this is a PSNR difference of 0.0864 dB; for 1 - SSIM at
+# an SSIM of 0.99, it is 0.0001.
 @pytest.mark.parametrize("column, change, verdict", [
     ("rmse", {"mse": 1e-4 * 1.009**2}, "equal"), ("rmse", {"mse": 1e-4 * 1.011**2}, "farther"), ("rmse", {"mse": 1e-4 / 1.011**2}, "closer"),
     ("psnr", {"mse": 1e-4 * 1.009**2}, "equal"), ("psnr", {"mse": 1e-4 * 1.011**2}, "farther"), ("psnr", {"mse": 1e-4 / 1.011**2}, "closer"),

@@ -14,7 +14,7 @@ import teapots  # noqa: E402
 
 
 def volume(surface):
-    """Returns six times the signed volume between the triangles and the origin, which is positive if they face outwards."""
+    """Returns six times the signed volume of a closed surface, which is positive if the triangles face outwards."""
     total = 0
     for i in range(0, len(surface.indices), 3):
         (a, b, c), (d, e, f), (g, h, k) = (surface.positions[corner] for corner in surface.indices[i:i + 3])
@@ -31,7 +31,7 @@ def test_a_bezier_curve_is_its_bernstein_polynomial():
 
 @pytest.mark.parametrize("rows", [teapots.HANDLE, teapots.SPOUT])
 def test_bent_tubes_face_outwards(rows):
-    """Normals point away from the middle of their ring, except on the lip that bends into the spout."""
+    """Normals point away from the centre of their ring, except at the lip that bends into the spout."""
     tube = teapots.Surface()
     teapots.add_bent_tube(tube, rows, 6)
     normals = teapots.smooth_normals(tube)
@@ -44,7 +44,7 @@ def test_bent_tubes_face_outwards(rows):
 
 
 def test_the_body_is_as_large_as_its_profile_says():
-    """A fine body has the volume of its profile, pi times the integral of r² over the height."""
+    """A finely divided body has the volume of its profile: pi times the integral of r² over the height."""
     body = teapots.Surface()
     for curves in teapots.PROFILES:
         teapots.add_turned(body, curves, 40)

@@ -1,4 +1,5 @@
-// Tests of the errors of levels in the mean radiance of boxes of 32 × 32 px, which remain visible under a wide blur.
+// Tests the errors of levels of detail that remain visible under a wide blur: errors of the mean radiance of boxes of
+// 32 × 32 px.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -36,7 +36,7 @@ protected:
         return settings;
     }
 
-    // Draws all samples, or only the samples in `range`, in waves of `wave` samples (0: default).
+    // Draws all samples, or only the samples in `range`; at most `wave` samples at once (0: default).
     static FrameDriver drawn(const SmallWorld& small, LodMode mode, std::optional<SampleRange> range,
                              std::uint32_t wave = 0) {
         FrameDriver driver(small.world, {parseMethodUse("accumulation"), {{}, wave}, {}});
@@ -55,7 +55,7 @@ TEST_F(Partial, mergedBlocksAreTheSingleRun) {
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous}) {
         const Image expected = drawn(*small, mode, {}).image();
 
-        // Each part is rendered by its own driver with its own wave size, written to a file, and read again.
+        // Each part is rendered by its own driver, with its own number of samples at once, and saved to a file.
         std::vector<fs::path> paths;
         std::uint32_t wave = 3;
         for (const SampleRange& range : {SampleRange{0, 64}, SampleRange{64, 150}}) {
@@ -68,7 +68,7 @@ TEST_F(Partial, mergedBlocksAreTheSingleRun) {
     }
 }
 
-// The file of a part contains only its finished blocks: their numbers, sample counts and sums.
+// A file with a part of a frame's samples has only finished blocks: their numbers, sample counts and sums.
 TEST_F(Partial, blocksHoldTheSumOfTheirSamples) {
     const auto small = fiveSpheres();
     FrameDriver driver = drawn(*small, LodMode::fractional, SampleRange{64, 150});

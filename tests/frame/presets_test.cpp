@@ -58,8 +58,8 @@ TEST(Presets, comeBeforeWhatTheySet) {
             EXPECT_LT(settingNamed("preset"), settingNamed(value.setting)) << preset.name << " " << value.setting;
 }
 
-// The plan draws, for each object, the level nearest to the object's score. The test computes the score from the plan's
-// bounding boxes and the circle-of-confusion formula.
+// For each object, the plan draws the level whose edge length is nearest, on a logarithmic scale, to the object's score
+// times the edge length of level 0. The test computes the score from the plan's bounding boxes and blur.
 TEST(TzengPlan, drawsTheLevelNearestToTheScore) {
     Request request;
     request.fishCount = 5;
@@ -186,7 +186,7 @@ TEST_F(JeongPlan, levelsAreProportionalToTheBlurOverTheBox) {
     }
 }
 
-// Nothing but the blur coarsens the levels: without depth of field, small and distant objects keep full detail.
+// Only the blur selects coarser levels: without depth of field, small and distant objects keep full detail.
 TEST_F(JeongPlan, sharpObjectsAreDrawnAtFullDetail) {
     Request request = asked(64);
     request.lens.blurScale = 0;

@@ -141,7 +141,7 @@ std::string textOf(const std::string& file) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-// LensSettings and lens_fields.cpp have the same members.
+// Each member of LensSettings has a row in lens_fields.cpp, and each row has a member.
 TEST(Settings, everyLensValueHasItsRow) {
     const std::string header = textOf("include/defocus/lens.h");
     const std::regex member(R"(std::optional<\w+>\s+(\w+);)");

@@ -102,7 +102,7 @@ void runGltf(std::span<const std::byte> bytes) {
     }
 }
 
-// Returns a glTF file with lights, every material extension, a texture transform, and animations of these. The
+// Returns a glTF file with lights, every material extension and a texture transform, all animated. The
 // available models lack some of these features or are too large to fuzz.
 std::string furnishedScene() {
     GltfBuilder file;
@@ -287,7 +287,7 @@ std::vector<Bytes> imageSeeds() {
         seed.insert(seed.begin(), static_cast<std::byte>(format));
         seeds.push_back(std::move(seed));
     }
-    // Two tiles, one of which is a complete frame, and a file with a part of a frame's samples.
+    // Add two tiles, one of which is a complete frame, and a file with a part of a frame's samples.
     const auto add = [&](const std::filesystem::path& path) {
         Bytes seed = fileBytes(path);
         seed.insert(seed.begin(), std::byte{0});

@@ -41,7 +41,7 @@ defocus::Scene slantedEdge() {
 // Returns the frequency in cycles per pixel at which the edge's MTF falls to one half.
 double mtf50(const Image& image) {
     constexpr int binsPerPixel = 4;
-    constexpr int reach = 12;  // measured px on each side of the edge
+    constexpr int reach = 12;  // number of measured pixels on each side of the edge
     std::vector<double> sums(2 * reach * binsPerPixel);
     std::vector<int> counts(sums.size());
     for (int y = 16; y < image.height - 16; ++y)

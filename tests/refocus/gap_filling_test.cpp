@@ -62,7 +62,8 @@ double widthVariance(const Image& image) {
 const auto everywhere = [](float value) { return [value](int, int) { return value; }; };
 const auto point = [](int x, int y) { return x == 32 && y == 24 ? 50.0f : 0.0f; };
 
-// For N lens images and a blur diameter of c px, the blur of a lens cell has a standard deviation of c/(2·√N) px.
+// Each of N lens images is blurred by its lens cell, 1/N of the lens. For a blur diameter of c px over the whole lens,
+// this blur has a standard deviation of c/(2·√N) px.
 TEST(GapFilling, blursAPointByItsCell) {
     for (const float depth : {0.5f, 4.0f})  // in front of and behind the focus plane at 1 m
         for (const double diameter : {4.0, 12.0, 20.0}) {
@@ -86,7 +87,7 @@ TEST(GapFilling, constantScenesStayConstant) {
     for (const float value : image.pixels) EXPECT_TRUE(std::abs(value - 0.5f) < 1e-5f || std::abs(value - 1) < 1e-5f);
 }
 
-// The background's blur neither spreads over a sharp surface in front of it, nor gets light from it.
+// The blurred background neither spreads over a sharp surface in front of it, nor receives light from this surface.
 TEST(GapFilling, sharpOutlinesStaySharp) {
     const auto left = [](int x, int) { return x < 32; };
     const Image image = filled(std::vector<Sheet>(4, layer([&](int x, int y) { return left(x, y) ? 1.0f : 0.0f; },

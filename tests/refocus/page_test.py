@@ -1,8 +1,9 @@
-"""Compares the page of `defocus refocus --html` in headless Chromium with `defocus refocus`: page_test.py PROGRAM. Exits
-with 77, skipped, without Chromium.
+"""Compares the page of `defocus refocus --html`, in headless Chromium, with pictures of `defocus refocus`.
 
-The school of fish is focused by clicks on two fish, and a lamp with a radiance of 50 is shown out of focus. The page stores
-images with 8 bits and loss, so that pictures must agree to 32 dB.
+page_test.py PROGRAM. Exits with 77 (skipped) without Chromium.
+
+The test focuses by clicks on two fish, and shows a lamp with a radiance of 50 out of focus. The page stores lossy
+images of 8 bits, so the required PSNR is only 32 dB.
 """
 
 import base64
@@ -22,8 +23,8 @@ MIN_PSNR = 32
 SIZE = (320, 240)
 FISH = ((180, 112), (25, 215))  # pixels of two fish at different distances
 
-# Performs `action` once the images are loaded, and tells the test when the next frame is drawn. Chromium takes the screenshot
-# after the page's load event, which waits for the image.
+# Performs `action` once the lens images are loaded, and requests /drawn after the next frame. Chromium takes the
+# screenshot after the page's load event, which the hidden image /wait delays until then.
 SCRIPT = """<img src="http://127.0.0.1:%(port)d/wait" style="display: none">
 <script>
 function whenReady() {
@@ -34,14 +35,14 @@ function whenReady() {
 whenReady();
 </script>"""
 
-# Clicks on a pixel. Events of scripts have no pointer to capture.
+# Clicks on a pixel. Synthetic events have no pointer to capture, so setPointerCapture() must do nothing.
 CLICK = """canvas.setPointerCapture = () => {};
   for (const type of ['pointerdown', 'pointerup'])
     canvas.dispatchEvent(new PointerEvent(type, { clientX: %d + .5, clientY: %d + .5, bubbles: true }));"""
 
 
 class Waiting(http.server.BaseHTTPRequestHandler):
-    """Answers /wait after /drawn was requested."""
+    """Answers a request for /wait only after a request for /drawn, or after two minutes."""
 
     def do_GET(self):
         if self.path == "/drawn":
@@ -63,7 +64,7 @@ def run(*words):
 
 
 def screenshot(chromium, page, path, fragment="", action=""):
-    """Writes what Chromium shows of the page after the JavaScript `action`, without the page's controls."""
+    """Runs the JavaScript `action` in the page, and writes a screenshot without the page's controls to `path`."""
     with tempfile.TemporaryDirectory() as folder, http.server.ThreadingHTTPServer(("127.0.0.1", 0), Waiting) as server:
         server.drawn = threading.Event()
         threading.Thread(target=server.serve_forever, daemon=True).start()

@@ -89,7 +89,7 @@ TEST(Refocus, weighsByTheApertureShape) {
     }
 }
 
-// An object that is sharp at any focus distance of the range has levels as fine as an object in focus.
+// An object that is sharp at some focus distance of the range has levels as fine as an object in focus.
 TEST(Refocus, levelsSuitTheSharpestFocusOfTheRange) {
     const auto small = fiveSpheres();
     const auto lambdaOfFarSphere = [&](double focus, std::optional<FocusRange> range) {

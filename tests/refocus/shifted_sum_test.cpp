@@ -1,4 +1,4 @@
-// Tests the weighted mean of moved images.
+// Tests the weighted mean of shifted images.
 
 #include "refocus/shifted_sum.h"
 
@@ -58,7 +58,7 @@ TEST(ShiftedSum, isTheWeightedMean) {
     for (std::size_t i = 0; i < mean.pixels.size(); ++i) EXPECT_FLOAT_EQ(mean.pixels[i], 2);
 }
 
-// A block ends within the second and the third call.
+// Images are summed in blocks of 64, which here end within the second and the third call.
 TEST(ShiftedSum, doesNotDependOnTheDivisionIntoCalls) {
     std::vector<HalfImage> images;
     for (int i = 0; i < 150; ++i)

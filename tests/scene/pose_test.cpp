@@ -86,7 +86,7 @@ TEST(Pose, nodesOutsideTheSceneDrawNothing) {
     const Pose pose = poseAt(scene, 0);
     EXPECT_TRUE(pose.objects.empty());
     EXPECT_TRUE(pose.bounds.empty());
-    // the node has a matrix, since joints of the scene may need it
+    // nodes outside the scene also have matrices, since they may be joints of its skins
     expectNear(glm::dvec3(pose.worldFromNode[1][3]), {10, 2, 0});
 }
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Tests Slurm job arrays on a real cluster of two nodes on the loopback interface.
 
-A film by an array of tasks, of which one is killed half-way and queued again, must be complete and have the bits of a
-single run. A frame that is split by samples and by rows, as in scripts/slurm/README.md, must have the bits of a single
-run after merging.
+An array of tasks renders a film, and one task is killed half-way and queued again. The film must be complete and
+bit-identical to a single run. So must a frame that is split by samples or by rows, as in scripts/slurm/README.md, and
+merged.
 
 array_test.py PROGRAM BATCH_FILE. Exit code 77: skipped; the reason is printed.
 """
@@ -147,7 +147,7 @@ def frame_bytes(folder):
 
 
 def task_process(cluster, job, task):
-    """Returns the process id of the program in an array task: the leaf of its batch step."""
+    """Returns the process id of the program in an array task, or None if it does not run."""
     for status in Path("/proc").glob("[0-9]*/environ"):
         try:
             words = status.read_bytes().split(b"\0")
@@ -162,8 +162,8 @@ def task_process(cluster, job, task):
 
 
 def share_film(cluster, program, batch, folder, samples):
-    """Renders a film by an array of tasks, one of which is killed after a frame and queued again. Returns False if that
-    task had already rendered all of its frames.
+    """Renders a film by an array of tasks. Kills one task after a frame and queues it again. Returns False if this task
+    had already rendered all of its frames.
     """
     shot = {"fish": {"count": 4, "triangles": 4000}, "range": [0, FRAMES - 1], "size": [256, 192], "samples": samples,
             "focus": {"keys": [{"frame": 0, "distance": 1}, {"frame": FRAMES - 1, "distance": 4}]}}

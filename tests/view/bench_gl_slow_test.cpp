@@ -48,12 +48,12 @@ TEST_F(BenchView, thePictureAtRestConvergesToTheReference) {
     EXPECT_GT(row.framesPerSecond, 0);
     EXPECT_GE(row.slowFrame, 0.5 * 1000 / row.framesPerSecond);
     EXPECT_TRUE(std::isfinite(row.converged));
-    EXPECT_GE(row.stillPicture, 0.12);  // the window waits 0.12 s until it takes a view for still
+    EXPECT_GE(row.stillPicture, 0.12);  // a view counts as still after 0.12 s without a change
     EXPECT_LE(row.stillPicture, row.converged);
     EXPECT_GE(row.samples, 16u);
     // The estimated error at convergence is 0.005, which is a PSNR of 46 dB.
     EXPECT_GT(row.stillPsnr, 40);
-    // A frame of the movement has the camera of its own reference: a camera 1° off gives less than 20 dB.
+    // Each moving frame is compared with a reference of the same camera; a camera that is 1° off gives less than 20 dB.
     EXPECT_GT(row.movingPsnr, 24);
     EXPECT_LT(row.movingPsnr, row.stillPsnr);
 }

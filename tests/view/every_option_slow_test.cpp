@@ -38,7 +38,7 @@ protected:
     }
 
     // Returns a text with three results: the viewer's command for rendering its picture (with all non-default
-    // settings), the wave size, and the cache folders that exist.
+    // settings), the value of --wave, and the cache folders that exist.
     const std::string& seenOf(const Words& line) {
         const auto known = seen_.find(line);
         if (known != seen_.end()) return known->second;

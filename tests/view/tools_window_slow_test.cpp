@@ -86,7 +86,7 @@ TEST_F(ViewTools, whatTheTreeHidesIsMissingInPictureStillAndCommand) {
     EXPECT_EQ(state().at("hidden"), json{"Near"});
     EXPECT_NE(state().at("command").get<std::string>().find("--hide Near"), std::string::npos);
     const std::uint64_t clicks = state().at("marker").at("number");
-    click(200, 67);  // a click at a hidden object does not select it
+    click(200, 67);  // a click at the position of a hidden object does not select it
     ASSERT_TRUE(reaches([&](const json& s) { return s.at("marker").at("number") > clicks; })) << state();
     EXPECT_EQ(reached().at("marker").at("name"), "");
 

@@ -33,7 +33,7 @@ protected:
     }
     double number(const char* name) const { return state().at(name).get<double>(); }
     // Presses a key that changes the state, which proves that earlier input has been processed. Returns true once the
-    // view is at rest.
+    // view no longer changes.
     bool comesToRest() const {
         const bool dark = state().at("dark").get<bool>();
         key("t");

@@ -152,7 +152,7 @@ protected:
         return false;
     }
     [[nodiscard]] const nlohmann::json& reached() const { return reached_; }
-    // Calls `hand`, which acts as the user, until `condition` holds, at most ten times. Waits for a hundred frames
+    // Calls `hand`, which simulates user input, until `condition` holds, at most ten times. Waits for a hundred frames
     // after each call.
     bool insists(const std::function<void()>& hand, const std::function<bool(const nlohmann::json&)>& condition) const {
         constexpr std::uint64_t patience = 100;

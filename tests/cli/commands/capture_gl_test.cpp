@@ -32,7 +32,7 @@ TEST_F(Capture, writesEachFrameWithItsMetadataAndASidecarOfTimes) {
         EXPECT_DOUBLE_EQ(std::get<double>(metadata.at("defocus:time")), frame / 10.0);
         EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), 8);
         EXPECT_FALSE(metadata.contains("defocus:seconds"));
-        // The f-number changes from f/1.4 to f/2.8, which is two stops, by a smoothstep function in stops.
+        // The f-number changes from f/1.4 to f/2.8, two stops, as a smoothstep function of time in stops.
         const double t = frame / 7.0;
         EXPECT_NEAR(std::get<double>(metadata.at("aperture")), 1.4 * std::exp2(t * t * (3 - 2 * t)), 1e-5);
         if (frame == 0) {
@@ -47,7 +47,8 @@ TEST_F(Capture, writesEachFrameWithItsMetadataAndASidecarOfTimes) {
     EXPECT_GT(json::parse(times.substr(0, times.find('\n'))).at("renderMilliseconds").get<double>(), 0);
 }
 
-// By default, shots have LodMode::continuous, which pops least. Shot files, options and presets override this default.
+// Shots default to LodMode::continuous, whose level changes are the least visible. Shot files, options and presets can
+// override the default.
 TEST_F(Capture, levelsChangePixelByPixelByDefault) {
     const auto lodWith = [&](const std::vector<std::string>& more) {
         std::vector<std::string> words = {"--range", "0"};
@@ -66,8 +67,8 @@ TEST_F(Capture, levelsChangePixelByPixelByDefault) {
     EXPECT_EQ(lodWith({}), "off");
 }
 
-// A frame is bit-identical if it is rendered alone, in the sequence, by another shard, with a second output format, or
-// with another wave size.
+// A frame is bit-identical if it is rendered alone, in the sequence, in another shard (part of the frames), with a
+// second output format, or with fewer samples at once (--wave).
 TEST_F(Capture, aFrameIsTheSameBitsHoweverItIsRendered) {
     ASSERT_EQ(capture({}).exitCode, 0);
     ASSERT_EQ(capture({"--range", "5", "-o", "alone/####.exr"}).exitCode, 0);
@@ -372,8 +373,8 @@ TEST_F(Capture, filmsHaveTaggedColoursOfBt709) {
     }
 }
 
-// With a target error, each frame gets the number of samples that its own error requires. The number is the same when
-// the frame is rendered alone, in the sequence, or in another shard.
+// With a target error, each frame gets the number of samples that its own error requires. The number is the same if
+// the frame is rendered alone, in the sequence, or in another shard of the sequence.
 TEST_F(Capture, targetErrorGivesAFrameTheSameSamplesHoweverItIsRendered) {
     const std::vector<std::string> asked = {"--target-error", "0.01", "--samples", "1024"};
     const auto with = [&](std::vector<std::string> more) {

@@ -70,7 +70,7 @@ TEST_F(CaptureRefocus, aFrameIsTheSameBitsHoweverItIsRendered) {
     expectOneLine(filmed("all", {"--resume"}), 1);  // fails, since the existing frames have other settings
 }
 
-// The aperture closes by two stops, so 4 · 64 lens images are needed for 64 samples of the last frame.
+// The aperture closes by two stops, to a quarter of its area. Thus 4 · 64 lens images give the last frame 64 samples.
 TEST_F(CaptureRefocus, smallAperturesHaveAsManySamples) {
     json document = focusPull();
     document["lens"] = {{"fStop", {{"keys", {{{"frame", 0}, {"value", 1.4}}, {{"frame", 7}, {"value", 2.8}}}}}},
@@ -86,10 +86,10 @@ TEST_F(CaptureRefocus, smallAperturesHaveAsManySamples) {
     };
     EXPECT_EQ(samples(0), 256);
     EXPECT_NEAR(samples(7), 64 * 0.827, 4);               // the hexagon has 82.7 % of the disk's area
-    document["lens"]["fStop"]["keys"][1]["value"] = 5.6;  // four stops need 16 times as many lens images
+    document["lens"]["fStop"]["keys"][1]["value"] = 5.6;  // closing by four stops needs 16 · 64 images
     writeShot(document);
     const std::string plan = filmed("far", {"--refocus", "--dry-run"}).out;
-    EXPECT_NE(plan.find("0000.exr (refocused)"), std::string::npos) << plan;  // several runs are cheaper than one
+    EXPECT_NE(plan.find("0000.exr (refocused)"), std::string::npos) << plan;  // several sets of lens images cost less
 }
 
 TEST_F(CaptureRefocus, framesWithMotionStayTheSame) {

@@ -86,8 +86,8 @@ TEST_F(Survival, killedFiftyTimesAndResumed) {
     std::mt19937 random(7);
     int before = 0;
     for (int i = 0; i < 50; ++i) {
-        // More than half of the frames are still missing, so the capture makes more than a third of the undisturbed
-        // run's calls.
+        // More than half of the frames are still missing, so the capture makes more than a third of the system calls
+        // of an undisturbed run.
         TracedChild child = startTraced();
         EXPECT_EQ(child.end(std::uniform_int_distribution(1, calls / 3)(random), SIGKILL), 128 + SIGKILL) << i;
         for (int number = 0; number < frames; ++number) {

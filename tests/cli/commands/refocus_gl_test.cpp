@@ -44,7 +44,7 @@ protected:
 
 TEST_F(RefocusCommand, writesPicturesStacksAndPages) {
     ASSERT_EQ(lensImages({"--samples", "16", "--focus-range", "2:5", "--lens-images", "a.lens.exr"}).exitCode, 0);
-    // Readers of single images see the image of the first lens point.
+    // A reader that expects a single image gets the image of the first lens point.
     EXPECT_EQ(readImage(folder() / "a.lens.exr").channels, 4);
 
     ASSERT_EQ(run({"refocus", "a.lens.exr", "-o", "a.exr", "-o", "a.png", "--focus-distance", "4"}).exitCode, 0);

@@ -43,7 +43,7 @@ TEST(ConvergenceFront, equalTrialsStandOrFallTogether) {
     EXPECT_TRUE(paretoFront({}).empty());
 }
 
-// ---- equal error ----------------------------------------------------------------------------------------------------
+// ---- time to an equal error -----------------------------------------------------------------------------------------
 
 ConvergenceRow rowOf(const std::string& method, const std::string& setting, double milliseconds, double rmse) {
     ConvergenceRow row;
@@ -97,7 +97,7 @@ TEST(EqualError, saysWhatLiesBeyondTheRows) {
     EXPECT_TRUE(timesToErrors({}, errors).empty());
 }
 
-// ---- rows -----------------------------------------------------------------------------------------------------------
+// ---- rows of results ------------------------------------------------------------------------------------------------
 
 ConvergenceRun runOf(const std::string& method, const std::string& setting, std::uint32_t samples, int number,
                      double milliseconds, double mse) {
@@ -199,7 +199,7 @@ TEST(ConvergenceRows, biasFloorsAreThoseOfTheMostSamples) {
     EXPECT_EQ(floors[0].error.mse, 0.2);
 }
 
-// ---- journal --------------------------------------------------------------------------------------------------------
+// ---- journal of finished runs ---------------------------------------------------------------------------------------
 
 std::vector<ConvergenceRun> threeRuns() {
     std::vector<ConvergenceRun> runs = {runOf("accumulation", "lod=off", 8, 0, 1.0 / 3, 0.1),
@@ -266,7 +266,7 @@ TEST(ConvergenceFiles, csvAndJsonHoldEveryRow) {
     EXPECT_EQ(images.size(), 3u);
 }
 
-// ---- cases ----------------------------------------------------------------------------------------------------------
+// ---- list of measured cases -----------------------------------------------------------------------------------------
 
 TEST(ConvergenceCases, followTheTableAndTheLists) {
     registerMethod({.name = "rays", .description = "", .needsGl = false, .settings = {}, .make = {}});
@@ -369,7 +369,7 @@ TEST(ConvergenceCases, thresholdsAreTimesTheStandardOnes) {
     EXPECT_TRUE(levels.usesLevels());
 }
 
-// ---- crops ----------------------------------------------------------------------------------------------------------
+// ---- image crops in the report --------------------------------------------------------------------------------------
 
 // 0 0 0 0 0      the 2 × 2 square with the largest sum begins at (3, 1): 1 + 4;
 // 0 0 0 1 0      outside that square, the first square with the sum 3 begins at (0, 1).

@@ -89,9 +89,9 @@ TEST_F(Popping, firstResultIsAQuarterOfTheFirstMovement) {
     }
 }
 
-// A pop is the change of the image when all N samples change their level at once. The change by one sample is a small
-// part of the pop. By the triangle inequality, the mean change is at least 1/N of the pop. Changes add up at most like
-// random ones, so the mean change is at most about 1/√N of the pop.
+// A pop is the image change if all N lens samples change their level at once. A change of one sample is a small part of
+// the pop. By the triangle inequality, this part is at least 1/N on average. Changes of different samples cancel at
+// most like independent random changes, so the part is at most about 1/√N.
 TEST_F(Popping, oneSamplesStepIsASmallPartOfALevels) {
     options_.sampleCounts = {4, 16};
     options_.frames = 2;

@@ -146,7 +146,7 @@ TEST(PoppingPixels, growByHalfTheBlur) {
         }
 }
 
-// ---- summaries ------------------------------------------------------------------------------------------------------
+// ---- summaries of the frames ----------------------------------------------------------------------------------------
 
 // Returns 101 frames whose change is 0 … 100 in mode `nearest` and half as large in mode `fractional`. The 99th
 // percentile is the second largest change.

@@ -7,8 +7,8 @@
 namespace defocus::engine {
 namespace {
 
-// Each point of an axis is measured with and without levels of detail. The smallest scenes are one fish in up to 10,000
-// instances.
+// Each point of an axis, a varied property of the scene, is measured with and without levels of detail. The axis
+// `instances` has the smallest meshes: one fish, drawn up to 10,000 times.
 TEST(Scaling, measuresEachPointOfAnAxisInBothModes) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     ScalingOptions options;
@@ -35,7 +35,7 @@ TEST(Scaling, measuresEachPointOfAnAxisInBothModes) {
             EXPECT_GT(rows[i].triangles, rows[i - 2].triangles);
         }
     }
-    // Full detail draws every triangle of each instance for each sample.
+    // At full detail, each sample draws every triangle of each instance.
     EXPECT_EQ(rows[2].triangles, 10 * rows[0].triangles);
 }
 

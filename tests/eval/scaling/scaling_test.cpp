@@ -151,7 +151,7 @@ TEST(ScalingFiles, csvJsonAndSummaryHoldEveryCurve) {
     EXPECT_NE(scalingSummary(rows).find("exponent  1.00"), std::string::npos) << scalingSummary(rows);
 }
 
-// ---- points and worlds ----------------------------------------------------------------------------------------------
+// ---- measured points and their scenes -------------------------------------------------------------------------------
 
 TEST(ScalingPoints, changeOnlyWhatTheirAxisNames) {
     for (const ScalingAxis axis : ScalingOptions().axes) {

@@ -1,5 +1,5 @@
 #pragma once
-// Requests for small images of two fish.
+// Fixture with requests for small images of two fish.
 
 #include "defocus/defocus.h"
 #include "frame/own_context.h"
@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 class SceneRendererTest : public OwnContextTest {
 protected:
-    // Two fish of 1,000 triangles each, with levels of detail.
+    // Returns a request for two fish of 1,000 triangles each, with levels of detail.
     static Request smallRequest() {
         Request request;
         request.fishCount = 2;

@@ -1,4 +1,4 @@
-// Tests of images of lines from a file.
+// Tests of the brightness of line primitives in a glTF file.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ GltfBuilder polygon() {
     return builder;
 }
 
-// Both in focus and blurred, the total light of the lines is their length times one pixel.
+// Both in focus and blurred, the lines have the total light of a strip that is as long and one pixel wide.
 TEST_F(StrokesImage, linesHaveTheLightOfOnePixelTimesTheirLength) {
     const ScratchFolder folder;
     GltfBuilder::save(folder / "polygon.glb", polygon().glb());

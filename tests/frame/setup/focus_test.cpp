@@ -93,7 +93,7 @@ TEST(FocusThrough, findsTheCurvedSurfaceOfManyPoints) {
     }
 }
 
-// If no focus surface contains all points, the sum of their squared blurs is minimal: any change increases it.
+// If no focus surface contains all points, focusThrough() minimizes the sum of their squared blurs.
 TEST(FocusThrough, leavesTheMinBlur) {
     const std::vector<glm::dvec3> points = {{-0.6, 0.2, -2}, {0.5, 0.4, -3},   {0.1, -0.3, -1.5}, {0.9, -0.4, -2.5},
                                             {-0.2, 0.5, -4}, {-0.8, -0.5, -3}, {0.3, 0.1, -2.2}};

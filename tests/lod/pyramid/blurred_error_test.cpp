@@ -56,7 +56,7 @@ TEST(BlurredError, aBrighterLevelAndTheSamplesShareTheLight) {
         EXPECT_NEAR(squaredError(pyramid, 1, side) / (more * more) + squaredContrast(pyramid, side), all, 1e-3 * all)
             << "side " << side;
     }
-    // A patch as wide as the diagonal of the ball's bounding box, 2√3, is covered by the ball to at most 38 %.
+    // The ball covers at most 38 % of a patch as wide as the diagonal of its bounding box, 2√3. Contrast is thus high.
     EXPECT_GT(squaredContrast(pyramid, 2 * std::sqrt(3)), 0.6);
 }
 
@@ -233,8 +233,8 @@ TEST(BlurredError, ofWhatHasNoLightOrNoSecondLevelIsNothing) {
     EXPECT_EQ(levelOfBlurredError(Pyramid{}, std::array{0.1}, 100, 0.5), 0);
 }
 
-// At λ, the error of the level equals its limit times the contrast; error and limit are interpolated linearly between
-// levels. λ is clamped to the range from 0 to the coarsest level.
+// At the selected fractional level λ, the error equals its limit times the contrast. Errors and limits are interpolated
+// linearly between levels. λ is clamped to the range from 0 to the coarsest level.
 TEST(BlurredError, theLevelMeetsItsLimit) {
     const Pyramid pyramid = buildPyramid(sphere(96, 48, 0.05));
     ASSERT_GT(pyramid.levels.size(), 4u);
@@ -280,9 +280,9 @@ TEST(BlurredError, theLimitFollowsEdgesAndSamples) {
     }
 }
 
-// λ has no jumps as the blur grows. Errors grow by a tenth per level, so λ changes by at most 11 levels per unit of the
-// target's logarithm. A blur over a patch wider by a thousandth changes the squared error E² by at most 4 thousandths
-// and the squared contrast V² by at most 2.
+// The selected fractional level λ has no jumps as the blur grows. Errors grow by a tenth per level, so λ changes by at
+// most 11 levels per unit of the target's logarithm. If the blurred patch widens by 1/1000, the squared error E²
+// changes by at most 4/1000 and the squared contrast V² by at most 2/1000.
 TEST(BlurredError, theLevelIsContinuousInTheBlur) {
     Mesh mesh = sphere(64, 32, 0.05);
     for (const glm::vec3& p : mesh.vertices.positions) mesh.vertices.colors.push_back(striped(p));

@@ -162,7 +162,7 @@ void expectSound(const Pyramid& pyramid, const Mesh& mesh) {
     }
 }
 
-// ---- round trip --------------------------------------------------------------------------------
+// ---- writing and reading a file ----------------------------------------------------------------
 
 TEST(PyramidFile, comesBackBitForBit) {
     std::map<std::string, Mesh> meshes = {{"decorated", decoratedTorus(40, 30)}, {"plain", sphere(32, 16, 0.2)}};
@@ -188,7 +188,7 @@ TEST(PyramidFile, leavesOutWhatTheMeshHas) {
     EXPECT_EQ(sectionBorders(file).back(), file.bytes.size());
 }
 
-// ---- key ---------------------------------------------------------------------------------------
+// ---- cache keys --------------------------------------------------------------------------------
 
 TEST(PyramidKey, everyInputCounts) {
     const Mesh mesh = decoratedTorus();
@@ -250,7 +250,7 @@ TEST(PyramidFile, anotherKeyIsAMiss) {
     EXPECT_FALSE(decodePyramid(file.bytes, Mesh{}, file.key));
 }
 
-// ---- damage ------------------------------------------------------------------------------------
+// ---- damaged files -----------------------------------------------------------------------------
 
 TEST(PyramidFile, aFlippedBitAnywhereInTheHeaderIsAMiss) {
     Encoded file(decoratedTorus());
@@ -417,7 +417,7 @@ TEST(PyramidFile, randomWordsUnderARightChecksumGiveNothingOrSomethingSound) {
     EXPECT_GT(sound, 100u);  // most words are coordinates, in which any value is valid
 }
 
-// ---- folder ------------------------------------------------------------------------------------
+// ---- cache folder ------------------------------------------------------------------------------
 
 std::vector<Mesh> someMeshes() {
     return {decoratedTorus(), Mesh{}, sphere(24, 16), flatGrid(2), torus(16, 12)};

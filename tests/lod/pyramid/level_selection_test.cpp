@@ -34,7 +34,7 @@ TEST(LevelOfDetail, OfAUniformMeshIsTwiceTheLogarithmOfTargetOverEdge) {
     }
 }
 
-// The metric `proportional` depends on nothing but the blur and the projected bounding box: not on edges or errors.
+// The metric `proportional` depends only on the blur and on the projected bounding box, not on edges or errors.
 TEST(LevelOfDetail, isProportionalToTheBlurAndToTheReciprocalOfTheBox) {
     Pyramid pyramid = uniformPyramid();
     const auto lambda = [&](const LevelQuery& query, double factor) {
@@ -55,8 +55,8 @@ TEST(LevelOfDetail, isProportionalToTheBlurAndToTheReciprocalOfTheBox) {
     EXPECT_EQ(lambda({1, 75, 40}, 10), 0);
 }
 
-// With the metric `score`, λ is the level whose edges are threshold · c/d times as long as the edges of level 0. The
-// blur is c px wide, and edges of level 0 project to d px.
+// With the metric `score`, λ is the fractional level whose edges are threshold · c/d times as long as the edges of
+// level 0. The blur is c px wide, and edges of level 0 project to d px.
 TEST(LevelOfDetail, ByScoreFollowsTheBlurOverTheEdge) {
     const Pyramid pyramid = uniformPyramid();
     for (double coc = 0; coc < 90; coc += 1.3) {
@@ -182,8 +182,8 @@ TEST(SplitSamples, SharesSumToAllAndFollowTheFractionByOneSampleAtATime) {
     }
 }
 
-// For every λ, the number of coarse samples plus the split sample's fraction of coarse pixels is f·N. N is the number
-// of samples, and f the fractional part of λ.
+// In mode `continuous`, one of the N samples draws both levels, each in a part of the pixels. For every λ, the number
+// of coarse samples plus this sample's fraction of coarse pixels is f·N, where f is the fractional part of λ.
 TEST(SplitSamples, ContinuousSharesAreExactlyTheFraction) {
     for (const std::uint32_t count : {1u, 7u, 64u, 1000u}) {
         for (double lambda = 0; lambda < 5; lambda += 0.00731) {

@@ -66,7 +66,7 @@ TEST(RealModels, AllBecomePyramids) {
         for (std::size_t m = 0; m < pyramids.size(); ++m) {
             SCOPED_TRACE(testing::Message() << "mesh " << m << " " << meshes[m].name);
             expectPyramidInvariants(meshes[m], pyramids[m]);
-            if (pyramids[m].levels.size() == 1) continue;  // needs no half-edge structure, so nothing is repaired
+            if (pyramids[m].levels.size() == 1) continue;  // no half-edge structure was built, so nothing was repaired
             EXPECT_EQ(pyramids[m].repairedFaces, repairsOf(meshes[m]).faces);
         }
     }

@@ -85,9 +85,9 @@ Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
     return {sum / shifted, others / (others + shifted)};
 }
 
-// Returns the side, in object units, of the smallest patch for which the level is selected in at least half of
-// `samples` samples under a blur over the patch. Returns nullopt if there is no such patch. The patch is one pixel
-// wide: with more pixels per patch, edges are longer on screen and the selected level is finer.
+// Returns the side, in object units, of the smallest patch with this property: under a blur as wide as the patch, at
+// least half of `samples` samples draw the level. Returns nullopt if there is none. The patch is one pixel wide: with
+// more pixels per patch, edges are longer on screen and the selected level is finer.
 std::optional<double> minPatch(const Pyramid& pyramid, std::size_t level, std::uint32_t samples) {
     const double light = defaultThresholds(LodMetric::measured, samples).light;
     const auto isDrawn = [&](double side) {
@@ -116,8 +116,8 @@ TEST(TextureShift, isMeasured) {
 
 class TextureShiftOf : public testing::TestWithParam<const char*> {};
 
-// A level's texture is shifted by less than a patch, which is one texel of the mip level that a blur over the patch
-// shows.
+// A level's texture is shifted by less than the width of the smallest blur under which the level is drawn. This is one
+// texel of the mip level that such a blur shows.
 TEST_P(TextureShiftOf, levelsIsBelowOneTexelOfTheBlur) {
     DEFOCUS_MODEL_OR_SKIP(path, GetParam());
     const Scene scene = loadGltf(path);

@@ -16,8 +16,8 @@ constexpr int wireCount = 28;
 constexpr int wireRings = 120;
 constexpr double wireRadius = 0.002;
 
-// Returns parallel hexagonal wires in the plane z = 0, from y = 0 to y = 1 and slanted. The hexagons have two corners
-// in the plane.
+// Returns parallel, slanted hexagonal wires in the plane z = 0, from y = 0 to y = 1. Each hexagon has two corners in
+// the plane.
 Mesh slantedWires() {
     Mesh mesh;
     Primitive& primitive = mesh.primitives.emplace_back();

@@ -12,7 +12,7 @@ using Row = AttributeRow<attributeCount>;
 using Gradients = AttributeGradients<attributeCount>;
 using FullQuadric = AttributeQuadric<attributeCount>;
 
-// Returns the row of attributes of a field that is linear in space.
+// Returns the attributes at a point; each is a linear function of the position.
 Row fieldAt(const glm::dvec3& p) {
     Row row;
     for (std::size_t j = 0; j < attributeCount; ++j)

@@ -75,7 +75,7 @@ TEST(WedgeModule, leavingASeamIsPoorWhereTheTextureJumps) {
     EXPECT_EQ(far.modules().wedges.judge(far.edge(4, 5)), Fit::poor);
     DrawnSurface near(tornGrid(0.5f), {together(leftTriangles, rightTrianglesOfSeam)});
     EXPECT_EQ(near.modules().wedges.judge(near.edge(4, 5)), Fit::good);
-    // For both kinds of jump, the corners on the left can use only the surviving vertex.
+    // With a small or large jump, the corners on the left have only the surviving vertex to use.
     near.collapse(4, 5);
     EXPECT_EQ(drawnFaces(near.mesh()),
               (std::vector<Face>{{0, 1, 5}, {0, 5, 3}, {2, 5, 9}, {3, 5, 7}, {3, 7, 6}, {5, 8, 11}}));

@@ -58,7 +58,7 @@ void expectSame(const CameraSample& sample, double aspect, const CameraTrack& tr
         if (name == "focalLength" || name == "horizontalAperture") continue;
         EXPECT_NEAR(placed.camera.lensValue(name).value_or(-1), value, tolerance * std::max(1.0, value)) << name;
     }
-    // Formats with the lens's size in mm keep this size.
+    // File formats with focal length and sensor size in mm preserve both values.
     if (placed.camera.physical) {
         EXPECT_NEAR(placed.camera.physical->focalLength, lensValueOf(sample, "focalLength", 0), tolerance);
         EXPECT_NEAR(placed.camera.physical->sensorSize.x, lensValueOf(sample, "horizontalAperture", 0), tolerance);

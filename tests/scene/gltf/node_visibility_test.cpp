@@ -31,7 +31,7 @@ TEST(GltfNodeVisibility, hidesMeshesAndLightsOfTheSubtree) {
     EXPECT_EQ(pose.cameras.size(), 1u);
 }
 
-// A node is animated by KHR_animation_pointer, with keys of bytes.
+// Fixture with a node whose visibility is animated by KHR_animation_pointer; keys are unsigned bytes.
 class GltfAnimatedVisibility : public testing::Test {
 protected:
     GltfAnimatedVisibility() {

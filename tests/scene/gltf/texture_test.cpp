@@ -123,7 +123,7 @@ const Bytes& webp() {
     return bytes;
 }
 
-// Alpha is straight: colours are not premultiplied, up to their rounding at low alpha.
+// Colours are not premultiplied by alpha; at low alpha, they are exact only up to rounding.
 TEST(GltfTexture, webpWithoutFallbackIsRead) {
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
         GltfBuilder builder = texturedTriangle({{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}});

@@ -51,7 +51,7 @@ class KeptImagesOfAView : public testing::Test {
 protected:
     KeptImagesOfAView() : view_(frame_.view) { request_.view = view_; }
 
-    // Returns images of the view, all of them drawn.
+    // Returns the view's lens images. Draws as many as fit into `bytes`.
     KeptImages keptImages(std::uint64_t bytes = muchMemory, bool software = false) {
         KeptImages images(frame_.world, {}, software);
         images.begin(view_, frame_.settings, planFrame(frame_.world, view_, frame_.settings), bytes);
@@ -73,7 +73,7 @@ protected:
     PictureRequest request_;
 };
 
-// The library draws and rounds the images on its own, and adds them on the CPU.
+// The library draws and rounds its own lens images, and adds them on the CPU. Its pictures equal the window's.
 TEST_F(KeptImagesOfAView, givePicturesOfTheLibrary) {
     FrameDriver driver(frame_.world, {parseMethodUse("accumulation"), {}, {}});
     RenderSettings settings = frame_.settings;
@@ -131,7 +131,7 @@ TEST_F(KeptImagesOfAView, serveSmallerAperturesAndFocusDistancesInTheirRange) {
     EXPECT_EQ(serving(2, 4), 0u);  // only about 4 images lie within the aperture, which is too few
 }
 
-// Fixture of a window's picture that has come to rest.
+// Fixture with a window's picture that no longer changes, so that all of its lens images are drawn.
 class PictureAtRest : public KeptImagesOfAView {
 protected:
     void SetUp() override {
