@@ -3,9 +3,11 @@
 // Writes FOLDER/scene.glb, the scene with lighting baked into vertex colours (unlit_file.h), and renders this file.
 // Each image is FOLDER/METHOD-SAMPLES.exr; METHOD-reference.exr has another seed and full detail. Prints a line of JSON
 // for the file, and one for each image. Times run from the first sample to the image in main memory. Each method first
-// draws an untimed frame. CPU time is the time of all threads.
+// draws an untimed frame. CPU time is the time of all threads. METHOD can be auto-4: method auto with four pixel
+// positions per lens sample.
 //
-//   defocus_peers_bench FOLDER [SCENE] [--fstop 16] [--size 512x384] [--methods auto,accumulation,embree-shared,embree]
+//   defocus_peers_bench FOLDER [SCENE] [--fstop 16] [--size 512x384]
+//       [--methods auto,auto-4,accumulation,embree-shared,embree]
 //       [--counts 2,4,8,16,32,64,128,256] [--reference-samples 1024]
 
 #include <fmt/format.h>
@@ -40,7 +42,7 @@ struct Options {
     std::filesystem::path folder;
     std::filesystem::path scene;
     std::optional<double> fStop;
-    std::vector<std::string> methods = {"auto", "accumulation", "embree-shared", "embree"};
+    std::vector<std::string> methods = {"auto", "auto-4", "accumulation", "embree-shared", "embree"};
     std::vector<std::uint32_t> counts = {2, 4, 8, 16, 32, 64, 128, 256};
     std::uint32_t referenceSamples = 1024;
     int width = 512;
@@ -88,7 +90,14 @@ void drawFrame(SceneDriver& driver) {
     }
 }
 
-void render(SceneDriver& driver, const Request& request, const std::filesystem::path& file) {
+// Sets the method, and the number of pixel positions per lens sample.
+void useMethod(Request& request, const std::string& name) {
+    const bool four = name == "auto-4";
+    request.method = four ? automaticMethod : name;
+    request.positions = four ? 4 : 1;
+}
+
+void render(SceneDriver& driver, const std::string& method, const Request& request, const std::filesystem::path& file) {
     double cpu = std::numeric_limits<double>::infinity();
     double seconds = cpu;
     const int runs = *request.samples <= maxRepeated ? 3 : 1;
@@ -103,7 +112,7 @@ void render(SceneDriver& driver, const Request& request, const std::filesystem::
         seconds = std::min(seconds, millisecondsSince(begin) / 1000);
     }
     writeImage(file, image);
-    print({{"method", request.method},
+    print({{"method", method},
            {"drawnBy", driver.driver().method().text()},
            {"samples", *request.samples},
            {"seconds", seconds},
@@ -116,20 +125,20 @@ int run(const Options& options) {
     Request request = sceneFile(options);
     SceneDriver driver(nullptr, request, {}, {});
     for (const std::string& method : options.methods) {
-        request.method = method;
+        useMethod(request, method);
         request.samples = options.counts.front();
         driver.start(request);
         drawFrame(driver);
         for (const std::uint32_t count : options.counts) {
             request.samples = count;
-            render(driver, request, options.folder / fmt::format("{}-{}.exr", method, count));
+            render(driver, method, request, options.folder / fmt::format("{}-{}.exr", method, count));
         }
     }
     request.samples = options.referenceSamples;
     request.seed = referenceSeed;
     request.lod = LodMode::off;
     for (const char* method : {"accumulation", "embree"}) {
-        request.method = method;
+        useMethod(request, method);
         driver.start(request);
         drawFrame(driver);
         writeImage(options.folder / fmt::format("{}-reference.exr", method), driver.image());
@@ -149,7 +158,7 @@ int main(int argc, char** argv) {
     app.add_option("scene", options.scene, "glTF file; default: the built-in school of fish");
     app.add_option("--fstop", options.fStop, "f-number; default: from the camera")->check(CLI::Range(0.1, 1000.0));
     app.add_option("--size", size, "WxH in px");
-    app.add_option("--methods", options.methods, "names of methods")->delimiter(',');
+    app.add_option("--methods", options.methods, "names of methods; auto-4: auto with four positions")->delimiter(',');
     app.add_option("--counts", options.counts, "numbers of lens samples")
         ->delimiter(',')
         ->check(CLI::Range(1u, maxSamples));

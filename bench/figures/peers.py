@@ -7,7 +7,8 @@ Needs Blender 3.4 (Debian: apt-get install blender). EEVEE also needs a display,
 
 Held equal: geometry, colours (baked lighting, unlit materials), camera, lens (round aperture), image size, pixel filter
 (box of one pixel; EEVEE: a similar one), colour transform. Cycles has no adaptive sampling, no denoising and no bounces.
-Levels of detail are those of `--lod fractional`, the default for a given number of samples.
+Levels of detail are those of `--lod fractional`, the default for a given number of samples. The row auto-4 is method auto
+with four pixel positions per lens sample (`--positions 4`).
 
 Errors are RMSE and FLIP of sRGB-encoded values in [0, 1]. Each renderer is compared with its own image of many samples
 and another seed, at full detail; EEVEE with that of Cycles. The differences between these references show that all draw
@@ -38,8 +39,8 @@ from figures.timed import processor
 COUNTS = (2, 4, 8, 16, 32, 64, 128, 256)
 EEVEE_COUNTS = (4, 16)  # more samples hardly change EEVEE's image
 TARGETS = [("rmse", 0.01), ("rmse", 0.005), ("rmse", 0.0033), ("flip", 0.03), ("flip", 0.015), ("flip", 0.01)]
-REFERENCES = {"auto": "accumulation", "accumulation": "accumulation", "embree-shared": "embree", "embree": "embree", "cycles": "cycles",
-              "eevee": "cycles"}
+REFERENCES = {"auto": "accumulation", "auto-4": "accumulation", "accumulation": "accumulation", "embree-shared": "embree", "embree": "embree",
+              "cycles": "cycles", "eevee": "cycles"}
 SCENES = {"school": [], "helmets": ["helmets.gltf"], "school-f11": ["--fstop", "11"],
           "chess-f16": [ROOT / "meshes/chess.glb", "--fstop", "16"]}  # {name: arguments of defocus_peers_bench}
 
@@ -163,12 +164,12 @@ def measure(arguments, name, folder):
         error = difference(arguments.defocus, folder, f"{REFERENCES[method]}-reference", f"{method}-{image['samples']}")
         points.setdefault(method, []).append(Point(image["cpuSeconds"], image["seconds"], error["rmse"], error["flip"]))
     if "eevee" in points:
-        notes.append(f"EEVEE's image of {EEVEE_COUNTS[-1]} samples is {-20 * math.log10(points['eevee'][-1].rmse):.1f} dB from Cycles' limit.")
+        notes.append(f"EEVEE's image of {EEVEE_COUNTS[-1]} samples is {-20 * math.log10(points['eevee'][-1].rmse):.1f} dB from Cycles' reference.")
     distances = [f"{second} {difference(arguments.defocus, folder, 'accumulation-reference', f'{second}-reference')['psnr']:.1f} dB"
                  for second in ("embree", "cycles")]
     drawn = ", then ".join(dict.fromkeys(image["drawnBy"] for image in images if image["method"] == "auto"))
     return [f"{name}: {facts['triangles']:,} triangles, f/{facts['fStop']:.3g}; auto draws with {drawn}", *table(points),
-            f"Distance between the limits of accumulation and of: {', '.join(distances)}", *notes, ""], facts
+            f"Distance between the references of accumulation and of: {', '.join(distances)}", *notes, ""], facts
 
 
 def main(words):

@@ -19,8 +19,8 @@ public:
     // Number of lens samples if the request gives none.
     static constexpr std::uint32_t defaultSamples = 64;
 
-    // `driver` must outlive the output. `range`: focus distances that the file must allow, besides the request's focus
-    // distance; nullopt: from the nearest to the farthest visible surface. Throws UsageError unless
+    // `driver` must outlive the output. `range`: focus distances that the file must allow, in addition to the
+    // request's focus distance; nullopt: from the nearest to the farthest visible surface. Throws UsageError unless
     // 0 < nearest ≤ farthest.
     LightFieldOutput(SceneDriver& driver, std::filesystem::path path, std::optional<FocusRange> range);
 

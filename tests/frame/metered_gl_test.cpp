@@ -78,5 +78,18 @@ TEST_F(MeteredRender, metersOnce) {
     EXPECT_NEAR(readImage(folder_ / "b.png").at(16, 12)[1], readImage(folder_ / "a.png").at(16, 12)[1], 0.02f);
 }
 
+// The meter always draws one position per sample. The exposure therefore does not depend on Request::positions.
+TEST_F(MeteredRender, measuresTheSameWithFourPositions) {
+    saveWall(0.002, 0.1);
+    request_.cameraPosition = Vector3{3, 2, 40};  // the wall's edges cross the image
+    Request four = request_;
+    four.positions = 4;
+    SceneRenderer first(four), second(request_);
+    first.write(folder_ / "a.png", first.render());
+    first.write(folder_ / "a.png", first.render(request_));
+    second.write(folder_ / "b.png", second.render());
+    EXPECT_EQ(readImage(folder_ / "a.png").pixels, readImage(folder_ / "b.png").pixels);
+}
+
 }  // namespace
 }  // namespace defocus::engine

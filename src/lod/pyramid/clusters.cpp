@@ -194,8 +194,8 @@ TriangleNumber seedBeside(const ClusterGrowth& g) {
     return best;
 }
 
-// Of the unassigned triangles most recently found beside earlier clusters, returns the one nearest to `place`. Returns
-// the first unassigned triangle of the primitive if there is none.
+// Returns the triangle nearest to `place` among the unassigned triangles last found beside earlier clusters. If there
+// are none, returns the first unassigned triangle of the primitive.
 TriangleNumber seedElsewhere(ClusterGrowth& g, const glm::vec3& place) {
     while (!g.left.empty() && g.taken[g.left.back()] != 0) g.left.pop_back();
     TriangleNumber best;

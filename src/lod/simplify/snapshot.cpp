@@ -39,7 +39,7 @@ double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
 }
 
 // Returns true if all face normals are within 60° of the first normal. Their mean is then long enough to keep the
-// wedge, whatever the corner angles are.
+// wedge, for any weights by corner angle.
 bool surelyAgree(std::span<const CornerNormal> corners) {
     const glm::dvec3& first = corners[0].normal;
     const double limit = minResultant * minResultant * glm::dot(first, first);

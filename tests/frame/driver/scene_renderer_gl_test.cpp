@@ -11,6 +11,7 @@
 #include "frame/driver/small_request.h"
 #include "gl/context.h"
 #include "image/image_io.h"
+#include "render/methods.h"
 
 namespace defocus::engine {
 namespace {
@@ -41,6 +42,18 @@ TEST_F(SceneRendererTest, stepsEndInTheImageOfRender) {
     EXPECT_GT(statistics.trianglesAtFullDetail, statistics.trianglesDrawn);
     EXPECT_GT(statistics.gpuBytes, 0u);
     EXPECT_FALSE(statistics.device.empty());
+}
+
+// Methods that draw one position per sample ignore a request for four.
+TEST_F(SceneRendererTest, otherMethodsHaveOnePosition) {
+    for (const Method& method : methods()) {
+        if (method.drawsPositions) continue;
+        Request one = smallRequest();
+        one.method = method.name;
+        Request four = one;
+        four.positions = 4;
+        EXPECT_EQ(render(four).pixels, render(one).pixels) << method.name;
+    }
 }
 
 // Each frame of one renderer equals the image of a new renderer.
