@@ -422,3 +422,7 @@ def _warn(lines: List[str]) -> None:
         level += 1
     for line in lines:
         _warnings.warn(line, stacklevel=level + 1)
+
+
+def __dir__() -> List[str]:
+    return sorted([*__all__, "__version__"])

@@ -62,7 +62,7 @@ TEST_F(TileCommand, whatIsMissingOrForeignIsNamed) {
     expectRefused(merged({"0.exr", "gone.exr", "2.exr"}), 1, "cannot read gone.exr: No such file");
     expectRefused(merged({"0.exr", "0.exr", "1.exr", "2.exr"}), 1, "overlap: both hold row 0");
     expectRefused(merged({"half.exr", "1.exr", "2.exr"}), 1, "overlap");
-    expectRefused(merged({"0.exr", "other.exr", "2.exr"}), 1, "different settings");
+    expectRefused(merged({"0.exr", "other.exr", "2.exr"}), 1, "different frames: seed is 0 and 1");
     expectRefused(merged({"0.exr", "quads.gltf", "2.exr"}), 1, "quads.gltf: ");
     ASSERT_EQ(run(line({"-o", "whole.exr"})).exitCode, 0);
     expectRefused(merged({"0.exr", "whole.exr"}), 1, "whole.exr is not a tile of a frame");

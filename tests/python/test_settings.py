@@ -21,6 +21,11 @@ def texts(keyword, value):
     return list(_settings.texts(_settings.INFOS[keyword], value))
 
 
+def test_completion_offers_only_the_public_names():
+    assert dir(defocus) == sorted([*defocus.__all__, "__version__"])
+    assert all(hasattr(defocus, name) for name in dir(defocus))
+
+
 def test_values_go_as_the_command_line_has_them():
     assert texts("f_stop", 1.4) == ["1.4"]
     assert texts("f_stop", numpy.float64(0.95)) == ["0.95"]

@@ -13,6 +13,18 @@
 
 namespace defocus::engine {
 
+namespace {
+
+// Returns a number or a text; "" for other types.
+std::string valueText(const MetadataValue& value) {
+    if (const auto* text = std::get_if<std::string>(&value)) return *text;
+    if (const auto* integer = std::get_if<int>(&value)) return fmt::format("{}", *integer);
+    if (const auto* number = std::get_if<double>(&value)) return fmt::format("{:g}", *number);
+    return {};
+}
+
+}  // namespace
+
 std::string rangeText(const SampleRange& range) {
     return fmt::format("{}:{}", range.first, range.end);
 }
@@ -59,6 +71,25 @@ TileShare parseTileShare(std::string_view text) {
 const std::string* textAttribute(const Metadata& metadata, const char* name) {
     const auto found = metadata.find(name);
     return found == metadata.end() ? nullptr : std::get_if<std::string>(&found->second);
+}
+
+std::string settingsDifference(const Metadata& first, const Metadata& second) {
+    static constexpr std::string_view prefix = "defocus:";
+    // Attributes that describe a part, and thresholds, which by default follow from other settings.
+    static constexpr std::string_view ignored[] = {"settings", "firstSample",   "endSample",     "seconds",
+                                                   "device",   "blurThreshold", "sizeThreshold", "lightThreshold"};
+    constexpr int maxNamed = 3;
+    std::string text;
+    int named = 0;
+    for (const auto& [name, value] : first) {
+        const auto other = second.find(name);
+        if (!name.starts_with(prefix) || other == second.end() || other->second == value) continue;
+        const std::string_view setting = std::string_view(name).substr(prefix.size());
+        const std::string one = valueText(value), two = valueText(other->second);
+        if (one == two || named == maxNamed || std::ranges::find(ignored, setting) != std::end(ignored)) continue;
+        text += fmt::format("{}{} is {} and {}", named++ == 0 ? "" : ", ", setting, one, two);
+    }
+    return named == 0 ? "their settings differ" : text;
 }
 
 void dropFileAttributes(Metadata& metadata) {

@@ -43,6 +43,10 @@ TileShare parseTileShare(std::string_view text);
 // Returns the text attribute with this name; nullptr if there is none.
 const std::string* textAttribute(const Metadata& metadata, const char* name);
 
+// Returns the settings that differ between two parts' metadata, such as "seed is 0 and 1": at most three, separated by
+// commas. Returns "their settings differ" if the metadata name no such setting.
+std::string settingsDifference(const Metadata& first, const Metadata& second);
+
 // Removes attributes of the file format (compression, windows, …), which do not describe the frame.
 void dropFileAttributes(Metadata& metadata);
 

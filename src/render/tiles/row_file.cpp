@@ -115,8 +115,8 @@ std::vector<RowFile> completeRows(const std::vector<fs::path>& paths) {
     for (std::size_t i = 1; i < tiles.size(); ++i) {
         const RowFileHeader& header = tiles[i].header;
         if (header.settings != first.settings || header.width != first.width || header.height != first.height)
-            fail("{} and {} belong to different frames: they were rendered with different settings",
-                 tiles.front().path.string(), tiles[i].path.string());
+            fail("{} and {} belong to different frames: {}", tiles.front().path.string(), tiles[i].path.string(),
+                 settingsDifference(first.metadata, header.metadata));
         if (header.rows.first < tiles[i - 1].header.rows.end)
             fail("{} and {} overlap: both hold row {}", tiles[i - 1].path.string(), tiles[i].path.string(),
                  header.rows.first);

@@ -24,7 +24,6 @@ std::string layerName(std::uint32_t firstSample, const char* what) {
 }
 
 // Returns whether the alpha of all pixels is `value`.
-
 bool alphaIs(const Image& image, float value) {
     for (std::size_t i = 3; i < image.pixels.size(); i += 4)
         if (image.pixels[i] != value) return false;
@@ -47,7 +46,6 @@ Image withAlpha(const Image& image, float alpha) {
 
 // Returns the metadata attribute `name`. Throws Error, with `file` in its message, if it is missing or has another
 // type.
-
 template <typename Value>
 Value attribute(const Metadata& metadata, const char* name, const std::string& file) {
     const auto found = metadata.find(name);
@@ -76,8 +74,8 @@ void checkComplete(const std::vector<NamedPart>& parts) {
         const auto& [path, part] = parts[i];
         if (part.settings != first.settings || part.width != first.width || part.height != first.height ||
             part.frameSamples != first.frameSamples)
-            fail("{} and {} belong to different frames: they were rendered with different settings",
-                 parts.front().path.string(), path.string());
+            fail("{} and {} belong to different frames: {}", parts.front().path.string(), path.string(),
+                 settingsDifference(first.metadata, part.metadata));
         if (part.range.first < next)
             fail("{} and {} overlap: both hold sample {}", parts[i - 1].path.string(), path.string(), part.range.first);
         if (part.range.first > next)
