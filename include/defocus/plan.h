@@ -1,5 +1,5 @@
 #pragma once
-// Plan of a frame: which levels of detail each lens sample draws, and which parts are omitted for which reason.
+// Plan of a frame: which levels of detail each lens sample draws, and which parts of the scene are omitted and why.
 
 #include <cstdint>
 #include <optional>
@@ -40,7 +40,7 @@ struct PlannedObject {
     bool blended = false;      // true if the object has alpha-blended materials
     bool transmits = false;    // true if the object has transmitting materials
     bool moves = false;        // true if the object moves during the exposure
-    std::vector<PlannedDraw> draws;  // one or two, the coarser level first
+    std::vector<PlannedDraw> draws;  // one or two draws; the one with the coarser level first
     // For a sample that mixes both levels (LodMode::continuous): fraction of its pixels that draw the coarser level.
     std::optional<double> boundaryShare;
 };
@@ -52,7 +52,7 @@ struct PlannedShadowMap {
 };
 
 struct LeftOutPart {
-    std::string what;  // name of the omitted part, e.g. "object Fish 3" or "texture path"
+    std::string what;  // name of the omitted part of the scene, e.g. "object Fish 3" or "texture path"
     std::string reason;
 };
 
@@ -70,7 +70,7 @@ struct Plan {
     double focusDistance = 0;     // focus distance in m; +∞ for focus at infinity
     double apertureDiameter = 0;  // m
     bool usesLens = true;         // false: no blur reaches half a pixel, so a pinhole is drawn
-    // Samples.
+    // Lens samples of the frame.
     std::uint32_t samples = 0;
     std::uint32_t positions = 1;  // number of subpixel positions of each lens sample
     Sequence sequence = Sequence::sobol;
@@ -78,7 +78,7 @@ struct Plan {
     double cocTolerance = 0;          // tolerance in px; see Request::cocTolerance
     std::uint64_t moments = 0;        // number of instants at which the scene is posed; 0: nothing moves
     std::uint64_t movingObjects = 0;  // objects that move during the exposure
-    // Settings for the levels of detail; thresholds that the Request leaves unset have their defaults.
+    // Settings of the levels of detail; thresholds that the Request leaves unset have their defaults here.
     LodMode lod = LodMode::fractional;
     LodMetric lodMetric = LodMetric::automatic;
     LodCoc lodCoc = LodCoc::smallest;
@@ -86,8 +86,8 @@ struct Plan {
     double blurThreshold = 0;   // target edge length relative to the blur diameter
     double sizeThreshold = 0;   // min target edge length, px
     double lightThreshold = 0;  // limit in px; see Request::lightThreshold
-    // Shadows.
-    std::vector<PlannedShadowMap> shadowMaps;  // shadow maps; empty: no shadows
+    // Shadow maps and their sampling.
+    std::vector<PlannedShadowMap> shadowMaps;  // empty: no shadows
     int shadowMapSize = 0;                     // side of each shadow map, px
     std::uint32_t shadowPoints = 0;            // sample points on each light per lens sample
     // Method "multirate" blurs the image of each lens sample to fill the gaps between the samples. Standard deviation

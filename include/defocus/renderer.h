@@ -2,8 +2,8 @@
 // Renders the image of a request, in one call or in steps.
 //
 // The library renders in its own windowless OpenGL 4.5 context (EGL). Without a GPU, Mesa's llvmpipe renders on the
-// CPU. If the caller has a current EGL context, every call restores it before it returns. An object must be used by
-// only one thread at a time; different objects may be used concurrently.
+// CPU. If the caller has a current EGL context, every call restores it before it returns. A renderer must be used by
+// only one thread at a time; different renderers may be used concurrently.
 
 #include <cstdint>
 #include <filesystem>
@@ -30,7 +30,7 @@ struct RenderStatistics {
     double pyramidMilliseconds = 0;           // building pyramids, or reading them from the cache
     double setupMilliseconds = 0;             // uploads and shader compilation
     double renderMilliseconds = 0;            // drawing all samples
-    std::uint64_t trianglesDrawn = 0;         // sum over all samples
+    std::uint64_t trianglesDrawn = 0;         // triangles drawn, summed over all samples
     std::uint64_t trianglesAtFullDetail = 0;  // value of trianglesDrawn if all objects were drawn at full detail
     std::uint64_t gpuBytes = 0;               // peak size of the renderer's GPU resources
     std::string device;
@@ -43,7 +43,7 @@ struct RenderStatistics {
 struct Aovs {
     Image depth;  // depth in m along the view axis; +∞ for pixels without a surface
     Image coc;    // signed diameter of the circle of confusion in px, > 0 behind the focus plane
-    Image level;  // fractional level of detail of the object; −1 for pixels without a surface
+    Image level;  // fractional level of detail of the pixel's object; −1 for pixels without a surface
 };
 
 // Renders frames of one scene, which is read and simplified only once.

@@ -34,7 +34,7 @@ inline constexpr Matrix4 identityMatrix = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0
 // equal, if `up` is parallel to the line of sight, or if a value is NaN or infinite.
 DEFOCUS_API Matrix4 lookAt(const Vector3& position, const Vector3& target, const Vector3& up = {0, 1, 0});
 
-// Triangles with one material. The arrays hold one element per vertex; optional arrays may be empty.
+// Triangles with one material. Arrays of vertex attributes hold one element per vertex; optional arrays may be empty.
 struct MeshData {
     std::string name = {};
     std::span<const std::array<float, 3>> positions = {};
