@@ -21,8 +21,7 @@ constexpr double pi = std::numbers::pi;
 constexpr int fewestCells = 256;
 constexpr int maxCells = 1024;
 
-// ---- aperture blades
-// --------------------------------------------------------------------------------------------------
+// ---- aperture blades -----------------------------------------------------------------------------------------------
 
 struct Blade {
     double halfAngle = 0;  // π/n for n blades
