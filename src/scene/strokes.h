@@ -6,10 +6,10 @@
 
 namespace defocus::engine {
 
-// Camera in whose image the points and lines are one pixel wide.
+// Camera in whose image points and lines are one pixel wide.
 struct StrokeView {
     glm::dmat4 worldFromCamera{1.0};
-    double pixelTangent = 0;  // width of a pixel at distance 1
+    double pixelTangent = 0;  // width of a pixel at depth 1
     double nearPlane = 0;     // depth in m; nearer points get the width of this depth
 };
 
