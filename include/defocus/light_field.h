@@ -38,11 +38,11 @@ struct LightFieldInfo {
     int width = 0;                  // px
     int height = 0;                 // px
     double focusDistance = 1;       // focus distance of the rendered images, m
-    double fStop = 1;               // f-number of the rendered aperture; the widest one that can be chosen
+    double fStop = 1;               // f-number of the rendered aperture; the smallest that can be chosen
     double focalLength = 0;         // focal length in mm; 0: unknown
     double horizontalAperture = 0;  // sensor width in mm; 0: unknown
-    FocusRange focusRange;          // focus distances that can be chosen
-    bool fullDisk = true;           // true if f-number and aperture shape can be chosen
+    FocusRange focusRange;          // focus distances in m that can be chosen
+    bool fullDisk = true;           // true: f-number and aperture shape can be chosen; false: both are fixed
     // For a focus at s, the image of lens point (u, v) moves by pixelsPerDioptre · (1/s − 1/focusDistance) · (u, v) px.
     double pixelsPerDioptre = 0;
     // Lens point (u, v) of each image in the unit disk; u points right, v up.

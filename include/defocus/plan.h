@@ -18,8 +18,8 @@ namespace defocus {
 // A level of detail of an object, and the range of lens samples that draw this level.
 struct PlannedDraw {
     std::uint32_t level = 0;
-    std::uint32_t triangles = 0;    // number drawn per sample; triangles that no lens point sees are culled
-    std::uint32_t firstSample = 0;  // index into the frame's samples
+    std::uint32_t triangles = 0;    // triangles drawn per sample, without those that no lens point sees
+    std::uint32_t firstSample = 0;  // index of the first sample that draws this level
     std::uint32_t sampleCount = 0;
 };
 
@@ -34,9 +34,9 @@ struct PlannedObject {
     double farthestCoc = 0;
     double smallestCoc = 0;
     double largestCoc = 0;
-    double projectedEdge = 0;  // mean edge length of level 0 at the nearest depth, px
+    double projectedEdge = 0;  // mean edge length of level 0 (full detail), seen at the nearest depth, px
     double lambda = 0;         // fractional level of detail λ (Jeong, Kim and Lee 2011)
-    double pixelRate = 1;      // resolution per axis relative to the image; < 1 for strong blur (method "multirate")
+    double pixelRate = 1;      // resolution per axis relative to the image's; < 1 for strong blur (method "multirate")
     bool blended = false;      // true if the object has alpha-blended materials
     bool transmits = false;    // true if the object has transmitting materials
     bool moves = false;        // true if the object moves during the exposure

@@ -117,25 +117,26 @@ class LightFieldInfo(NamedTuple):
     width: int  # px
     height: int  # px
     focus_distance: float  # focus distance of the rendered images, m
-    f_stop: float  # f-number of the rendered aperture; the widest one that can be chosen
+    f_stop: float  # f-number of the rendered aperture; the smallest that can be chosen
     focal_length: float  # mm
     horizontal_aperture: float  # sensor width, mm
     focus_range: Tuple[float, float]  # focus distances in m that can be chosen
-    full_disk: bool  # True if f-number and aperture shape can be chosen
+    full_disk: bool  # True: f-number and aperture shape can be chosen; False: both are fixed
     # For focus at s, the image of lens point (u, v) moves by pixels_per_dioptre · (1/s − 1/focus_distance) · (u, v) px.
     pixels_per_dioptre: float
     lens_points: List[List[float]]  # [u, v] of each image in the unit disk; u points right, v up
 
 
 class FocalStack(NamedTuple):
-    """Pictures whose focus distances divide the rendered range evenly in 1/distance, from nearest to farthest."""
+    """Images that are focused at different distances, which divide the rendered range evenly in 1/distance, from the
+    nearest to the farthest."""
 
     focus_distances: List[float]  # m
     pictures: List[numpy.ndarray]  # H×W×4 each
 
 
 def settings() -> List[Setting]:
-    """Returns all keywords, in the order of `defocus render --help`."""
+    """Returns descriptions of all keywords, in the order of `defocus render --help`."""
     rows = []
     for info in _INFOS.values():
         ranged = info.kind.name in ("number", "integer")

@@ -65,14 +65,14 @@ std::span<const std::byte> viewBytes(const Source& source, int view);
 // message, if the budget is exceeded.
 void takeBudget(Source& source, std::uint64_t count, std::uint64_t elementBytes, const std::string& what);
 
-// Calls budget.grant() for the file that `uri` refers to, and lists a backslash that was read as a slash in
-// Source::ignored. Does nothing for data URIs and for files that were granted before.
+// Calls budget.grant() for the file that `uri` refers to, once per file. If a backslash in the URI was read as a slash,
+// says so in Source::ignored. Does nothing for data URIs.
 void grantFile(Source& source, const std::string& uri, const std::string& what);
 
-// Adds content that is not drawn to Source::ignored. Entries with equal `what` and `reason` are merged, and their
-// counts are added.
+// Adds an entry to Source::ignored, for content that is not drawn. Entries with equal `what` and `reason` are merged,
+// and their counts are added.
 void ignore(Source& source, const std::string& what, const std::string& reason, std::uint64_t count = 1);
-// Adds content to Source::ignored, like ignore(), that cannot be drawn correctly because the file is damaged.
+// Same as ignore(), for content that cannot be drawn correctly because the file is damaged.
 void ignoreDamaged(Source& source, const std::string& what, const std::string& reason, std::uint64_t count);
 
 // Returns the extension `name` of a JSON object; nullptr if it is absent.
