@@ -2,8 +2,8 @@
 """Shows how the f-number changes an image, and how many lens samples its blur needs.
 
 Renders a scene with several f-numbers, shows each image with the circles of confusion of its pixels, and plots the
-error of each image against its number of lens samples. Editors that support cells (# %%) can run them one by one. To
-run all cells:
+error of each image against its number of lens samples. Editors that support cells (# %%) can run one cell at a time.
+To run all cells:
 
     python3 examples/blur_study.py meshes/chess.glb blur-study.png
 
@@ -27,7 +27,7 @@ OUTPUT = Path(sys.argv[2] if len(sys.argv) > 2 else "blur-study.png")
 SIZE = (240, 180)
 F_STOPS = (1.4, 2.8, 5.6, 11)
 SAMPLES = (4, 8, 16, 32, 64, 128)
-REFERENCE = {"samples": 512, "lod": "off", "seed": 1}  # full detail; the seed gives other lens points
+REFERENCE = {"samples": 512, "lod": "off", "seed": 1}  # full detail; seed 1 gives other lens points
 
 # %% Render the images, their references and their blur with one renderer, which reads and simplifies the scene once.
 pictures, blurs, references = {}, {}, {}

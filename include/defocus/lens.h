@@ -1,7 +1,7 @@
 #pragma once
 // Lens settings of a request, in the terms and units of photographers, USD and Blender. A setting without a value is
-// taken from the scene file's camera; if the camera lacks it, the default applies. docs/lens.md shows the effect of
-// each setting.
+// taken from the scene file's camera; if the camera lacks the value, the default applies. docs/lens.md shows the effect
+// of each setting.
 
 #include <filesystem>
 #include <optional>

@@ -97,7 +97,7 @@ struct Request {
     // samples.
     std::optional<double> timeLimit;
     Sequence sequence = Sequence::sobol;
-    std::uint32_t seed = 0;  // each seed gives a different set of sample points
+    std::uint32_t seed = 0;  // each seed gives different sample points
     // Default: fractional. A still image with an automatic number of samples and default level settings is drawn at
     // full detail if building the levels would take more time than they save.
     std::optional<LodMode> lod;
@@ -112,7 +112,7 @@ struct Request {
 
     // Rendering method and its settings.
     std::string method = "auto";
-    std::map<std::string, std::string> methodSettings;  // setting's name → value; missing settings have their defaults
+    std::map<std::string, std::string> methodSettings;  // name of a setting → value; missing: defaults
     LayerFormat layerFormat = LayerFormat::automatic;
 
     // Data layers to add to EXR files. Layers need a method that averages lens samples; with layers, method "auto" uses

@@ -58,7 +58,7 @@ enum class LodCoc {
 enum class LevelVertices {
     fitted,     // positions, normals, colours and texture coordinates fitted to full detail
     surviving,  // unchanged vertices of the full-detail mesh
-    quarters,   // unchanged vertices; three levels, with 100, 75 and 50 % of them (Tzeng et al. 2012)
+    quarters,   // unchanged vertices; three levels, with 100, 75 and 50 % of the vertices (Tzeng et al. 2012)
 };
 
 // Shadows from lights and from the environment.

@@ -8,8 +8,8 @@
 
 namespace defocus::engine {
 
-// Returns malloc's free memory to the system (glibc only). Takes a few milliseconds; worthwhile after freeing tens of
-// megabytes.
+// Gives malloc's free memory back to the system (glibc only). Takes a few milliseconds; worthwhile after freeing tens
+// of megabytes.
 void giveBackFreedMemory();
 
 // Makes malloc keep freed memory for later allocations, in huge pages where the system has them (glibc only). A
@@ -23,7 +23,7 @@ inline constexpr std::size_t hugePage = std::size_t{2} << 20;
 // Allocates zeroed pages for at least `bytes` bytes. Throws std::bad_alloc on failure.
 void* allocatePages(std::size_t bytes);
 void freePages(void* pages, std::size_t bytes) noexcept;
-// Returns the pages that lie entirely inside the range to the system. These pages then read as zero.
+// Gives the pages that lie entirely inside the range back to the system. These pages then read as zero.
 void giveBackPages(void* first, std::size_t bytes) noexcept;
 
 // Allocator that uses pages for large blocks and operator new for small blocks.
@@ -55,7 +55,7 @@ struct PageAllocator {
 template <typename T>
 using LargeVector = std::vector<T, PageAllocator<T>>;
 
-// Returns the vector's unused capacity to the system. Only vectors below fewestBytes are reallocated for this.
+// Gives the vector's unused capacity back to the system. Only vectors below fewestBytes are reallocated for this.
 template <typename T>
 void giveBackRoom(LargeVector<T>& values) {
     const std::size_t room = values.capacity() - values.size();

@@ -10,7 +10,7 @@
 namespace defocus::engine {
 
 // magma() and viridis() map t in [0, 1] to linear Rec.709 RGB; t is clamped, and NaN counts as 0.
-glm::vec3 magma(float t);    // black, purple, orange, pale yellow; for errors
+glm::vec3 magma(float t);    // black, purple, orange, pale yellow; for error maps
 glm::vec3 viridis(float t);  // dark blue, green, yellow; for levels of detail and other quantities
 
 // Maps a 1-channel image with values in [0, 1] to linear RGB by magma().

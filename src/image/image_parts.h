@@ -27,8 +27,8 @@ struct PartSize {
 
 class ImagePartWriter {
 public:
-    // `parts`: metadata of 1 … maxImageParts parts. Throws Error, with the path in its message, if the file cannot be
-    // created.
+    // `parts`: the metadata of each part, for 1 … maxImageParts parts. Throws Error, with the path in its message, if
+    // the file cannot be created.
     ImagePartWriter(const std::filesystem::path& path, const PartSize& size, const std::vector<Metadata>& parts);
     ~ImagePartWriter();  // deletes the temporary file unless finish() was called
     ImagePartWriter(ImagePartWriter&&) noexcept;

@@ -44,7 +44,7 @@ struct LensField {
     const char* description;  // help text of the option
     const char* example;      // typical value as text
     LensFeature feature = LensFeature::blur;
-    bool everyday = false;    // true: listed by --help
+    bool everyday = false;    // true: listed by --help; false: only by --help-all
     const char* schema = "";  // JSON schema of a value with gaps in its range; empty: min and max suffice
 };
 

@@ -85,7 +85,7 @@ struct Material {
     float clearcoatNormalScale = 1.0f;
     TextureUse clearcoat;           // linear texture, channel R
     TextureUse clearcoatRoughness;  // linear texture, channel G
-    TextureUse clearcoatNormal;     // like `normal`; without a texture, the coat uses the mesh normal
+    TextureUse clearcoatNormal;     // linear texture, as `normal`; without it, the coat uses the mesh normal
 
     // KHR_materials_sheen.
     glm::vec3 sheenColorFactor{0.0f};
@@ -273,7 +273,7 @@ struct Scene {
     std::vector<Skin> skins;
     std::vector<AnimationClip> clips;
     std::optional<Environment> environment;  // environment; nullopt: see environmentOrDefault
-    double metresPerUnit = 1;                // length unit of all lengths in this scene; a Pose is in metres
+    double metresPerUnit = 1;                // metres per unit of all lengths in this Scene; a Pose is in metres
     std::optional<double> ownMetresPerUnit;  // unit from the file's extras; nullopt: not stated
     std::vector<std::string> variants;       // names of the material variants (KHR_materials_variants)
     std::string variant;                     // chosen material variant; empty: the default materials

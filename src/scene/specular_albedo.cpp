@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns Smith's Λ for GGX slopes of width α and a direction with this cosine to the normal.
+// Returns Smith's Λ for GGX slopes of width α and a direction whose cosine to the normal is `cosine`.
 double smithLambda(double cosine, double alpha) {
     const double tangent2 = 1 / (cosine * cosine) - 1;
     return 0.5 * (std::sqrt(1 + alpha * alpha * tangent2) - 1);
