@@ -1,5 +1,5 @@
-// animation [SCENE [FOLDER]]: renders twelve frames of a scene's animation with motion blur while the focus moves away
-// from the camera. The scene is read and simplified only once.
+// animation [SCENE [FOLDER]]: renders twelve frames of a scene's animation with motion blur while the focus plane moves
+// away from the camera. The scene is read and simplified only once.
 
 #include <defocus/defocus.h>
 

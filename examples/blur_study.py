@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 """Shows how the f-number changes an image, and how many lens samples its blur needs.
 
-Renders a scene with several f-numbers, shows the images with their circles of confusion, and plots the error of each
-against the number of lens samples. Editors that support cells (# %%) can run them one by one. To run all:
+Renders a scene with several f-numbers, shows each image with the circles of confusion of its pixels, and plots the
+error of each image against its number of lens samples. Editors that support cells (# %%) can run one cell at a time.
+To run all cells:
 
     python3 examples/blur_study.py meshes/chess.glb blur-study.png
 
 The script needs the package `defocus` (docs/python.md) and matplotlib.
 """
 
-# %% Scene, f-numbers and numbers of samples.
+# %% Import the packages, and choose the scene, the f-numbers and the numbers of lens samples.
 import sys
 from pathlib import Path
 
@@ -26,9 +27,9 @@ OUTPUT = Path(sys.argv[2] if len(sys.argv) > 2 else "blur-study.png")
 SIZE = (240, 180)
 F_STOPS = (1.4, 2.8, 5.6, 11)
 SAMPLES = (4, 8, 16, 32, 64, 128)
-REFERENCE = {"samples": 512, "lod": "off", "seed": 1}  # full detail, with a different set of lens points
+REFERENCE = {"samples": 512, "lod": "off", "seed": 1}  # full detail; seed 1 gives other lens points
 
-# %% Render images, references and blur with one renderer, so that the scene is read and simplified only once.
+# %% Render the images, their references and their blur with one renderer, which reads and simplifies the scene once.
 pictures, blurs, references = {}, {}, {}
 errors = {f_stop: [] for f_stop in F_STOPS}
 with defocus.Renderer(SCENE, size=SIZE) as renderer:
@@ -42,7 +43,7 @@ with defocus.Renderer(SCENE, size=SIZE) as renderer:
               f"largest blur {numpy.abs(blurs[f_stop]).max(where=numpy.isfinite(blurs[f_stop]), initial=0):.1f} px")
 
 
-# %% Draw a contact sheet: the image, and the signed diameter of the circle of confusion of each pixel.
+# %% Draw a contact sheet with two rows: the images, and the signed diameters of the circles of confusion.
 def encoded(linear):
     """Returns the colour channels of a linear image, encoded for display with sRGB (IEC 61966-2-1)."""
     colour = numpy.clip(linear[..., :3], 0, 1)
@@ -60,8 +61,8 @@ top.colorbar(shown, ax=list(axes[1]), label="circle of confusion, px\n(> 0: behi
 for axis in axes.flat:
     axis.set_axis_off()
 
-# %% Plot the error against the number of samples. Small bright lamps need the most samples, because each sample draws a
-# dot of their disk.
+# %% Plot the error against the number of samples. Small bright lamps need the most samples, because each sample draws
+# only one dot of a lamp's blur disk.
 left, right = bottom.subplots(1, 2)
 for marker, f_stop in zip("osd^", F_STOPS):
     left.loglog(SAMPLES, [error.rmse for error in errors[f_stop]], marker=marker, label=f"f/{f_stop}")

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Makes a data set for depth from defocus: renders the lens images of a scene once, and computes all pictures from them.
+"""Makes a data set for depth from defocus: renders a scene's lens images once, and computes all other images from them.
+
+A lens image is the view from one point on the lens.
 
     python3 examples/defocus_data_set.py meshes/chess.glb chess-set
 
-Files in the output folder: scene.lens.exr (lens images), sharp.exr (everything in focus), depth.exr (m), stack.00.exr …
-(focal stack), coc.00.exr … (signed circle of confusion in px of each picture), and lens.json (camera, lens, and the focus
-distances of the stack). The script needs the package `defocus` (docs/python.md).
+Files in the output folder: scene.lens.exr (lens images), sharp.exr (all surfaces in focus), depth.exr (m), stack.00.exr
+… (focal stack), coc.00.exr … (signed circle of confusion in px for each image of the stack), and lens.json (camera,
+lens, and the focus distances of the stack). The script needs the package `defocus` (docs/python.md).
 """
 
 import argparse

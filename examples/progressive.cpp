@@ -1,5 +1,5 @@
-// progressive [SCENE [IMAGE]]: renders an image and writes it after each step; Ctrl-C ends the rendering early and
-// keeps the latest image. Also writes the depth of each pixel.
+// progressive [SCENE [IMAGE]]: renders an image in steps and writes the image after each step; Ctrl-C ends the
+// rendering early and keeps the latest image. Also writes the depth of each pixel.
 
 #include <defocus/defocus.h>
 

@@ -1,4 +1,4 @@
-// scene_data [IMAGE]: a chequered floor that is built in memory, with a lens focused on its middle.
+// scene_data [IMAGE]: renders a chequered floor that is built in memory, with a lens focused on the floor's middle.
 
 #include <defocus/defocus.h>
 

@@ -89,7 +89,7 @@ defocus::ImageView viewOf(const Array& array) {
 
 // ---- scenes and renderers -------------------------------------------------------------------------------------------
 
-// Scene with its info, which is computed only once.
+// A scene and its SceneInfo, which is computed only once.
 struct OpenScene {
     defocus::Scene scene;
     defocus::SceneInfo info = scene.info();
@@ -529,7 +529,7 @@ void defineRenderer(py::module_& package) {
     });
 }
 
-// Returns those settings of a request that can be chosen after rendering.
+// Returns the settings of a request that can be chosen after rendering.
 defocus::RefocusSettings refocusing(const defocus::Request& request, bool fillGaps = true) {
     return {request.focus, request.lens, fillGaps};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Ways to select the camera of a picture.
+// Ways to select the camera that renders an image.
 
 #include <array>
 #include <string>
@@ -9,7 +9,7 @@ namespace defocus {
 
 using Vector3 = std::array<double, 3>;
 
-// Selects the first camera of the scene file; if the file has no camera, a camera that frames the scene.
+// Selects the first camera of the scene file. If the file has no camera, selects a camera that frames the scene.
 struct FirstCamera {
     bool operator==(const FirstCamera&) const = default;
 };

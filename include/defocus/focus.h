@@ -19,7 +19,7 @@ struct FocusDistance {
     bool operator==(const FocusDistance&) const = default;
 };
 
-// Focuses on the centre of the node with this name.
+// Focuses on a node: on the centre of its mesh's bounding box, or on its origin if the node has no mesh.
 struct FocusNode {
     std::string name;
     bool operator==(const FocusNode&) const = default;

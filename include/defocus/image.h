@@ -1,5 +1,5 @@
 #pragma once
-// Float images, and functions to read, write and compare them.
+// Defines images of floats, and functions that read, write and compare them.
 
 #include <cstddef>
 #include <cstdint>

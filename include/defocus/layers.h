@@ -1,7 +1,7 @@
 #pragma once
-// Layers: images of data, such as depth or normals, that are rendered together with the colours of a picture. Each
-// layer is the mean over the picture's lens samples, filtered with the picture's pixel filter and premultiplied by the
-// coverage of the surfaces.
+// Layers are images of data, such as depth or normals, that are rendered together with the colour image. Each layer is
+// the mean over the lens samples, filtered with the image's pixel filter and premultiplied by the coverage of the
+// surfaces.
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 // Lens settings of a request, in the terms and units of photographers, USD and Blender. A setting without a value is
-// taken from the scene file's camera; if the camera lacks it, the default applies. docs/lens.md shows the effect of
-// each setting.
+// taken from the scene file's camera; if the camera lacks the value, the default applies. docs/lens.md shows the effect
+// of each setting.
 
 #include <filesystem>
 #include <optional>
@@ -9,7 +9,7 @@
 namespace defocus {
 
 struct LensSettings {
-    // Camera.
+    // Settings of the camera, and of the exposure of 8-bit images.
     std::optional<double> focalLength;         // focal length in mm; sets the field of view. Default: from the camera
     std::optional<double> fStop;               // f-number N, > 0: aperture diameter = focalLength / N. Default: 2.8
     std::optional<double> horizontalAperture;  // sensor width in mm. Default: 36
@@ -19,10 +19,10 @@ struct LensSettings {
     std::optional<double> exposureTime;        // exposure time in s, for the brightness of 8-bit images; 0: unused
     std::optional<double> iso;                 // sensitivity, 1 … 1e7. Default: 100
 
-    // Aperture.
+    // Shape of the aperture, and aberrations of the lens.
     std::optional<int> bladeCount;                   // number of blades, 3 … 64; 0: circular aperture
-    std::optional<double> bladeRotation;             // degrees
-    std::optional<double> bladeCurvature;            // curvature; 0: straight blades, 1: a circle
+    std::optional<double> bladeRotation;             // rotation of the aperture, degrees
+    std::optional<double> bladeCurvature;            // curvature of the blades; 0: straight, 1: a circle
     std::optional<double> anamorphicRatio;           // aperture height / width; > 1: tall ovals
     std::optional<double> obstruction;               // mirror lens: inner / outer diameter, [0, 1)
     std::optional<double> sphericalAberration;       // [−1, 1]; > 0: bokeh has a brighter rim; < 0: brighter centre
@@ -37,7 +37,7 @@ struct LensSettings {
     std::optional<double> backgroundLimit;    // max blur diameter in px behind the focus plane
     std::optional<double> focusRangeFront;    // extent in m of the sharp range in front of the focus distance
     std::optional<double> focusRangeBehind;   // extent in m of the sharp range behind the focus distance
-    std::optional<bool> focusRangeRefocuses;  // true: behind the range, blur as for a focus at the range's far end
+    std::optional<bool> focusRangeRefocuses;  // true: surfaces behind the range blur as if its far end were in focus
     std::optional<double> focusTilt;          // degrees about the horizontal axis; > 0: focus plane's top is nearer
     std::optional<double> focusSwing;         // degrees about the vertical axis; > 0: focus plane's right is nearer
     // κ of the curved focus surface with depth s/(1 + κr²), where s is the focus distance. r is the distance from the

@@ -1,11 +1,12 @@
 #pragma once
-// Light fields: the images of a frame's lens samples, kept in a file. Pictures with another focus, f-number and
-// aperture shape are computed from them without rendering (docs/refocus.md). Example:
+// A light field is a file of lens images: views of the scene from points on the lens, one for each lens sample. Images
+// with another focus, f-number and aperture shape ("pictures") are computed from the lens images without rendering
+// (docs/refocus.md). Example:
 //
 //   auto field = defocus::LightField::render(request, "scene.lens.exr");
 //   defocus::writeImage("near.exr", field.refocus({.focus = defocus::FocusDistance{1.2}}));
 //
-// An object must be used by only one thread at a time; different objects may be used concurrently.
+// A LightField must be used by only one thread at a time; different LightFields may be used concurrently.
 
 #include <array>
 #include <cstddef>
@@ -27,21 +28,21 @@ namespace defocus {
 
 // Settings that can be chosen after rendering. refocusSettings() lists them; any other setting throws UsageError.
 struct RefocusSettings {
-    Focus focus = {};        // FocusDistance or FocusPixel; CameraFocus: focus as rendered
-    LensSettings lens = {};  // f-number and shape of the aperture; unset values: as rendered
-    bool fillGaps = true;    // true: blurs each lens image to fill the gaps between the copies of a blurred surface
+    Focus focus = {};        // FocusDistance or FocusPixel; CameraFocus: focus distance of the rendered images
+    LensSettings lens = {};  // f-number and shape of the aperture; an unset value: as in the rendered images
+    bool fillGaps = true;    // true: blurs each lens image, so that blur does not show as separate copies
 };
 
-// Description of the lens images of a file.
+// Properties of the lens images in a file.
 struct LightFieldInfo {
     int width = 0;                  // px
     int height = 0;                 // px
     double focusDistance = 1;       // focus distance of the rendered images, m
-    double fStop = 1;               // f-number of the rendered aperture; the widest one that can be chosen
+    double fStop = 1;               // f-number of the rendered aperture; the smallest that can be chosen
     double focalLength = 0;         // focal length in mm; 0: unknown
     double horizontalAperture = 0;  // sensor width in mm; 0: unknown
-    FocusRange focusRange;          // focus distances that can be chosen
-    bool fullDisk = true;           // true if f-number and aperture shape can be chosen
+    FocusRange focusRange;          // focus distances in m that can be chosen
+    bool fullDisk = true;           // true: f-number and aperture shape can be chosen; false: both are fixed
     // For a focus at s, the image of lens point (u, v) moves by pixelsPerDioptre · (1/s − 1/focusDistance) · (u, v) px.
     double pixelsPerDioptre = 0;
     // Lens point (u, v) of each image in the unit disk; u points right, v up.
@@ -57,14 +58,14 @@ struct FocalStack {
 
 class DEFOCUS_API LightField {
 public:
-    // Opens a file of lens images. Throws Error if the file cannot be read, contains no lens images, or lacks one of
-    // its images.
+    // Opens a file of lens images. Throws Error if the file cannot be read, contains no lens images, or lacks some of
+    // them.
     explicit LightField(const std::filesystem::path& path);
     // Render the lens images of a request to a file with the extension .exr, and open the file. `range`: focus
     // distances that can be chosen later, in addition to the request's own distance; nullopt: from the nearest to the
     // farthest visible surface. Throw UsageError if the request's method, samples or target error don't suit lens
-    // images. Throw Error under the conditions of SceneRenderer, and for a lens whose images a change of focus does not
-    // merely shift, such as one with a tilted focus plane. A failure leaves no file.
+    // images. Throw Error under the conditions of SceneRenderer. Also throw Error if a change of focus would do more
+    // than shift the lens images, as with a tilted focus plane. A failure leaves no file.
     static LightField render(const Request& request, const std::filesystem::path& path,
                              std::optional<FocusRange> range = {}, const Progress& progress = {});
     static LightField render(const Scene& scene, const Request& request, const std::filesystem::path& path,
@@ -77,18 +78,19 @@ public:
     // Returns warnings about the scene and the request, one line each; empty if the lens images were read from a file.
     [[nodiscard]] std::vector<std::string> warnings() const;
 
-    // Returns a picture: linear, premultiplied RGBA. Throws Error if the focus distance or the f-number is outside the
-    // rendered range, if the shape needs light that the rendered aperture blocks, or if the file is damaged.
+    // Returns an image computed from the lens images: linear, premultiplied RGBA. Throws Error if the focus distance or
+    // the f-number is outside the rendered range, if no lens point lies within the aperture, or if the file is damaged.
+    // Throws Error also for another aperture size or shape if the rendered aperture is not a full disk.
     [[nodiscard]] Image refocus(const RefocusSettings& settings = {}, const Progress& progress = {});
-    // Returns `count` ≥ 2 pictures. RefocusSettings::focus must be CameraFocus.
+    // Returns a focal stack of `count` ≥ 2 pictures. RefocusSettings::focus must be CameraFocus.
     [[nodiscard]] FocalStack stack(int count, const RefocusSettings& settings = {}, const Progress& progress = {});
-    // Returns the picture in which everything is in focus, as the lens's centre sees it.
+    // Returns the view from the lens's centre, in which all surfaces are in focus.
     [[nodiscard]] Image allInFocus(const Progress& progress = {});
-    // Returns the depths in m along the view axis of the surfaces that the lens's centre sees; +∞ for pixels without a
-    // surface.
+    // Returns the depths in m along the view axis of the surfaces visible from the lens's centre; +∞ for pixels without
+    // a surface.
     [[nodiscard]] Image depth();
-    // Returns the signed diameters in px of the circles of confusion of the surfaces that the lens's centre sees, > 0
-    // behind the focus plane.
+    // Returns the signed diameters in px of the circles of confusion of the surfaces visible from the lens's centre;
+    // positive behind the focus plane.
     [[nodiscard]] Image coc(const RefocusSettings& settings = {});
 
 private:
@@ -97,7 +99,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// Returns the names of the settings that can be chosen after rendering, as in docs/settings.md.
+// Returns the names of the settings that can be chosen after rendering. docs/settings.md describes the settings.
 DEFOCUS_API std::vector<std::string> refocusSettings();
 
 }  // namespace defocus

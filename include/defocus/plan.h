@@ -1,5 +1,5 @@
 #pragma once
-// Plan of a frame: which levels of detail each lens sample draws, and which parts are omitted for which reason.
+// Plan of a frame: which levels of detail each lens sample draws, and which parts of the scene are omitted and why.
 
 #include <cstdint>
 #include <optional>
@@ -18,8 +18,8 @@ namespace defocus {
 // A level of detail of an object, and the range of lens samples that draw this level.
 struct PlannedDraw {
     std::uint32_t level = 0;
-    std::uint32_t triangles = 0;    // number drawn per sample; triangles that no lens point sees are culled
-    std::uint32_t firstSample = 0;  // index into the frame's samples
+    std::uint32_t triangles = 0;    // triangles drawn per sample, without those that no lens point sees
+    std::uint32_t firstSample = 0;  // index of the first sample that draws this level
     std::uint32_t sampleCount = 0;
 };
 
@@ -34,13 +34,13 @@ struct PlannedObject {
     double farthestCoc = 0;
     double smallestCoc = 0;
     double largestCoc = 0;
-    double projectedEdge = 0;  // mean edge length of level 0 at the nearest depth, px
+    double projectedEdge = 0;  // mean edge length of level 0 (full detail), seen at the nearest depth, px
     double lambda = 0;         // fractional level of detail λ (Jeong, Kim and Lee 2011)
-    double pixelRate = 1;      // resolution per axis relative to the image; < 1 for strong blur (method "multirate")
+    double pixelRate = 1;      // resolution per axis relative to the image's; < 1 for strong blur (method "multirate")
     bool blended = false;      // true if the object has alpha-blended materials
     bool transmits = false;    // true if the object has transmitting materials
     bool moves = false;        // true if the object moves during the exposure
-    std::vector<PlannedDraw> draws;  // one or two, the coarser level first
+    std::vector<PlannedDraw> draws;  // one or two draws; the one with the coarser level first
     // For a sample that mixes both levels (LodMode::continuous): fraction of its pixels that draw the coarser level.
     std::optional<double> boundaryShare;
 };
@@ -52,7 +52,7 @@ struct PlannedShadowMap {
 };
 
 struct LeftOutPart {
-    std::string what;  // name of the omitted part, e.g. "object Fish 3" or "texture path"
+    std::string what;  // name of the omitted part of the scene, e.g. "object Fish 3" or "texture path"
     std::string reason;
 };
 
@@ -70,7 +70,7 @@ struct Plan {
     double focusDistance = 0;     // focus distance in m; +∞ for focus at infinity
     double apertureDiameter = 0;  // m
     bool usesLens = true;         // false: no blur reaches half a pixel, so a pinhole is drawn
-    // Samples.
+    // Lens samples of the frame.
     std::uint32_t samples = 0;
     std::uint32_t positions = 1;  // number of subpixel positions of each lens sample
     Sequence sequence = Sequence::sobol;
@@ -78,7 +78,7 @@ struct Plan {
     double cocTolerance = 0;          // tolerance in px; see Request::cocTolerance
     std::uint64_t moments = 0;        // number of instants at which the scene is posed; 0: nothing moves
     std::uint64_t movingObjects = 0;  // objects that move during the exposure
-    // Settings for the levels of detail; thresholds that the Request leaves unset have their defaults.
+    // Settings of the levels of detail; thresholds that the Request leaves unset have their defaults here.
     LodMode lod = LodMode::fractional;
     LodMetric lodMetric = LodMetric::automatic;
     LodCoc lodCoc = LodCoc::smallest;
@@ -86,8 +86,8 @@ struct Plan {
     double blurThreshold = 0;   // target edge length relative to the blur diameter
     double sizeThreshold = 0;   // min target edge length, px
     double lightThreshold = 0;  // limit in px; see Request::lightThreshold
-    // Shadows.
-    std::vector<PlannedShadowMap> shadowMaps;  // shadow maps; empty: no shadows
+    // Shadow maps and their sampling.
+    std::vector<PlannedShadowMap> shadowMaps;  // empty: no shadows
     int shadowMapSize = 0;                     // side of each shadow map, px
     std::uint32_t shadowPoints = 0;            // sample points on each light per lens sample
     // Method "multirate" blurs the image of each lens sample to fill the gaps between the samples. Standard deviation

@@ -11,12 +11,12 @@
 
 namespace defocus {
 
-// Level of detail. Lengths are in the mesh's units.
+// A level of detail of a mesh. Lengths are in the mesh's units.
 struct PyramidLevel {
     std::uint32_t triangles = 0;
     std::uint32_t vertices = 0;
     double meanEdge = 0;
-    double error = 0;  // upper bound of the 99th percentile of distances to level 0
+    double error = 0;  // upper bound of the 99th percentile of the surface's distances to level 0
 };
 
 struct Pyramid {
@@ -24,7 +24,7 @@ struct Pyramid {
     std::uint64_t mesh = 0;            // index of the mesh in the file
     double diagonal = 0;               // diagonal of the mesh's bounding box, in mesh units
     std::uint32_t repairs = 0;         // number of repaired faces
-    std::string end;                   // why there is no coarser level: "minTriangles", "topology" …
+    std::string end;                   // why the last level is the coarsest: "minTriangles", "topology" …
     std::vector<PyramidLevel> levels;  // level 0 is the full mesh
 };
 

@@ -2,8 +2,8 @@
 // Renders the image of a request, in one call or in steps.
 //
 // The library renders in its own windowless OpenGL 4.5 context (EGL). Without a GPU, Mesa's llvmpipe renders on the
-// CPU. If the caller has a current EGL context, every call restores it before it returns. An object must be used by
-// only one thread at a time; different objects may be used concurrently.
+// CPU. If the caller has a current EGL context, every call restores it before it returns. A renderer must be used by
+// only one thread at a time; different renderers may be used concurrently.
 
 #include <cstdint>
 #include <filesystem>
@@ -26,11 +26,11 @@ namespace defocus {
 struct RenderStatistics {
     std::uint32_t samples = 0;                // lens samples drawn
     std::uint32_t positions = 1;              // subpixel positions of each lens sample: 1 or 4
-    double loadMilliseconds = 0;              // reading the scene and posing it
-    double pyramidMilliseconds = 0;           // building pyramids, or reading them from the cache
-    double setupMilliseconds = 0;             // uploads and shader compilation
-    double renderMilliseconds = 0;            // drawing all samples
-    std::uint64_t trianglesDrawn = 0;         // sum over all samples
+    double loadMilliseconds = 0;              // time to read the scene and to pose it
+    double pyramidMilliseconds = 0;           // time to build pyramids, or to read them from the cache
+    double setupMilliseconds = 0;             // time for uploads and shader compilation
+    double renderMilliseconds = 0;            // time to draw all samples
+    std::uint64_t trianglesDrawn = 0;         // triangles drawn, summed over all samples
     std::uint64_t trianglesAtFullDetail = 0;  // value of trianglesDrawn if all objects were drawn at full detail
     std::uint64_t gpuBytes = 0;               // peak size of the renderer's GPU resources
     std::string device;
@@ -43,7 +43,7 @@ struct RenderStatistics {
 struct Aovs {
     Image depth;  // depth in m along the view axis; +∞ for pixels without a surface
     Image coc;    // signed diameter of the circle of confusion in px, > 0 behind the focus plane
-    Image level;  // fractional level of detail of the object; −1 for pixels without a surface
+    Image level;  // fractional level of detail of the pixel's object; −1 for pixels without a surface
 };
 
 // Renders frames of one scene, which is read and simplified only once.
@@ -58,9 +58,9 @@ public:
     SceneRenderer(SceneRenderer&&) noexcept;
     SceneRenderer& operator=(SceneRenderer&&) noexcept;
 
-    // Starts a frame for the constructor's request, or for another request with the same scene, which may differ in
-    // camera, lens, time, samples, levels and method. Throws Error under the conditions of the constructor, and if the
-    // request has another scene.
+    // Starts a frame for the constructor's request, or for another request with the same scene. The other request may
+    // have another camera, lens, time, number of samples, levels of detail and method. Throws Error under the
+    // conditions of the constructor, and if the request has another scene.
     void start();
     void start(const Request& request);
     // Draws further samples. Returns false once the frame is complete. A frame that exceeds Request::memory is drawn in
@@ -82,7 +82,8 @@ public:
 
     // Returns the AOVs of the latest frame. Throws Error if the frame is drawn in tiles.
     [[nodiscard]] Aovs aovs();
-    // Returns the plan of the latest frame: blur, levels and samples of each object, and all omitted parts.
+    // Returns the plan of the latest frame: blur, levels and samples of each object, and all omitted parts of the
+    // scene.
     [[nodiscard]] Plan plan() const;
     // Writes an image with the metadata of the latest frame. PNG and JPEG files use the request's tone mapping and
     // exposure. Metered exposure is measured in the first written image and applied to all later images.

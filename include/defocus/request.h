@@ -1,5 +1,5 @@
 #pragma once
-// All settings of a picture. A default Request gives the same image as `defocus render` without options.
+// All settings of an image. A default Request gives the same image as `defocus render` without options.
 //
 // Settings have the same names on the command line, in shots, in Python and in docs/settings.md, which lists their
 // ranges. Unless stated otherwise, angles are in degrees, lengths in metres, and colours in linear Rec.709.
@@ -35,7 +35,7 @@ struct ImageSize {
 struct EnvironmentBackground {
     bool operator==(const EnvironmentBackground&) const = default;
 };
-// Transparent: alpha is the coverage by geometry.
+// Transparent background: the image's alpha is the fraction of the pixel that surfaces cover.
 struct TransparentBackground {
     bool operator==(const TransparentBackground&) const = default;
 };
@@ -63,8 +63,8 @@ struct Request {
     bool ground = false;            // adds a neutral ground plane that receives shadows
     std::vector<std::string> hide;  // names or indices of nodes to hide, with their descendants
     Shadows shadows = Shadows::automatic;
-    // true: adds the light that is reflected several times between the microfacets of rough surfaces. glTF's materials
-    // have single scattering, so rough metals lose light.
+    // true: adds light that is reflected several times between the microfacets of rough surfaces. glTF's material model
+    // includes only the first reflection, so rough metals are too dark without this light.
     bool multipleScattering = false;
     std::optional<double> lightAngle;   // angular diameter of directional lights in degrees. Default: each light's own
     std::optional<double> lightRadius;  // radius of point and spot lights in m. Default: each light's own
@@ -90,14 +90,14 @@ struct Request {
     // `layers` require 1.
     std::optional<std::uint32_t> positions;
     Quality quality = Quality::good;  // used if samples, targetError and timeLimit are unset
-    // Target RMSE of the display-encoded image at EV 0, 1e-6 … 1. Blocks of 64 samples are added until the estimated
+    // Target RMSE of the display-encoded image at EV 0, 1e-6 … 1. Samples are added, 64 at a time, until the estimated
     // error is below the target. `samples` is the max number of samples.
     std::optional<double> targetError;
-    // Time limit in s. Blocks of 64 samples are added until the time has elapsed. `samples` is the max number of
+    // Time limit in s. Samples are added, 64 at a time, until the time has elapsed. `samples` is the max number of
     // samples.
     std::optional<double> timeLimit;
     Sequence sequence = Sequence::sobol;
-    std::uint32_t seed = 0;  // each seed gives a different set of sample points
+    std::uint32_t seed = 0;  // each seed gives different sample points
     // Default: fractional. A still image with an automatic number of samples and default level settings is drawn at
     // full detail if building the levels would take more time than they save.
     std::optional<LodMode> lod;
@@ -110,13 +110,13 @@ struct Request {
     std::filesystem::path cacheFolder;  // cache of mesh pyramids; empty: $XDG_CACHE_HOME/defocus or ~/.cache/defocus
     bool noCache = false;               // true: pyramids are built without reading or writing the cache
 
-    // Method.
+    // Rendering method and its settings.
     std::string method = "auto";
-    std::map<std::string, std::string> methodSettings;  // name → value; missing settings have their defaults
+    std::map<std::string, std::string> methodSettings;  // name of a setting → value; missing: defaults
     LayerFormat layerFormat = LayerFormat::automatic;
 
-    // Data layers to add to EXR files. Layers need a method that sums lens samples; with layers, method "auto" uses
-    // accumulation.
+    // Data layers to add to EXR files. Layers need a method that averages lens samples; with layers, method "auto" uses
+    // method "accumulation".
     std::vector<Layer> layers;
     ExrNames exrNames = ExrNames::nuke;
 

@@ -34,7 +34,7 @@ inline constexpr Matrix4 identityMatrix = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0
 // equal, if `up` is parallel to the line of sight, or if a value is NaN or infinite.
 DEFOCUS_API Matrix4 lookAt(const Vector3& position, const Vector3& target, const Vector3& up = {0, 1, 0});
 
-// Triangles with one material. The arrays hold one element per vertex; optional arrays may be empty.
+// Triangles with one material. Arrays of vertex attributes hold one element per vertex; optional arrays may be empty.
 struct MeshData {
     std::string name = {};
     std::span<const std::array<float, 3>> positions = {};
@@ -117,10 +117,10 @@ struct InstanceData {
 struct CameraData {
     std::string name = {};
     Matrix4 transform = identityMatrix;
-    double yfov = 0.6911112;                   // full vertical angle, in (0, π); unused with lens.focalLength
-    double znear = 0.01;                       // near plane, > 0; surfaces that are nearer are invisible
-    std::optional<double> focusDistance = {};  // along the view axis, > 0. Default: FocusAuto
-    LensSettings lens = {};                    // units and defaults of LensSettings; apertureImage must be empty
+    double yfov = 0.6911112;                   // vertical field of view, (0, π); unused if lens.focalLength is set
+    double znear = 0.01;                       // depth of the near plane, > 0; nearer surfaces are invisible
+    std::optional<double> focusDistance = {};  // distance along the view axis, > 0. Default: FocusAuto
+    LensSettings lens = {};                    // units and defaults as in LensSettings; apertureImage must be empty
 };
 
 enum class LightType { directional, point, spot };
@@ -129,13 +129,13 @@ enum class LightType { directional, point, spot };
 struct LightData {
     std::string name = {};
     LightType type = LightType::directional;
-    Matrix4 transform = identityMatrix;      // placement of the light; its scale has no effect
+    Matrix4 transform = identityMatrix;      // placement of the light; the matrix's scale has no effect
     std::array<float, 3> color = {1, 1, 1};  // ≥ 0
     float intensity = 1;       // illuminance in lux (directional) or intensity in candela (point, spot), ≥ 0
     float range = 0;           // maximum distance of lit surfaces (point, spot); 0: unlimited
     float innerConeAngle = 0;  // spot light: angles from the axis, 0 ≤ inner < outer ≤ π/2
     float outerConeAngle = 0.785398163f;
-    float angularDiameter = 0.00925f;  // angle of a directional light, [0, π]; softens shadows
+    float angularDiameter = 0.00925f;  // angular size of a directional light, [0, π]; softens shadows
     float radius = 0.03f;              // radius of a point or spot light in m, ≥ 0; softens shadows
 };
 

@@ -25,8 +25,8 @@ enum class Sequence {
     r2,               // additive recurrence with powers of the plastic number (R2 sequence)
 };
 
-// Level-of-detail mode. Objects whose blur or size hides the difference are drawn with simplified meshes (Jeong, Kim
-// and Lee 2011). λ is the fractional level of an object.
+// Level-of-detail mode. Objects are drawn with simplified meshes if their blur or size hides the simplification (Jeong,
+// Kim and Lee 2011). λ is the fractional level of an object.
 enum class LodMode {
     fractional,  // some samples draw level ⌊λ⌋, the others level ⌊λ⌋ + 1
     continuous,  // like fractional, but one sample may draw both levels, in different pixels
@@ -58,7 +58,7 @@ enum class LodCoc {
 enum class LevelVertices {
     fitted,     // positions, normals, colours and texture coordinates fitted to full detail
     surviving,  // unchanged vertices of the full-detail mesh
-    quarters,   // unchanged vertices; three levels, with 100, 75 and 50 % of them (Tzeng et al. 2012)
+    quarters,   // unchanged vertices; three levels, with 100, 75 and 50 % of the vertices (Tzeng et al. 2012)
 };
 
 // Shadows from lights and from the environment.

@@ -112,30 +112,31 @@ class Statistics(NamedTuple):
 
 
 class LightFieldInfo(NamedTuple):
-    """Description of the lens images of a file."""
+    """Properties of the lens images in a file."""
 
     width: int  # px
     height: int  # px
     focus_distance: float  # focus distance of the rendered images, m
-    f_stop: float  # f-number of the rendered aperture; the widest one that can be chosen
+    f_stop: float  # f-number of the rendered aperture; the smallest that can be chosen
     focal_length: float  # mm
     horizontal_aperture: float  # sensor width, mm
     focus_range: Tuple[float, float]  # focus distances in m that can be chosen
-    full_disk: bool  # True if f-number and aperture shape can be chosen
+    full_disk: bool  # True: f-number and aperture shape can be chosen; False: both are fixed
     # For focus at s, the image of lens point (u, v) moves by pixels_per_dioptre · (1/s − 1/focus_distance) · (u, v) px.
     pixels_per_dioptre: float
     lens_points: List[List[float]]  # [u, v] of each image in the unit disk; u points right, v up
 
 
 class FocalStack(NamedTuple):
-    """Pictures whose focus distances divide the rendered range evenly in 1/distance, from nearest to farthest."""
+    """Images that are focused at different distances, which divide the rendered range evenly in 1/distance, from the
+    nearest to the farthest."""
 
     focus_distances: List[float]  # m
     pictures: List[numpy.ndarray]  # H×W×4 each
 
 
 def settings() -> List[Setting]:
-    """Returns all keywords, in the order of `defocus render --help`."""
+    """Returns descriptions of all keywords, in the order of `defocus render --help`."""
     rows = []
     for info in _INFOS.values():
         ranged = info.kind.name in ("number", "integer")
@@ -253,15 +254,16 @@ class Renderer:
 
 
 class LightField:
-    """The images of a frame's lens samples, kept in a file. Computes pictures with another focus, f-number and aperture
-    shape from them, without rendering.
+    """A file of lens images: views of the scene from points on the lens, one for each lens sample. Computes images with
+    another focus, f-number and aperture shape ("pictures") from the lens images, without rendering.
 
         field = defocus.LightField.render("scene.lens.exr", "scene.glb", f_stop=1.4, samples=128)
         near = field.refocus(focus_distance=1.2)
         eye = field.refocus(focus_pixel=(512, 384), f_stop=2.8, blade_count=6)
 
-    `LightField(path)` opens a file. The images stay in memory if they fit into half of the free memory; `close()`, or
-    the end of a `with` block, frees them. Threads may share a light field; its calls run one after another.
+    `LightField(path)` opens a file. The lens images stay in memory if they fit into half of the free memory;
+    `close()`, or the end of a `with` block, frees them. Threads may share a light field; its calls run one after
+    another.
     """
 
     def __init__(self, path: Path):
@@ -290,28 +292,28 @@ class LightField:
     def refocus(self, *, fill_gaps: bool = True, progress: Optional[Progress] = None,
                 **settings: Any) -> numpy.ndarray:
         """Returns a picture: H×W×4, linear. Keywords that are not given keep their values from rendering. `fill_gaps`
-        blurs the lens images to fill the gaps between them."""
+        blurs each lens image, so that blur does not show as separate copies of a surface."""
         return self._native.refocus(_refocus_request_of(settings), fill_gaps, _listener(progress))
 
     @_takes_refocus_settings
     def stack(self, count: int, *, fill_gaps: bool = True, progress: Optional[Progress] = None,
               **settings: Any) -> FocalStack:
-        """Returns a focal stack of `count` pictures."""
+        """Returns `count` pictures that are focused at different distances (a focal stack)."""
         return FocalStack(*self._native.stack(count, _refocus_request_of(settings), fill_gaps, _listener(progress)))
 
     def all_in_focus(self, *, progress: Optional[Progress] = None) -> numpy.ndarray:
-        """Returns the picture in which everything is in focus, as the lens's centre sees it: H×W×4."""
+        """Returns the view from the lens's centre, in which all surfaces are in focus: H×W×4."""
         return self._native.all_in_focus(_listener(progress))
 
     def depth(self) -> numpy.ndarray:
-        """Returns the depths in m of the surfaces that the lens's centre sees: H×W; infinity for pixels without a
+        """Returns the depths in m of the surfaces visible from the lens's centre: H×W; infinity for pixels without a
         surface."""
         return self._native.depth()
 
     @_takes_refocus_settings
     def coc(self, **settings: Any) -> numpy.ndarray:
-        """Returns the signed diameters in px of the circles of confusion of the surfaces that the lens's centre sees:
-        H×W; > 0 behind the focus plane."""
+        """Returns the signed diameters in px of the circles of confusion of the surfaces visible from the lens's
+        centre: H×W; > 0 behind the focus plane."""
         return self._native.coc(_refocus_request_of(settings))
 
     def close(self) -> None:

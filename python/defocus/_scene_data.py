@@ -1,4 +1,4 @@
-"""Scenes made of NumPy arrays: the parts that Scene.create takes, and the conversion of these parts to C++."""
+"""Defines the parts of a scene (meshes, cameras, lights …) that Scene.create takes, and converts them to C++."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class Mesh:
     normals: Any = None  # N×3, any length > 0. Default: flat shading
     uvs: Any = None  # N×2; (0, 0) is the texture's top left corner, (1, 1) its bottom right
     colors: Any = None  # N×3 or N×4 floats in [0, 1], linear, straight alpha
-    material: Optional[Material] = None  # material; None: glTF's default material
+    material: Optional[Material] = None  # None: glTF's default material
     name: str = ""
 
 
@@ -137,7 +137,7 @@ def create(instances: Iterable[Union[Instance, Mesh]], *, cameras: Iterable[Came
         str(name), _number("Scene.create", "metres_per_unit", metres_per_unit))
 
 
-# ---- parts ----------------------------------------------------------------------------------------------------------
+# ---- conversion of the parts of a scene ------------------------------------------------------------------------------
 
 _texture_fields = [field.name for field in dataclasses.fields(Material) if field.name.endswith("_texture")]
 _choices = {"content": _defocus.TextureContent, "wrap_u": _defocus.TextureWrap, "wrap_v": _defocus.TextureWrap,
@@ -146,7 +146,7 @@ _choices = {"content": _defocus.TextureContent, "wrap_u": _defocus.TextureWrap, 
 
 
 def _items(parts: Any) -> list:
-    """Returns the parts as a list; a single part becomes a list of one part."""
+    """Returns the instances, cameras or lights as a list; a single one becomes a list with one entry."""
     single = (Instance, Mesh, Camera, Light)
     try:
         return [parts] if isinstance(parts, single) else list(parts)
@@ -161,7 +161,8 @@ def _checked(part: Any, kind: type) -> Any:
 
 
 def _distinct(parts: Iterable[Optional[Part]], kind: type) -> Dict[Part, int]:
-    """Returns a dictionary from each distinct part to its index, in order of first use. Skips None."""
+    """Returns a dictionary from each distinct mesh, material or texture to its index, in order of first use. Skips
+    None."""
     return {part: index for index, part in
             enumerate(dict.fromkeys(_checked(part, kind) for part in parts if part is not None))}
 
@@ -263,7 +264,7 @@ def _native(function: Callable[..., Any], *arguments: Any) -> Any:
         raise _defocus.UsageError(re.sub(pattern, lambda match: _snake_case[match[1]], str(error))) from None
 
 
-# ---- values ---------------------------------------------------------------------------------------------------------
+# ---- checks and conversion of values ---------------------------------------------------------------------------------
 
 
 def _shape(array: numpy.ndarray) -> str:

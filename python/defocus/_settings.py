@@ -17,7 +17,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 # Settings by keyword, in the order of `defocus render --help`.
 INFOS = {info.keyword: info for info in _defocus.setting_infos()}
 
-# Keywords of the settings that can be chosen from lens images after rendering.
+# Keywords of the settings that can still be chosen after the lens images are rendered.
 REFOCUS = [info.keyword for info in INFOS.values() if info.name in _defocus.refocus_settings()]
 
 # Keywords that apply only to the built-in school of fish.
@@ -97,7 +97,8 @@ def request_of(scene: Any, settings: Mapping[str, Any]) -> _defocus.Request:
 
 
 def refocus_request_of(settings: Mapping[str, Any]) -> _defocus.Request:
-    """Returns the request for keywords that can be chosen after rendering."""
+    """Returns the request for the keywords of LightField.refocus(). Raises UsageError for keywords that would need
+    a new rendering."""
     for keyword, value in settings.items():
         if value is not None and keyword in INFOS and keyword not in REFOCUS:
             raise _defocus.UsageError(f"{keyword} cannot be chosen after rendering; use one of {', '.join(REFOCUS)}")
@@ -116,5 +117,5 @@ def takes_settings(function: Function, names: Iterable[str] = tuple(INFOS)) -> F
 
 
 def takes_refocus_settings(function: Function) -> Function:
-    """Decorator for functions whose **settings can be chosen after rendering."""
+    """Decorator for functions whose **settings are limited to the keywords in REFOCUS."""
     return takes_settings(function, REFOCUS)

@@ -1,8 +1,8 @@
 #pragma once
 // Error is the base class of the exceptions that defocus throws for runtime failures of files, user input, shaders and
 // drivers. Its message is one line: the action, the file or name, and the remedy. Broken invariants are assertions
-// instead; functions that may find nothing return std::optional. Catch an Error only to add context, to skip an
-// optional part, or to show the message.
+// instead; functions that may find nothing return std::optional. Catch an Error only to add context, to show the
+// message, or to continue without an optional file or feature.
 
 #include <fmt/format.h>
 

@@ -35,8 +35,9 @@ FileHandle openFile(const fs::path& path, const char* mode) {
     return {std::fopen(path.c_str(), mode), &std::fclose};
 }
 
-// Locks a new temporary file until it is closed; the lock tells other processes that the writer is alive. Returns false
-// if another process has already removed the file as abandoned. Returns true on file systems without locks.
+// Locks a new temporary file until it is closed; the lock tells other processes that the writing process is alive.
+// Returns false if another process has already removed the file as abandoned. Returns true on file systems without
+// locks.
 bool isKept(int descriptor) {
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
     struct stat status {};
@@ -94,8 +95,8 @@ void writeStream(const fs::path& from, const fs::path& to) {
     if (!written || std::fclose(stream.release()) != 0) fail("cannot write {}: {}", to.string(), reason(errno));
 }
 
-// Flushes the directory to disk, so that a rename inside it survives a crash. Failures are ignored because some file
-// systems do not support fsync on directories.
+// Flushes the directory to disk, so that a rename inside the directory survives a crash. Failures are ignored because
+// some file systems do not support fsync on directories.
 void syncFolder(const fs::path& folder) {
     const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) return;

@@ -1,6 +1,6 @@
 #pragma once
-// Atomic reads and writes of complete files. Data goes to a temporary file beside the target, is flushed to disk, and
-// is renamed over the target. A crash, a full disk or a power failure therefore never damages an existing file.
+// Reads and atomically writes complete files. Data goes to a temporary file beside the target; this file is flushed to
+// disk and renamed over the target. A crash, a full disk or a power failure therefore never damages an existing file.
 // Concurrent writers use separate temporary files; the last rename wins. A symbolic link at a path that the user gives
 // is followed: the linked file is replaced, and the link stays. Devices, pipes and descriptors (/dev/stdout) receive a
 // copy of the complete data instead. Paths that the program chooses itself are treated differently: see NamedBy.
@@ -59,9 +59,9 @@ public:
 
 private:
     std::filesystem::path target_;
-    bool stream_ = false;  // target is a device, pipe or descriptor
+    bool stream_ = false;  // true: the target is a device, pipe or descriptor
     std::filesystem::path temporary_;
-    int descriptor_ = -1;  // holds the lock on the temporary file until destruction
+    int descriptor_ = -1;  // open until destruction, so that the temporary file stays locked
     bool committed_ = false;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-// Non-cryptographic hashes. Their values must not change: images, the fish school and files on disk depend on them.
+// Computes non-cryptographic hashes. The hash values must not change: images, the fish school and files on disk depend
+// on them.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-// Checks of JSON text before parsing.
+// Checks the nesting depth of JSON text before it is parsed.
 
 #include <string_view>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Luminance of linear Rec. 709 colours.
+// Computes the luminance of linear Rec. 709 colours.
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>

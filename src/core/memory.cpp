@@ -44,7 +44,7 @@ void keepFreedMemory() {
     rlimit addresses{};
     if (fence != nullptr || getrlimit(RLIMIT_AS, &addresses) != 0 || addresses.rlim_cur != RLIM_INFINITY) return;
     void* const block = std::malloc(room);
-    fence = std::malloc(room / 8);  // so large that it lies behind the block, not in a gap before it
+    fence = std::malloc(room / 8);  // so large that malloc places it behind `block`, not in a gap of the heap
     if (fence != nullptr) fence = std::realloc(fence, sizeof(void*));
     const std::size_t before = bytesTo(block, hugePage);
     if (block != nullptr) madvise(static_cast<std::byte*>(block) + before, room - before, MADV_HUGEPAGE);

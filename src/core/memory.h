@@ -1,6 +1,6 @@
 #pragma once
-// Memory for large blocks that returns to the system as soon as it is freed. malloc may keep freed blocks instead,
-// which raises the peak memory of a program with several phases.
+// Allocates large blocks of memory that return to the system as soon as they are freed. malloc may keep freed blocks
+// instead, which raises the peak memory of a program with several phases.
 
 #include <cstddef>
 #include <new>
@@ -8,13 +8,13 @@
 
 namespace defocus::engine {
 
-// Returns malloc's free memory to the system (glibc only). Takes a few milliseconds; worthwhile after freeing tens of
-// megabytes.
+// Gives malloc's free memory back to the system (glibc only). Takes a few milliseconds; worthwhile after freeing tens
+// of megabytes.
 void giveBackFreedMemory();
 
-// Makes malloc keep freed memory for later allocations, in huge pages where the system has them (glibc only). A software
-// rasterizer's textures, and the vertices that it frees after each draw, then cost few page faults; getting new pages
-// from the system can take longer than drawing. Call it once, before the program's first large allocation.
+// Makes malloc keep freed memory for later allocations, in huge pages where the system has them (glibc only). A
+// software rasterizer's textures, and the vertices that it frees after each draw, then cost few page faults; getting
+// new pages from the system can take longer than drawing. Call it once, before the program's first large allocation.
 void keepFreedMemory();
 
 // Size of a huge page in bytes. On a system with huge pages of another size, blocks may get small pages instead.
@@ -23,7 +23,7 @@ inline constexpr std::size_t hugePage = std::size_t{2} << 20;
 // Allocates zeroed pages for at least `bytes` bytes. Throws std::bad_alloc on failure.
 void* allocatePages(std::size_t bytes);
 void freePages(void* pages, std::size_t bytes) noexcept;
-// Returns the pages that lie entirely inside the range to the system. These pages then read as zero.
+// Gives the pages that lie entirely inside the range back to the system. These pages then read as zero.
 void giveBackPages(void* first, std::size_t bytes) noexcept;
 
 // Allocator that uses pages for large blocks and operator new for small blocks.
@@ -55,7 +55,7 @@ struct PageAllocator {
 template <typename T>
 using LargeVector = std::vector<T, PageAllocator<T>>;
 
-// Returns the vector's unused capacity to the system. Vectors of at least fewestBytes are not reallocated.
+// Gives the vector's unused capacity back to the system. Only vectors below fewestBytes are reallocated for this.
 template <typename T>
 void giveBackRoom(LargeVector<T>& values) {
     const std::size_t room = values.capacity() - values.size();

@@ -1,5 +1,5 @@
 #pragma once
-// Available memory of the machine and memory use of this process.
+// Measures available and used memory, and parses and formats memory sizes.
 
 #include <cstdint>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-// Messages to the user on stderr. Write errors are ignored; no function throws.
+// Prints messages to the user on stderr. Write errors are ignored; no function throws.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Number formatting for tables.
+// Formats numbers and durations for tables.
 
 #include <cstdint>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
-// Parallel loops and tasks with oneTBB. Nested calls never use more threads than there are cores available to the
-// process. Results must not depend on the execution order.
+// Runs loops and tasks in parallel with oneTBB. Nested calls never use more threads than there are cores available to
+// the process. Results must not depend on the execution order.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,7 @@ std::uint32_t availableCores();
 // the inner loop runs no bodies of the outer loop.
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body);
 
-// Tasks that run on other threads while the caller adds more tasks.
+// Runs tasks on other threads while the caller adds more tasks.
 class Tasks {
 public:
     explicit Tasks(std::size_t workers);  // max threads, at most one per core; 0: add() runs each task itself
@@ -31,7 +31,7 @@ public:
 
 private:
     struct Arena;
-    std::unique_ptr<Arena> arena_;  // arena of the workers; nullptr without workers
+    std::unique_ptr<Arena> arena_;  // oneTBB task arena of the workers; nullptr without workers
 };
 
 }  // namespace defocus::engine

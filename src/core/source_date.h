@@ -1,5 +1,6 @@
 #pragma once
-// Date in files for reproducible output. Source: https://reproducible-builds.org/specs/source-date-epoch/
+// Reads SOURCE_DATE_EPOCH, the date that reproducible files store:
+// https://reproducible-builds.org/specs/source-date-epoch/
 
 #include <ctime>
 #include <optional>

@@ -1,14 +1,14 @@
 #pragma once
-// CPU times of the threads of this process.
+// Measures the CPU times of this process's threads.
 
 #include <map>
 
 namespace defocus::engine {
 
-// CPU time of an interval, in ms; 0 if the system does not report the times of threads.
+// CPU time that was used during an interval, in ms; 0 if the system does not report the times of threads.
 struct CpuTime {
     double milliseconds = 0;         // CPU time of all threads
-    double busiestMilliseconds = 0;  // CPU time of the thread with the largest time
+    double busiestMilliseconds = 0;  // CPU time of the thread that used the most
     CpuTime& operator+=(const CpuTime& other) {
         milliseconds += other.milliseconds;
         busiestMilliseconds += other.busiestMilliseconds;
@@ -18,13 +18,13 @@ struct CpuTime {
 
 class CpuClock {
 public:
-    // Begins the interval.
+    // Begins the interval that elapsed() measures.
     void start();
     // Returns the CPU time since start(). Threads that have ended are not counted.
     [[nodiscard]] CpuTime elapsed() const;
 
 private:
-    std::map<int, double> before_;  // key: thread ID; CPU time in ms
+    std::map<int, double> before_;  // thread ID → CPU time in ms at start()
 };
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
 #pragma once
-// Difference of two images after box filtering, which ignores noise finer than the boxes.
+// Computes the difference of two images after box filtering, which averages out noise finer than the boxes.
 
 #include "image/image.h"
 

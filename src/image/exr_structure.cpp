@@ -81,7 +81,7 @@ void checkExrHeader(Bytes head, std::uint64_t fileBytes, const std::string& name
     // Bit 4 of byte 5 marks multi-part files, which have one header per part, then an empty header.
     const bool parts = head.size() > 5 && (head[5] & std::byte{0x10}) != std::byte{0};
     const int last = parts ? 2 : 1;
-    int empty = 0;  // number of consecutive empty names; each ends a header
+    int empty = 0;  // number of consecutive empty names: one ends a header, two end all headers
     for (std::size_t at = headersBegin; at < head.size() && empty < last;) {
         const auto attribute = textAt(head, at);
         if (!attribute) return;

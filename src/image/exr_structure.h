@@ -15,7 +15,7 @@ namespace defocus::engine {
 // OpenEXR detects other faults.
 void checkExrHeader(std::span<const std::byte> head, std::uint64_t fileBytes, const std::string& name);
 
-// Reads at most the first `headBytes` bytes of the file `path` and checks them in the same way.
+// Checks the EXR header in the first `headBytes` bytes of the file `path`, or in the complete file if it is shorter.
 void checkExrHeader(const std::filesystem::path& path, std::size_t headBytes = std::size_t{1} << 16);
 
 }  // namespace defocus::engine

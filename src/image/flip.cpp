@@ -1,4 +1,5 @@
-// Names and constants follow the papers cited in flip.h; section numbers refer to the LDR paper (HPG 2020).
+// The names and constants in this file follow the papers cited in flip.h; section numbers refer to the LDR paper (HPG
+// 2020).
 
 #include "image/flip.h"
 
@@ -133,7 +134,7 @@ FloatKernel balanced(const std::vector<double>& weights) {
 
 struct SpatialFilters {
     FloatKernel achromatic, redGreen;
-    std::array<FloatKernel, 2> blueYellow;   // the filter's two Gaussians; each sums to 1
+    std::array<FloatKernel, 2> blueYellow;   // two Gaussians; each sums to 1
     std::array<float, 2> blueYellowWeights;  // weights of the two kernels; sum to 1
 };
 
@@ -163,7 +164,7 @@ SpatialFilters spatialFilters(double pixelsPerDegree) {
 }
 
 struct FeatureFilters {
-    FloatKernel smooth, edge, point;  // a Gaussian, its first derivative and its second derivative
+    FloatKernel smooth, edge, point;  // kernels: Gaussian, its first derivative, its second derivative
 };
 
 FeatureFilters featureFilters(double pixelsPerDegree) {
@@ -273,7 +274,7 @@ void raiseToFlip(const ComparablePair& pair, double pixelsPerDegree, const ToDis
     const FeatureFilters filters = featureFilters(pixelsPerDegree);
     const Features featuresA = features(opponentA.x, filters);
     const Features featuresB = features(opponentB.x, filters);
-    // Combine: feature differences amplify colour differences.
+    // Combine the two: feature differences amplify colour differences.
     const ColourDifference colourDifference;
     forEachRow(map.height, [&](int y) {
         for (int x = 0; x < map.width; ++x) {
@@ -305,7 +306,7 @@ void checkOptions(const std::optional<HdrFlipOptions>& hdr, double pixelsPerDegr
 int flipRadius(double pixelsPerDegree) {
     const std::size_t widest =
         std::max(spatialFilters(pixelsPerDegree).achromatic.size(), featureFilters(pixelsPerDegree).smooth.size());
-    return static_cast<int>(widest / 2);  // all kernels of a kind have the same size
+    return static_cast<int>(widest / 2);  // radius; all spatial filters have one size, and all feature filters
 }
 
 Image flipErrorMap(const ImageView& reference, const ImageView& test, const std::optional<HdrFlipOptions>& hdr,
@@ -317,7 +318,7 @@ Image flipErrorMap(const ImageView& reference, const ImageView& test, const std:
         raiseToFlip(
             pair, pixelsPerDegree, [](float value) { return std::clamp(value, 0.0f, 1.0f); }, map);
     } else {
-        // Compute the maximum over all exposures.
+        // Raise each pixel to the max of LDR-FLIP over all exposures.
         const double step = hdr->exposures > 1 ? (hdr->stopExposure - hdr->startExposure) / (hdr->exposures - 1) : 0.0;
         for (int i = 0; i < hdr->exposures; ++i) {
             const auto gain = static_cast<float>(std::exp2(hdr->startExposure + i * step));

@@ -1,5 +1,5 @@
 #pragma once
-// Image types: the float image of the public API, and 8-bit textures.
+// Defines image types: the float image of the public API, and 8-bit textures.
 
 #include <cstdint>
 #include <vector>

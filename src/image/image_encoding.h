@@ -1,5 +1,5 @@
 #pragma once
-// File kinds and pixel encoding, shared by image_write.cpp and image_rows.cpp. Private to src/image.
+// Chooses the file kind and encodes pixels for image_write.cpp and image_rows.cpp. Private to src/image.
 
 #include <OpenImageIO/imageio.h>
 
@@ -15,7 +15,7 @@ enum class FileKind { exr, png, jpeg };
 
 // Returns the file kind for the path's extension. Throws Error for unknown extensions.
 FileKind fileKind(const std::filesystem::path& path);
-const char* formatName(FileKind kind);  // name in OpenImageIO
+const char* formatName(FileKind kind);  // OpenImageIO's name of the file format
 
 // Returns OpenImageIO's description of an image file. JPEG files drop alpha and all metadata except `comments`.
 OIIO::ImageSpec imageSpec(FileKind kind, int width, int height, int channels, const Metadata& metadata);

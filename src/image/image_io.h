@@ -25,7 +25,7 @@ namespace defocus::engine {
 // prefix "defocus:". EXR requires floats under standard names, so a double is stored as float under a standard name,
 // and as double under a prefixed name. A glm matrix is stored unchanged: EXR's row-major matrices for row vectors equal
 // glm's column-major matrices for column vectors. EXR's camera space is left-handed and looks along +z.
-struct Rational {  // EXR's framesPerSecond
+struct Rational {  // a fraction; EXR's framesPerSecond
     int numerator = 0;
     int denominator = 1;
     bool operator==(const Rational&) const = default;
@@ -44,8 +44,8 @@ using defocus::compareImages;
 using defocus::readImage;
 using defocus::writeImage;
 
-// Same as readImage of the public API, and sets `metadata` to the file's attributes under EXR names. Numbers from PNG
-// files are strings.
+// Reads an image like readImage of the public API, and sets `metadata` to the file's attributes under EXR names.
+// Numbers from PNG files are strings.
 Image readImage(const std::filesystem::path& path, Metadata& metadata);
 
 // Reads an image in strips of rows, as readImage does, for images that do not fit into memory. An image is kept in
@@ -68,15 +68,15 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// Same as writeImage of the public API, with metadata. EXR files store all metadata and add capDate if it is missing.
-// PNG files store metadata as text; JPEG files store only `comments`.
+// Writes an image like writeImage of the public API, but with metadata. EXR files store all metadata and add capDate if
+// it is missing. PNG files store metadata as text; JPEG files store only `comments`.
 void writeImage(const std::filesystem::path& path, const ImageView& image, const Metadata& metadata,
                 const WriteOptions& options = {});
 
-// Named images of equal size in one EXR file, such as partial sums of a frame. Layer NAME has the channels NAME.R,
-// NAME.G, NAME.B and NAME.A: 32-bit float, lossless ZIP. Names must not end with a dot. readLayers returns the layers
-// in alphabetical order. Both functions throw Error under the conditions of readImage and writeImage; readLayers also
-// throws if the file has no layers.
+// Named images of equal size in one EXR file, such as the colours summed over some samples of a frame. Layer NAME has
+// the channels NAME.R, NAME.G, NAME.B and NAME.A: 32-bit float, lossless ZIP. Names must not end with a dot. readLayers
+// returns the layers in alphabetical order. Both functions throw Error under the conditions of readImage and
+// writeImage; readLayers also throws if the file has no layers.
 struct ImageLayer {
     std::string name;
     Image image;  // image with 3 or 4 channels

@@ -20,8 +20,8 @@ namespace {
 
 const std::vector<std::string> channelNames = {"R", "G", "B", "A", "Z"};
 constexpr int depthChannel = 4;
-constexpr std::uint64_t maxPixels = 1ull << 28;          // max pixels of one part
-constexpr std::size_t headBytes = std::size_t{8} << 20;  // enough for the headers of 1024 parts
+constexpr std::uint64_t maxPixels = 1ull << 28;          // max pixels of one part of a multi-part file
+constexpr std::size_t headBytes = std::size_t{8} << 20;  // bytes read to check the headers; enough for 1024 parts
 
 OIIO::ImageSpec partSpec(const PartSize& size, const Metadata& metadata, std::size_t part) {
     OIIO::ImageSpec spec = imageSpec(FileKind::exr, size.fullWidth(), size.fullHeight(), 5, metadata);
@@ -50,7 +50,7 @@ struct ImagePartWriter::State {
     std::unique_ptr<OIIO::ImageOutput> output;
     std::vector<OIIO::ImageSpec> specs;
     std::size_t written = 0;
-    std::vector<float> pixels;  // the five channels of a part, interleaved
+    std::vector<float> pixels;  // channels R, G, B, A and Z of one part, interleaved
 };
 
 ImagePartWriter::ImagePartWriter(const std::filesystem::path& path, const PartSize& size,
@@ -95,7 +95,7 @@ void ImagePartWriter::finish() {
 }
 
 struct ImagePartReader::State {
-    // Reads channels [first, first + count) of a part to `pixels`.
+    // Reads channels [first, first + count) of a part of the file to `pixels`.
     void read(std::size_t part, int first, int count, OIIO::TypeDesc type, void* pixels) {
         if (!input->read_image(static_cast<int>(part), 0, first, first + count, type, pixels))
             fail("cannot read {}: image {}: {}", name, part, firstLine(input->geterror()));

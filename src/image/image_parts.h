@@ -1,7 +1,7 @@
 #pragma once
-// Multi-part EXR files: images of equal size with a depth image each, in one file that any EXR reader can open. A part
-// has the channels R, G, B and A (16-bit float) and Z (32-bit float), lossless ZIP. Images are written and read one at
-// a time, so that memory holds one image.
+// Writes and reads multi-part EXR files: images of equal size, each with its depths, in one file that any EXR reader
+// can open. A part has the channels R, G, B and A (16-bit float) and Z (32-bit float), lossless ZIP. Images are written
+// and read one at a time, so that memory holds one image.
 
 #include <cstddef>
 #include <filesystem>
@@ -15,8 +15,8 @@ namespace defocus::engine {
 
 inline constexpr std::size_t maxImageParts = 1024;
 
-// Size of the shown image and the margin around it, in px. EXR stores the shown image as display window, and the image
-// with its margin as data window.
+// Size of the visible image and of the margin around it, in px. EXR's display window is the visible image, and its data
+// window also contains the margin.
 struct PartSize {
     int width = 0;
     int height = 0;
@@ -27,13 +27,13 @@ struct PartSize {
 
 class ImagePartWriter {
 public:
-    // `parts`: metadata of 1 … maxImageParts parts. Throws Error, with the path in its message, if the file cannot be
-    // created.
+    // `parts`: the metadata of each part, for 1 … maxImageParts parts. Throws Error, with the path in its message, if
+    // the file cannot be created.
     ImagePartWriter(const std::filesystem::path& path, const PartSize& size, const std::vector<Metadata>& parts);
     ~ImagePartWriter();  // deletes the temporary file unless finish() was called
     ImagePartWriter(ImagePartWriter&&) noexcept;
 
-    // Appends the next part. `colour` is linear, premultiplied RGBA, `depth` has one channel; both have the full size.
+    // Appends the next part. `colour` is linear, premultiplied RGBA, `depth` has one channel; both include the margin.
     // Colours above 65504 are clamped to that value.
     void write(const ImageView& colour, const ImageView& depth);
     // Completes the file after the last part: flushes it to disk and renames it to `path`.
@@ -55,7 +55,7 @@ public:
     [[nodiscard]] const PartSize& size() const;
     [[nodiscard]] std::size_t count() const;
     [[nodiscard]] const Metadata& metadata(std::size_t part) const;
-    // Return a part's colours (RGBA) or depths (one channel) with the full size. Throw Error if the part is damaged.
+    // Return a part's colours (RGBA) or depths (one channel), including the margin. Throw Error if the part is damaged.
     [[nodiscard]] HalfImage colour(std::size_t part);
     [[nodiscard]] Image depth(std::size_t part);
 

@@ -80,13 +80,13 @@ public:
     }
 };
 
-// Open image reader with the encoded bytes, which must outlive the reader.
+// Open image reader, and the encoded bytes that it reads.
 struct OpenImage {
     std::vector<unsigned char> bytes;
     std::unique_ptr<CheckedMemory> memory;
     std::unique_ptr<OIIO::ImageInput> input;
     OIIO::ImageSpec spec;
-    bool unchecked = false;  // true: the pixels must be checked before they are read
+    bool unchecked = false;  // true: checkPngPixels must check the pixels before they are read
 };
 
 OpenImage openImage(std::span<const std::byte> encoded, std::string_view format, const std::string& name) {

@@ -1,5 +1,5 @@
 #pragma once
-// Code shared by image_read.cpp and image_rows.cpp. Private to src/image.
+// Reads the metadata of opened image files, for image_read.cpp and image_rows.cpp. Private to src/image.
 
 #include <OpenImageIO/imageio.h>
 

@@ -28,7 +28,7 @@ constexpr int rowsAtOnce = 64;  // max rows encoded per call; a multiple of EXR'
 
 }  // namespace
 
-// File writer that stores the first write error, because image libraries do not check each write.
+// Writes a file and stores the latest write error, because image libraries do not check each write.
 class CheckedFile final : public OIIO::Filesystem::IOProxy {
 public:
     explicit CheckedFile(const std::filesystem::path& path)
@@ -64,7 +64,7 @@ public:
         return done;
     }
     [[nodiscard]] size_t size() const override { return size_; }
-    // Returns errno of the first failed write; 0 without failure.
+    // Returns errno of the latest failed write; 0 without failure.
     [[nodiscard]] int failure() const { return failure_; }
 
 private:

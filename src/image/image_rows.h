@@ -1,6 +1,6 @@
 #pragma once
-// Row-wise access to image files that do not fit into memory. EXR, PNG and JPEG files are written from the top row
-// down, with the same pixels as writeImage. Only EXR files can be read row by row.
+// Writes and reads image files in groups of rows, for images that do not fit into memory. EXR, PNG and JPEG files are
+// written from the top row down, with the same pixels as writeImage. Only EXR files can be read row by row.
 
 #include <filesystem>
 #include <memory>

@@ -28,8 +28,8 @@ void checkImage(const ImageView& image, const std::string& name) {
         fail("cannot write {}: the image has {} channels instead of 1, 3 or 4", name, image.channels);
 }
 
-// Returns the complete encoded file, so that one checked write stores it. Image libraries report write errors late or
-// not at all.
+// Returns the complete encoded file, so that the caller stores it with one checked write. Image libraries report write
+// errors late or not at all.
 std::vector<unsigned char> encode(const std::string& name, const char* format, const OIIO::ImageSpec& spec,
                                   const void* pixels) {
     std::vector<unsigned char> bytes;
@@ -75,7 +75,7 @@ void writeChannels(const std::filesystem::path& path, const std::vector<NamedCha
     if (std::set<std::string>(channels.begin(), channels.end()).size() != channels.size())
         fail("cannot write {}: two channels have the same name", name);
 
-    // Interleave the channels of all parts per pixel.
+    // Interleave the channels of all images per pixel.
     const std::size_t stride = channels.size();
     std::vector<float> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * stride);
     std::size_t first = 0;

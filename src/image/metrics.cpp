@@ -52,7 +52,7 @@ struct Strip {
     int to = 0;
 };
 
-// Divides the image into strips that fit into memory together with all intermediate planes.
+// Divides the image into strips that each fit into `maxBytes` together with all intermediate images.
 std::vector<Strip> stripsOf(int width, int height, std::uint64_t maxBytes) {
     constexpr double bytesPerPixel = 160;  // measured with HDR-FLIP, which needs the most memory
     const int margin = std::max(windowRadius, flipRadius());

@@ -1,5 +1,6 @@
 #pragma once
-// Image difference metrics. Unless stated otherwise, they use display-encoded values in [0, 1] at EV 0 (sRGB, clipped).
+// Computes metrics of image differences. Unless stated otherwise, they use display-encoded values in [0, 1] at EV 0
+// (sRGB, clipped).
 //
 // PSNR: the peak value is 1.
 //
@@ -40,13 +41,13 @@ struct ImageStrips {
 
 inline constexpr std::uint64_t defaultCompareBytes = std::uint64_t{512} << 20;
 
-// Same as compareImages below, bit for bit, but with only about `maxBytes` of memory in addition to the strips, or more
-// if 30 rows need more. Both images must have the same size.
+// Returns the same values as compareImages below, bit for bit, but with only about `maxBytes` of memory in addition to
+// the strips, or more if 30 rows need more. Both images must have the same size.
 Difference compareStrips(const ImageStrips& reference, const ImageStrips& test, const CompareOptions& options,
                          std::uint64_t maxBytes = defaultCompareBytes);
 
-// Same as compareImages of the public API, with options. If no mask pixel is > 0, returns the values of equal images
-// and pixelCount 0.
+// Compares images like compareImages of the public API, but with options. If no mask pixel is > 0, returns the values
+// of equal images and pixelCount 0.
 Difference compareImages(const ImageView& reference, const ImageView& test, const CompareOptions& options);
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
 #pragma once
-// OpenImageIO's names of EXR's standard attributes, and conversion of its error messages to one line.
+// Lists OpenImageIO's names of EXR's standard attributes, and shortens OpenImageIO's error messages to one line.
 
 #include <array>
 #include <string>

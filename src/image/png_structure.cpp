@@ -20,7 +20,7 @@ constexpr std::size_t signatureLength = 8;
 constexpr std::size_t chunkOverhead = 12;  // bytes of a chunk's length, type and checksum
 constexpr std::array<std::string_view, 8> keptChunks = {"IHDR", "PLTE", "IDAT", "IEND", "tRNS", "gAMA", "sRGB", "tEXt"};
 
-constexpr unsigned char filterTypes = 5;      // number of filter types (section 9.2)
+constexpr unsigned char filterTypes = 5;      // number of filter types of PNG rows (section 9.2)
 constexpr std::uint32_t maxSide = 1'000'000;  // max width and height in px, libpng's limit
 constexpr std::size_t headerLength = 13, maxPaletteLength = 3 * 256;
 
@@ -39,7 +39,7 @@ void append(std::vector<unsigned char>& target, std::span<const std::byte> bytes
     target.insert(target.end(), first, first + bytes.size());
 }
 
-// Content of the chunk IHDR.
+// Content of a PNG file's chunk IHDR.
 struct Header {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
@@ -92,7 +92,7 @@ std::vector<std::size_t> rowLengths(const Header& header) {
     return lengths;
 }
 
-// Decompressed bytes of the chunks IDAT, in order.
+// Decompresses the bytes of the chunks IDAT, in order.
 class PixelStream {
 public:
     PixelStream(std::vector<std::span<const std::byte>> chunks, const std::string& name)

@@ -17,7 +17,7 @@ double gradientNoise(int x, int y) {
 }  // namespace
 
 std::vector<std::uint8_t> quantised(const Image& display, int firstRow) {
-    constexpr int betweenChannels = 47;  // offset in px; decorrelates the dither of the channels
+    constexpr int betweenChannels = 47;  // offset between channels in px; makes their dither patterns differ
     constexpr double ownValue = 1e-3;    // in units of 1/255; values this close to a multiple of 1/255 are not dithered
     std::vector<std::uint8_t> bytes;
     bytes.reserve(display.pixels.size());

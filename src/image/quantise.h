@@ -1,6 +1,6 @@
 #pragma once
-// Dithered conversion of display-encoded values to bytes. Without dithering, the slow gradients of blurred images would
-// show bands.
+// Converts display-encoded values to bytes with dithering. Without dithering, the slow gradients of blurred images
+// would show bands.
 
 #include <cstdint>
 #include <vector>

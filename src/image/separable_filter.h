@@ -1,6 +1,6 @@
 #pragma once
-// 1D filters along rows and columns of a one-channel plane; edge pixels are repeated outside the image. Inner loops
-// access contiguous memory so that the compiler vectorises them; rows are processed in parallel.
+// Filters the rows and columns of a one-channel image with 1D kernels; edge pixels are repeated outside the image.
+// Inner loops access contiguous memory so that the compiler vectorises them; rows are processed in parallel.
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #pragma once
-// Time codes and frame rates of video frames, as EXR files store them. Source: SMPTE ST 12-1, non-drop-frame time
-// address of 60-field television.
+// Computes the time codes and frame rates that EXR files of video frames store. Source: SMPTE ST 12-1, non-drop-frame
+// time address of 60-field television.
 
 #include <cstdint>
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace defocus::engine {
 
-// Packs a time code: four bits for each decimal digit.
+// Packs a time code into 32 bits: four bits for each decimal digit.
 std::uint32_t timeCodeBits(const TimeCode& code);
 TimeCode timeCodeOf(std::uint32_t bits);
 

@@ -58,7 +58,7 @@ float agxContrast(float x) {
 }
 
 glm::vec3 agxEncoded(const glm::vec3& linear) {
-    constexpr float darkest = -12.47393f;  // log2 of the linear value at the lower end of the curve
+    constexpr float darkest = -12.47393f;  // log2 of the linear value at which the curve begins
     constexpr float lightest = 4.026069f;
     const glm::mat3 inset(0.842479062253094f, 0.0423282422610123f, 0.0423756549057051f, 0.0784335999999992f,
                           0.878468636469772f, 0.0784336f, 0.0792237451477643f, 0.0791661274605434f, 0.879142973793104f);
@@ -77,7 +77,7 @@ glm::vec3 agxEncoded(const glm::vec3& linear) {
 
 glm::vec3 neutralEncoded(glm::vec3 v) {
     constexpr float mirrored = 0.04f;
-    constexpr float kept = 0.8f - mirrored;  // values up to this one are not compressed
+    constexpr float kept = 0.8f - mirrored;  // values up to this limit are not compressed
     constexpr float desaturation = 0.15f;
     const float min = std::min({v.r, v.g, v.b});
     v -= min < 2 * mirrored ? min - min * min / (4 * mirrored) : mirrored;

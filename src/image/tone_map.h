@@ -1,6 +1,6 @@
 #pragma once
 // Tone mapping from linear HDR to display values: exposure, an optional tone curve and sRGB encoding (IEC 61966-2-1).
-// It is the last step before an 8-bit image file or the window.
+// Tone mapping is the last step before an image is written with 8 bits or displayed.
 
 #include <string_view>
 
@@ -13,7 +13,7 @@ namespace defocus::engine {
 ToneMap toneMapNamed(std::string_view name);
 
 float srgbEncode(float linear);   // [0, 1] → [0, 1]; other values are clamped, NaN gives 0
-float srgbDecode(float encoded);  // [0, 1] → [0, 1]; other values as in srgbEncode
+float srgbDecode(float encoded);  // [0, 1] → [0, 1]; other values are clamped, NaN gives 0
 
 // Returns a display-encoded copy in [0, 1] of a linear image with 1, 3 or 4 channels: colour · 2^exposure → curve →
 // sRGB. AgX's curve includes the encoding. One channel is treated as grey. Alpha is clamped; premultiplied colours are

@@ -21,7 +21,7 @@ constexpr double pi = std::numbers::pi;
 constexpr int fewestCells = 256;
 constexpr int maxCells = 1024;
 
-// ---- blades ---------------------------------------------------------------------------------------------------------
+// ---- aperture blades -----------------------------------------------------------------------------------------------
 
 struct Blade {
     double halfAngle = 0;  // π/n for n blades
@@ -186,7 +186,7 @@ glm::dvec2 turned(const glm::dvec2& point, double angle) {
     return {c * point.x - s * point.y, s * point.x + c * point.y};
 }
 
-// Returns the radius of a point relative to the aperture's edge in the point's direction.
+// Returns a point's distance from the centre, relative to the distance of the aperture's edge in the same direction.
 double radiusWithin(const Aperture& aperture, const glm::dvec2& point) {
     const double radius = glm::length(point);
     if (aperture.bladeCount < 3) return radius;

@@ -1,6 +1,7 @@
 #pragma once
-// Aperture shape and light distribution, as a map from the unit square to the lens. The map is continuous except at the
-// seams of a ring or an image. Well-distributed points on the square are therefore well distributed on the lens.
+// Maps the unit square to points on the lens according to the aperture's shape and light distribution. The map is
+// continuous except at the seams of a ring or an image. Well-distributed points on the square are therefore well
+// distributed on the lens.
 //
 // Lens samples have equal weight, so the shape changes neither the energy of a blurred point nor the exposure of the
 // image. Let t ∈ [0, 1] be the fraction of the area that lies nearer to the centre than a point. The light density over
@@ -28,10 +29,10 @@ struct ApertureImage {
 // Precomputed aperture of a Lens, ready for sampling. Construction is expensive only for an aperture image.
 struct Aperture {
     int bladeCount = 0;
-    double bladeRotation = 0;  // radians
+    double bladeRotation = 0;  // rotation in radians
     double bladeCurvature = 0;
     double anamorphicRatio = 1;
-    double obstruction = 0;  // obstructed fraction of the area
+    double obstruction = 0;  // fraction of the aperture's area that is obstructed
     double sphericalAberration = 0;
     ApertureImage image;  // empty if the lens has no aperture image
 };
@@ -41,12 +42,12 @@ struct Aperture {
 // disk, or contains negative, NaN or infinite values.
 Aperture makeAperture(const Lens& lens);
 
-// Maps (r, s) ∈ [0, 1)² to the lens point (u, v) in the unit disk; +u right, +v up. (1/2, 1/2) maps to the centre,
-// except with a ring or an image.
+// Maps (r, s) ∈ [0, 1)² to the lens point (u, v) in the unit disk; +u right, +v up. (1/2, 1/2) maps to the lens's
+// centre, except with a ring-shaped aperture or an aperture image.
 glm::dvec2 apertureSample(const Aperture& aperture, const glm::dvec2& square);
 
-// Returns the light density at a lens point, without normalisation; 0 outside the aperture. Without an image, the mean
-// over the aperture is 1. With an image, the density is the transmission of the cell at the point.
+// Returns the light density at a lens point, without normalisation; 0 outside the aperture. Without an aperture image,
+// the mean density over the aperture is 1. With an image, the density is the transmission of the cell at the point.
 double lightDensity(const Aperture& aperture, const glm::dvec2& point);
 
 // Maps (r, s) ∈ [0, 1)² to the unit disk; the map is area-preserving and continuous (Shirley and Chiu 1997).

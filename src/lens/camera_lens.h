@@ -1,5 +1,5 @@
 #pragma once
-// Derives focal length and sensor width of a lens from a camera in a glTF file.
+// Derives a lens's focal length and sensor width from a camera in a glTF file.
 //
 // glTF gives a camera's vertical field of view. The image's aspect k gives the horizontal one: tan(θx/2) =
 // k·tan(yfov/2). The image always shows this field of view. Only the camera's physical scale remains to be chosen:
@@ -16,8 +16,8 @@
 
 namespace defocus::engine {
 
-// Sets focal length and horizontal aperture of `lens` from the camera. A value stays unchanged if `isSet` returns true
-// for the name of its field (lens/lens_fields.h). `aspect` is the image's width over its height.
+// Sets focal length and horizontal aperture of `lens` from `camera`, except values for which `isSet` returns true.
+// `isSet` is called with the names of their fields (lens/lens_fields.h). `aspect` is the image's width over its height.
 void fitToCamera(Lens& lens, const Camera& camera, double aspect, const std::function<bool(std::string_view)>& isSet);
 
 }  // namespace defocus::engine

@@ -37,12 +37,12 @@ Interval squared(const Interval& p) {
     return {near * near, far * far};
 }
 
-// Ranges of the terms of the circle of confusion C over a box (circle_of_confusion.h).
+// Ranges of the terms of the circle of confusion C over a bounding box. circle_of_confusion.h gives the equations.
 struct Parts {
     Interval radius2;  // r², squared distance from the image's centre
     Interval factor;   // surface's blur factor times the radial blur gain 1 + g·r²
-    Interval front;    // term F, in front of the focus plane
-    Interval behind;   // term B, behind the focus plane
+    Interval front;    // F, the blur term in front of the focus plane
+    Interval behind;   // B, the blur term behind the focus plane
 };
 
 Parts partsOver(const ClipCircleOfConfusion& coc, const CocBox& box) {
@@ -159,8 +159,9 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     const double pixels = width / box.zNear;
     const double factor = parts.factor.max;
 
-    // C has kinks, where its slope jumps, at the ends of the focus range and at the blur limits. Interpolation along an
-    // edge of length L errs most if the kink lies in the middle of the edge: by (change of slope)·L/4.
+    // C has kinks, where its slope jumps, at the ends of the focus range and at the blur limits. Linear interpolation
+    // along an edge of length L has the largest error if the kink lies in the middle of the edge: (change of
+    // slope)·L/4.
     const Interval added{box.own.addedMin, box.own.addedMax};
     const double maxAdded = std::max(std::abs(added.min), std::abs(added.max));
     const double unscaled =
@@ -185,8 +186,8 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     if (change > 0) deviation.kinks += ownChange / 4 * (width + longestEdge * pixels);
 
     // A function with second derivatives of at most H deviates from a chord of length L by at most H·L²/8. Here lengths
-    // are measured in clip space and divided by the nearest depth. The second derivatives of r²·w are then at most 2·(1
-    // + r)², where r is the distance from the image's centre.
+    // are measured in clip space and divided by the nearest depth. The second derivatives of r²·w are then at most
+    // 2·(1 + r)², where r is the distance from the image's centre.
     const double length = longestEdge / box.zNear * (1 + 1 / std::min(tanHalf.x, tanHalf.y));
     const double reach = 1 + std::sqrt(parts.radius2.max);
     const double second = 2 * reach * reach *

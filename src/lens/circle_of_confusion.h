@@ -1,5 +1,5 @@
 #pragma once
-// The circle of confusion (CoC) as a function of the clip position, including artistic controls.
+// Computes the circle of confusion (CoC) at a clip-space position, including artistic controls.
 // shaders/include/lens.glsl implements the same function. This version serves level selection, culling, plans and
 // tests.
 //
@@ -16,9 +16,9 @@
 // Everything within the focus range is sharp. C keeps the thin lens's limits at both ends of the depth range: a at w =
 // 0 and b·w for w → ∞. The focus range thus preserves strong near and far blur, and distant lights keep their disk
 // size. With Lens::focusRangeRefocuses, the blur behind the range is that of a lens focused at the range's far end,
-// which is smaller. The blur in front of the range is the same in both forms. R₁ and R₂ are the blur limits in front
-// and behind, as fractions of the image's width. `factor` and `added` are properties of the surface: factor 0 disables
-// the lens's blur, and `added` is a fraction of the image's width.
+// which is smaller; the blur in front of the range stays the same. R₁ and R₂ are the blur limits in front and behind,
+// as fractions of the image's width. `factor` and `added` are properties of the surface: factor 0 disables the lens's
+// blur, and `added` is a fraction of the image's width.
 
 #include <glm/vec2.hpp>
 #include <limits>
@@ -30,31 +30,31 @@ namespace defocus::engine {
 
 struct ClipCircleOfConfusion {
     double a = 0;
-    double aBehind = 0;                                                // a₂ in the equation above, ≤ a
-    double front = 0;                                                  // b₁ in the equation above
-    double behind = 0;                                                 // b₂ in the equation above, ≤ b₁
-    glm::dvec2 tilt{0};                                                // t of the tilted focus plane
-    double curvature = 0;                                              // κ of the curved focus surface
+    double aBehind = 0;                                                // a₂ of B = a₂/w + b₂·q, ≤ a
+    double front = 0;                                                  // b₁ of F = a/w + b₁·q
+    double behind = 0;                                                 // b₂ of B = a₂/w + b₂·q, ≤ b₁
+    glm::dvec2 tilt{0};                                                // t of q = 1 + κ·r² + t·n
+    double curvature = 0;                                              // κ of q = 1 + κ·r² + t·n
     double gain = 0;                                                   // g of the radial blur gain 1 + g·r²
-    double foregroundLimit = std::numeric_limits<double>::infinity();  // R₁, a fraction of the image's width
-    double backgroundLimit = std::numeric_limits<double>::infinity();  // R₂, a fraction of the image's width
-    double aspect = 1;                                                 // k, the image's width over its height
+    double foregroundLimit = std::numeric_limits<double>::infinity();  // max blur R₁ / image width
+    double backgroundLimit = std::numeric_limits<double>::infinity();  // max blur R₂ / image width
+    double aspect = 1;                                                 // k, image width / height
     double shareOfMillimetre = 0;  // fraction of the image's width per mm on the sensor; scales added vertex blur
-    double astigmatism = 0;        // coefficient A of aberrations.h
-    double coma = 0;               // coefficient B of aberrations.h
+    double astigmatism = 0;        // coefficient A of W(l) in aberrations.h
+    double coma = 0;               // coefficient B of W(l) in aberrations.h
     double chromatic = 0;          // max change of b₁ and b₂ over all wavelengths
 
-    // Returns true if the lens has a sharp focus range, so that the terms F and B of C differ.
+    // Returns true if the lens has a range of sharp depths, so that the terms F in front and B behind differ.
     [[nodiscard]] bool hasFocusRange() const { return front != behind || a != aBehind; }
-    // Returns true if C = a + b·w everywhere, without artistic controls.
+    // Returns true without artistic controls and aberrations. The blur at depth w is then C(w) = a + front·w.
     [[nodiscard]] bool thinLens() const;
-    // Returns true if the blur depends on the position in the image.
+    // Returns true if the blur of a point depends on its position in the image, not only on its depth.
     [[nodiscard]] bool varies() const;
     // Returns true if astigmatism or coma blurs even points in focus.
     [[nodiscard]] bool aberrates() const { return astigmatism != 0 || coma != 0; }
 };
 
-// Returns the circle of confusion of a lens for an image of `width` x `height` px.
+// Returns the coefficients of the circle of confusion for a lens and an image of `width` x `height` px.
 ClipCircleOfConfusion clipCircleOfConfusion(const Lens& lens, int width, int height);
 
 // Returns the signed CoC diameter in px at depth `z` (m, > 0; infinity is allowed); > 0 behind the focus plane. `width`
@@ -63,17 +63,17 @@ ClipCircleOfConfusion clipCircleOfConfusion(const Lens& lens, int width, int hei
 double circleOfConfusion(const ClipCircleOfConfusion& coc, double z, int width, const glm::dvec2& ndc = glm::dvec2(0),
                          double factor = 1, double added = 0);
 
-// Range of the signed CoC diameter over a box. Aberrations displace rays as defocus does, so they widen both ends of
-// the range.
+// Range of the signed CoC diameter over a bounding box. Aberrations displace rays as defocus does, so they widen the
+// range at both ends.
 struct CocRange {
     double nearest = 0;   // min signed CoC, px: at the nearest depth
     double farthest = 0;  // max signed CoC, px: at the farthest depth
-    double smallest = 0;  // min |CoC|, px; 0 if the range contains the focus distance
+    double smallest = 0;  // min |CoC|, px; 0 if a point in the box may be in focus
     double largest = 0;   // max |CoC|, px
 };
 
-// Bounds of the blur modifiers of surfaces: a factor that multiplies the lens's blur, and an added blur. The added blur
-// is a fraction of the image's width.
+// Bounds of the blur modifiers of surfaces: a factor that multiplies the lens's blur, and a blur that is added to it.
+// The added blur is a fraction of the image's width.
 struct OwnBlur {
     double factorMin = 1;
     double factorMax = 1;
@@ -101,10 +101,10 @@ struct CocBox {
 // conservative otherwise. They change continuously with the box.
 CocRange circleOfConfusionRange(const ClipCircleOfConfusion& coc, const CocBox& box, int width);
 
-// Returns the circle of confusion of a thin lens that is focused at another distance (m; infinity is allowed).
+// Returns the coefficients of a thin lens `coc` that is focused at another distance (m; infinity is allowed).
 ClipCircleOfConfusion refocused(const ClipCircleOfConfusion& coc, double focusDistance);
 
-// Returns the largest |CoC| at infinite depth over the image, px.
+// Returns the largest |CoC| of any position in the image at infinite depth, px.
 double largestCocAtInfinity(const ClipCircleOfConfusion& coc, int width);
 
 // Upper bounds, in px, on the CoC error if C is interpolated linearly inside a triangle.

@@ -23,7 +23,7 @@ DepthOfField depthOfField(const Lens& lens, double acceptable) {
     result.hyperfocal = aperture * f / (acceptable * millimetre) + (lens.focusBreathing ? f : 0);
     result.near = 1 / (1 / lens.focusDistance + inFocus);
     const double far = 1 / lens.focusDistance - inFocus;
-    // Ignore rounding errors: the far limit of a lens focused at its hyperfocal distance is infinite.
+    // Treat rounding errors as 0: the far limit of a lens focused at its hyperfocal distance is infinite.
     result.far = far > 1e-12 * inFocus ? 1 / far : infinity;
     return result;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Depth of field: the range of depths that appears acceptably sharp.
+// Computes the depth of field: the range of depths that appears acceptably sharp.
 //
 // Let A be the aperture's diameter, v the distance from lens to sensor, and s the focus distance (all in m). A point at
 // depth z forms a disk of diameter C(z) = A·v·|1/s − 1/z| on the sensor. For an acceptable diameter C, the depths in
@@ -20,12 +20,13 @@
 namespace defocus::engine {
 
 struct DepthOfField {
-    double hyperfocal = 0;  // hyperfocal distance in m; 0 for a pinhole, which has everything in focus
+    double hyperfocal = 0;  // hyperfocal distance in m; 0 for a pinhole, where all depths are in focus
     double near = 0;        // min depth in focus, m
     double far = 0;         // max depth in focus, m; may be infinite
 };
 
-// Returns the depth of field. `acceptable` is the largest diameter on the sensor that counts as a point, mm, > 0.
+// Returns the depth of field. `acceptable`, in mm and > 0, is the largest diameter on the sensor that still appears as
+// a point.
 DepthOfField depthOfField(const Lens& lens, double acceptable);
 
 // Returns the size in mm of the sensor area that an image of `width` x `height` px shows; its width is

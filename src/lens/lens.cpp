@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double maxTilt = 89.95 * std::numbers::pi / 180;  // at 90° the focus plane passes through the camera
-constexpr double maxAberration = 100;                       // mm
+constexpr double maxAberration = 100;                       // max length of aberration streaks in mm
 
 void requireWithin(double value, double min, double max, const char* name) {
     if (!(value >= min && value <= max)) fail("lens: {} must be from {} to {}, not {}", name, min, max, value);

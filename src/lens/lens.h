@@ -1,5 +1,5 @@
 #pragma once
-// A lens in the terms of photographers, USD and Blender, and its parameters for an off-axis graphics camera.
+// Defines a lens in the terms of photographers, USD and Blender, and computes its parameters for rendering.
 //
 // Let A be the aperture's diameter and s the focus distance (m), W the image's width in px, and θx the horizontal field
 // of view. A point at depth z is blurred to a disk of diameter
@@ -16,36 +16,36 @@ namespace defocus::engine {
 inline constexpr double millimetre = 1e-3;  // m
 
 struct Lens {
-    // Camera.
-    double focalLength = 50;         // mm
+    // Settings of the camera and its exposure.
+    double focalLength = 50;         // focal length in mm
     double fStop = 2.8;              // f-number, > 0
     double focusDistance = 2.5;      // distance in m from the camera along the view axis, > 0 (infinity is allowed)
     double horizontalAperture = 36;  // sensor width in mm
     bool dofEnabled = true;          // false: a pinhole camera, regardless of the f-number
     double blurScale = 1;            // multiplies the blur, ≥ 0; 1 is physically correct
-    bool focusBreathing = false;     // true: thin lens whose field of view narrows as the focus comes nearer
+    bool focusBreathing = false;     // true: the field of view narrows for near focus, as for a thin lens
     double exposureTime = 0;         // exposure time in s (photographic_exposure.h); 0: no effect on the exposure
     double iso = 100;                // sensitivity, > 0
 
-    // Aperture; see aperture.h.
+    // Shape and aberrations of the aperture; see aperture.h and aberrations.h.
     int bladeCount = 0;                   // 0: a disk; else a polygon of 3 or more blades
     double bladeRotation = 0;             // rotation in radians; also rotates aperture images
-    double bladeCurvature = 0;            // curvature; 0: straight blades, 1: a circle
+    double bladeCurvature = 0;            // curvature of the blades; 0: straight, 1: a circle
     double anamorphicRatio = 1;           // values > 1 narrow the aperture horizontally (tall ovals)
     double obstruction = 0;               // mirror lens: inner over outer diameter, [0, 1)
     double sphericalAberration = 0;       // [−1, 1]; > 0: blur disks with a bright rim, < 0: with a bright centre
     double catEye = 0;                    // fraction of the aperture's radius clipped at image corners, [0, 1]
-    double axialChromaticAberration = 0;  // dioptres between the focus of red and blue; > 0: red focuses farther
+    double axialChromaticAberration = 0;  // dioptres between red and blue focus planes; > 0: red's is farther
     double astigmatism = 0;               // radial streak length in mm on the sensor at the edges; see aberrations.h
     double coma = 0;                      // comet tail length in mm on the sensor at the edges; > 0: outwards
-    std::shared_ptr<const Image> apertureImage;  // grey values are transmission; null: shape from the fields above
+    std::shared_ptr<const Image> apertureImage;  // grey values: transmission; null: shape from the fields above
 
     // Artistic controls of the blur; see circle_of_confusion.h.
-    double foregroundLimit = std::numeric_limits<double>::infinity();  // max CoC in front of the focus, px
-    double backgroundLimit = std::numeric_limits<double>::infinity();  // max CoC behind the focus, px
-    double focusRangeFront = 0;        // extent in m of the sharp range in front of the focus, [0, focusDistance)
-    double focusRangeBehind = 0;       // extent in m of the sharp range behind the focus, ≥ 0
-    bool focusRangeRefocuses = false;  // true: behind the range, blur as for a focus at the range's far end
+    double foregroundLimit = std::numeric_limits<double>::infinity();  // max CoC in front of the focus plane, px
+    double backgroundLimit = std::numeric_limits<double>::infinity();  // max CoC behind the focus plane, px
+    double focusRangeFront = 0;        // extent in m of the sharp range in front of the focus plane, [0, focusDistance)
+    double focusRangeBehind = 0;       // extent in m of the sharp range behind the focus plane, ≥ 0
+    bool focusRangeRefocuses = false;  // true: blur behind the range is that of a focus at its far end
     double focusTilt = 0;              // radians about the horizontal axis; > 0: the focus plane's top comes nearer
     double focusSwing = 0;      // radians about the vertical axis; > 0: the focus plane's right side comes nearer
     double fieldCurvature = 0;  // κ of the curved focus surface w = s/(1 + κ·r²); r is 1 at the left and right edges

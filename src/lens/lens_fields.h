@@ -1,6 +1,6 @@
 #pragma once
-// Table of the numeric fields of a Lens by name, shared by the command line, glTF camera extras, shot files, image
-// metadata and control panels.
+// Lists the numeric fields of a Lens by name, for the command line, glTF camera extras, shot files, image metadata and
+// control panels.
 
 #include <functional>
 #include <map>
@@ -16,17 +16,17 @@
 
 namespace defocus::engine {
 
-// Property of the image that a lens value affects; determines whether the value has an effect in a frame.
+// Kind of effect that a lens value has. Values whose effect a frame does not show are reported as unused.
 enum class LensFeature {
     camera,     // field of view, focus breathing
     exposure,   // only the brightness of PNG, JPEG and video
-    fStop,      // blur and exposure
+    fStop,      // size of the blur, and exposure
     blur,       // the size of the blur
     shape,      // the shape of the aperture
     lensPoint,  // blur that depends on the colour or on the position in the image
 };
 
-// Group of a lens value in control panels and help texts.
+// Section of control panels and help texts in which a lens value is listed.
 enum class LensSection { focus, lens, aperture };
 
 struct LensField {
@@ -40,12 +40,12 @@ struct LensField {
     std::variant<double Lens::*, int Lens::*, bool Lens::*> member;
     std::variant<std::monostate, std::optional<double> LensSettings::*, std::optional<int> LensSettings::*,
                  std::optional<bool> LensSettings::*>
-        given;                // same value in a request, in `unit`; none: Request::focus sets the value
+        given;                // same value in a request, in `unit`; monostate: Request::focus sets the value
     const char* description;  // help text of the option
     const char* example;      // typical value as text
     LensFeature feature = LensFeature::blur;
-    bool everyday = false;    // true: listed by --help
-    const char* schema = "";  // JSON schema of the value, for ranges with gaps
+    bool everyday = false;    // true: listed by --help; false: only by --help-all
+    const char* schema = "";  // JSON schema of a value with gaps in its range; empty: min and max suffice
 };
 
 // Returns all fields, in the order of Lens.
@@ -65,8 +65,8 @@ bool overridden(const Lens& lens, const LensField& field);
 // constraints between fields.
 void setLensField(Lens& lens, const LensField& field, double value);
 
-// Get and set a request's value of a field, in the field's unit. nullopt leaves the value to the file's camera. Setting
-// throws Error like setLensField.
+// Return and set a request's value of a field, in the field's unit; nullopt: the value of the file's camera applies.
+// giveLensValue throws Error like setLensField.
 std::optional<double> givenLensValue(const LensSettings& given, const LensField& field);
 void giveLensValue(LensSettings& given, const LensField& field, std::optional<double> value);
 

@@ -142,9 +142,9 @@ std::uint32_t sobol(std::uint32_t index, std::size_t dimension) {
     return result;
 }
 
-// Scrambling constant for seed 0, the best of 3,000 candidates. A half plane cuts off a part of the lens; the fraction
-// of points in this part approximates the part's area. The constant minimises the error of this approximation for the
-// first 8 to 256 points, and for prefixes and suffixes of 64 points.
+// Scrambling constant for seed 0, the best of 3,000 candidates. A half plane cuts off a part of the lens, and the
+// fraction of points in this part approximates its area. The constant minimises the error of this approximation for the
+// first 8 to 256 points, and for every prefix and suffix of the first 64 points.
 constexpr std::uint32_t chosenScramble = 935;
 
 // Returns a coordinate of a scrambled Sobol point. With seed 0, the same bits are flipped in all points, so that the

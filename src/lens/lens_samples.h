@@ -1,11 +1,12 @@
 #pragma once
-// Sample points on the lens, in the pixel, in the exposure time, in the spectrum and on the lights. They are pure
-// functions of the sample index.
+// Computes sample points on the lens, in the pixel, in the exposure time, in the spectrum and on the lights. They
+// depend only on the sample index, the sequence and the seed.
 //
-// The points come from sequences that fill a unit cube evenly for any number of points. Prefixes and suffixes are both
-// well distributed, so that samples can be split between two levels of detail. With seed 0 the first point is 1/2 in
-// every dimension. A single sample therefore gives the pinhole image at the middle of the exposure. Other seeds give
-// other points. With `sobol` and `scrambledHalton`, each point is uniformly distributed over the seeds.
+// The points come from sequences that fill a unit cube evenly for any number of points. The first n and the
+// last n points are both well distributed, so that samples can be split between two levels of detail. With seed 0 the
+// first point is 1/2 in every dimension. A single sample therefore gives the pinhole image at the middle of the
+// exposure. Other seeds give other points. With `sobol` and `scrambledHalton`, each point is uniformly distributed over
+// the seeds.
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
-// Photographic exposure: the factor from scene luminance to image values, given f-number, exposure time and
-// sensitivity.
+// Computes the photographic exposure: the factor from scene luminance to image values, given f-number, exposure time
+// and sensitivity.
 //
 // A scene value of 1 is a luminance of 1 cd/m². glTF lights are in candela and lux, so lit surfaces are in candela per
 // square metre. The exposure value at ISO 100 is EV100 = log2(N²/t · 100/S) with f-number N, exposure time t in s and

@@ -1,10 +1,11 @@
 #pragma once
-// Axial chromatic aberration: the focus shifts with the wavelength. Each lens sample has a position in the band from
-// red (0) to blue (1), which determines its colour weight and its focus. No additional samples are drawn.
+// Computes axial chromatic aberration: the focus distance depends on the wavelength. Each lens sample has a position in
+// the band from red (0) to blue (1), which determines its colour weight and its focus distance. No additional samples
+// are drawn.
 //
-// Let D be the dioptres between the focus of red and blue. The focus distance at band position t is s(t), with 1/s(t) =
-// 1/s + 3·D·(t − 1/2). The colour weights below have their centres at t = 1/3 (red), 1/2 (green) and 2/3 (blue); red
-// and blue are D apart. In C = a + b·w this adds 3·a·D·(1/2 − t) to b.
+// Let D be the dioptres between the focus distances of red and blue. The focus distance at band position t is s(t),
+// with 1/s(t) = 1/s + 3·D·(t − 1/2). The colour weights below have their centres at t = 1/3 (red), 1/2 (green) and 2/3
+// (blue); red and blue are D apart. In C = a + b·w this adds 3·a·D·(1/2 − t) to b.
 
 #include <glm/vec3.hpp>
 #include <span>

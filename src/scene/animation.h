@@ -1,5 +1,5 @@
 #pragma once
-// Interpolation of key frames: STEP, LINEAR and CUBICSPLINE of glTF 2.0, appendix C.
+// Interpolates key frames with the modes STEP, LINEAR and CUBICSPLINE of glTF 2.0, appendix C.
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -9,12 +9,12 @@
 
 namespace defocus::engine {
 
-// Returns the channel's value at `time` (seconds): `count` components, 3 for translation and scale, one per morph
-// target for weights. Times outside the keys give the first or last value.
+// Returns the value of an animation channel at `time` (seconds). `count` is the number of components: 3 for translation
+// and scale, one per morph target for weights. Times outside the keys give the first or last value.
 std::vector<double> sampleValues(const AnimationChannel& channel, std::size_t count, double time);
 
-// Returns the index of the clip whose name or index (from 0) the text gives; names take precedence. Throws Error, with
-// a list of the scene's clips, if there is no such clip.
+// Returns the index of the animation clip whose name or index (from 0) is `nameOrNumber`; names take precedence. Throws
+// Error, with a list of the scene's clips, if there is no such clip.
 int clipNamed(const Scene& scene, std::string_view nameOrNumber);
 
 // Returns `time` (seconds) modulo the clip's duration, for a repeating clip; 0 if the duration is 0.

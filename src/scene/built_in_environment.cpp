@@ -42,7 +42,7 @@ struct Softbox {
     glm::dvec3 radiance;
 };
 
-// Returns the lamp's radiance in a direction, relative to `radiance`, in [0, 1]: highest at the centre, falling towards
+// Returns the lamp's radiance in a direction as a fraction of Softbox::radiance: highest at the centre, falling towards
 // the rim, 0 outside the lamp.
 double softboxShare(const Softbox& box, const glm::dvec3& direction) {
     const glm::dvec3 z = directionOf(box.heading);

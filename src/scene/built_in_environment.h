@@ -1,5 +1,5 @@
 #pragma once
-// Procedural environment maps. Each is scaled to an illuminance of π lux on an upward-facing horizontal surface, so
+// Computes environment maps. Each map is scaled to an illuminance of π lux on an upward-facing horizontal surface, so
 // that a white diffuse surface with this orientation has radiance 1.
 
 #include <span>

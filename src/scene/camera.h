@@ -20,13 +20,13 @@ struct Camera {
     std::string name;
     double yfov = 0.6911112;            // full vertical field of view, radians
     std::optional<double> aspectRatio;  // width / height of the image for which yfov was chosen
-    double znear = 0.01;                // m
+    double znear = 0.01;                // depth of the near plane, m
     // Numeric extras of the camera by name, such as "fStop" and "focusDistance"; booleans are 0 or 1.
     // lens/lens_fields.h lists the names that have an effect.
     std::map<std::string, double, std::less<>> lens;
     std::optional<PhysicalCamera> physical;
-    std::string apertureImage;                // from extras: image path relative to the scene file
-    std::optional<std::string> orthographic;  // set for an orthographic camera: why it cannot be used
+    std::string apertureImage;                // image path from the extras, relative to the scene file; empty: none
+    std::optional<std::string> orthographic;  // reason why an orthographic camera cannot be used; nullopt: perspective
 
     [[nodiscard]] std::optional<double> lensValue(std::string_view lensName) const {
         const auto found = lens.find(lensName);

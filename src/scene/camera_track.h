@@ -1,5 +1,5 @@
 #pragma once
-// Camera from a separate file instead of the scene file, as a function of time.
+// Defines a camera that comes from a separate file instead of the scene file, as a function of time.
 
 #include <functional>
 #include <glm/mat4x4.hpp>
@@ -19,7 +19,7 @@ struct TrackedCamera {
     bool showsSensor = false;
 };
 
-// Opening and closing of the shutter, in s relative to the frame's time.
+// Times at which the shutter opens and closes, in s relative to the frame's time.
 struct ShutterInterval {
     double open = 0;
     double close = 0;
@@ -27,10 +27,10 @@ struct ShutterInterval {
 };
 
 struct CameraTrack {
-    std::string source;                               // file and camera, as the user names them
+    std::string source;                               // file and camera name, as the user gave them
     std::function<TrackedCamera(double seconds)> at;  // state of the camera at a time of the animation
     bool moves = false;                               // false: the camera is the same at all times
-    std::optional<ShutterInterval> shutter;           // shutter of the camera; nullopt: the file has none
+    std::optional<ShutterInterval> shutter;           // exposure interval of the camera; nullopt: the file has none
     std::vector<std::string> warnings;                // properties of the file that have no effect, one line each
 };
 

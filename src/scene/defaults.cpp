@@ -31,7 +31,7 @@ struct CameraNode {
     std::size_t index;
 };
 
-// Returns the nodes that have a camera, in file order.
+// Returns the nodes that have a camera, with their cameras, in file order.
 std::vector<CameraNode> cameraNodes(const Scene& scene, const std::vector<Camera>& cameras) {
     std::vector<CameraNode> result;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i)

@@ -1,6 +1,6 @@
 #pragma once
-// Defaults for files without camera, lights or environment: a camera that frames the scene, three studio lights and a
-// sky.
+// Chooses defaults for files without camera, lights or environment: a camera that frames the scene, three studio lights
+// and a sky.
 
 #include <glm/mat4x4.hpp>
 #include <optional>
@@ -13,14 +13,14 @@ namespace defocus::engine {
 
 struct PlacedCamera {
     Camera camera;
-    glm::dmat4 worldFromCamera{1.0};  // without scale
+    glm::dmat4 worldFromCamera{1.0};  // rigid transform, without scale
     int node = -1;                    // index of the node that holds the camera; −1: none
     bool tracked = false;  // true: camera of Pose::tracked; if false and node is −1: the default framing camera
 };
 
-// Returns the camera that `choice` selects. NamedCamera is the name of a camera or of its node. FirstCamera is the
-// state of the scene's camera track; without a track, the first camera that is not orthographic, or the default camera
-// if there is none. The default camera shows `pose.bounds` from a three-quarter view in an image of `aspect` = width /
+// Returns the camera that `choice` selects. NamedCamera is the name of a camera or of its node. FirstCamera selects
+// the scene's camera track; without a track, the first camera that is not orthographic; without such a camera, the
+// default camera. The default camera shows `pose.bounds` from a three-quarter view in an image of `aspect` = width /
 // height, with matching focusDistance and znear. `tanHalfHorizontal` is the tangent of half the default camera's
 // horizontal angle of view; nullopt: a 50 mm lens on 36 mm film along the longer side of the image. Throws Error if the
 // named camera is orthographic or the name is unknown; the message lists the known names.
@@ -38,7 +38,7 @@ struct StudioLight {
     double elevation = 0;
     glm::vec3 color{1.0f};
     float illuminance = 1;       // illuminance in lux of a surface that faces the light
-    double angularDiameter = 0;  // angular diameter of the softbox, rad
+    double angularDiameter = 0;  // angular diameter of the light, rad
     // Returns the unit vector towards the light in camera axes: +x right, +y up, +z backwards.
     [[nodiscard]] glm::dvec3 toLight() const;
 };

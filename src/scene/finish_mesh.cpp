@@ -53,7 +53,8 @@ double usableSum(glm::vec4& weight) {
     return sum;
 }
 
-// Scales the skin weights of each vertex to the sum 1. Vertices without a positive weight follow their first joint.
+// Scales the skin weights of each vertex so that they sum to 1. Vertices without a positive weight follow their first
+// joint.
 void repairWeights(VertexBlock& block) {
     Vertices& vertices = block.vertices;
     bool furtherCount = false;

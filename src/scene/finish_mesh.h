@@ -17,15 +17,15 @@ namespace defocus::engine {
 // perpendicular to the normals. Returns the number of replaced normals.
 std::size_t repairAttributes(VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
-// Returns the note for users about `count` normals that repairAttributes replaced.
+// Returns the entry of Scene::ignored that tells users about `count` normals replaced by repairAttributes.
 Ignored replacedNormalsNote(std::size_t count);
 
-// Returns the texture coordinate set along which the first normal map or anisotropic material of the primitives needs
-// tangents; −1 without such a material.
+// Returns the texture coordinate set to which tangents must be aligned: that of the first normal map or anisotropic
+// material of the primitives; −1 without such a material.
 int tangentUvSet(std::span<const Primitive> primitives, std::span<const Material> materials);
 
-// Adds flat normals if normals are missing, as glTF requires. Adds missing tangents along the texture
-// coordinate set `tangentUvs` (0 or 1; −1: no tangents). Updates `indices`.
+// Adds flat normals if normals are missing, as glTF requires. Adds missing tangents aligned to the texture coordinate
+// set `tangentUvs` (0 or 1; −1: adds no tangents). Updates `indices`.
 VertexBlock withMissingAttributes(VertexBlock block, std::span<std::vector<std::uint32_t>* const> indices,
                                   int tangentUvs);
 

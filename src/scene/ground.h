@@ -1,5 +1,5 @@
 #pragma once
-// Neutral ground disk for scenes without a floor; it receives shadows.
+// Adds a neutral ground disk, which receives shadows, to scenes without a floor.
 
 #include "scene/pose.h"
 

@@ -17,8 +17,8 @@ bool isBelow(const Scene& scene, int node, const std::vector<bool>& hidden) {
     return false;
 }
 
-// Returns the world-space bounding box of the pose's objects except the ground. Each mesh's own box is computed only
-// once.
+// Returns the world-space bounding box of the pose's objects except the ground. Computes the bounding box of each mesh
+// only once.
 Bounds boundsOf(const Scene& scene, const Pose& pose) {
     Bounds result;
     std::vector<std::optional<Bounds>> meshBounds(scene.meshes.size());

@@ -1,5 +1,5 @@
 #pragma once
-// Mesh whose primitives share one vertex array, so that all primitives are simplified together.
+// Defines a mesh whose primitives share one vertex array, so that all primitives are simplified together.
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
@@ -14,8 +14,8 @@
 namespace defocus::engine {
 
 // Per-vertex change of the lens's circle of confusion c to C(t) = factor·c + added(t). added(t) is a signed diameter in
-// mm on the sensor (> 0 behind the focus). It changes linearly from `opening` to `closing` during the exposure. Source:
-// linear C(t) of Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization.
+// mm on the sensor (> 0 behind the focus plane). It changes linearly from `opening` to `closing` during the exposure.
+// Source: linear C(t) of Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization.
 struct VertexBlur {
     float factor = 1;   // multiplies the lens's blur, ≥ 0; 0: only the added blur
     float opening = 0;  // added blur in mm when the shutter opens
@@ -23,7 +23,7 @@ struct VertexBlur {
     bool operator==(const VertexBlur&) const = default;
 };
 
-// Min and max of the vertex blurs of a mesh.
+// Min and max of the blur modifiers of a mesh's vertices.
 struct VertexBlurBounds {
     float factorMin = 1;
     float factorMax = 1;
@@ -36,16 +36,16 @@ struct VertexBlurBounds {
 // Vertex attributes, one array each. An array is empty if the mesh lacks the attribute; otherwise it is as long as
 // `positions`.
 struct Vertices {
-    std::vector<glm::vec3> positions;  // object units
+    std::vector<glm::vec3> positions;  // positions in object units
     std::vector<glm::vec3> normals;    // unit length
     std::vector<glm::vec4> tangents;   // xyz: unit vector; w: handedness ±1 (glTF)
     std::vector<glm::vec2> uv0;
     std::vector<glm::vec2> uv1;
     std::vector<glm::vec4> colors;     // linear, straight alpha; in [0, 1] if read from a file
-    std::vector<glm::u16vec4> joints;  // joint influences one to four: indices into the skin's joints
-    std::vector<glm::vec4> weights;    // sum to 1 together with weights1
+    std::vector<glm::u16vec4> joints;  // first to fourth joint of each vertex: indices into the skin's joints
+    std::vector<glm::vec4> weights;    // weights of `joints`; sum to 1 together with weights1
     std::vector<VertexBlur> blurs;
-    std::vector<glm::u16vec4> joints1;  // joint influences five to eight; empty if no vertex has more than four
+    std::vector<glm::u16vec4> joints1;  // fifth to eighth joint; empty if no vertex has more than four
     std::vector<glm::vec4> weights1;
 
     [[nodiscard]] std::size_t count() const { return positions.size(); }

@@ -16,7 +16,7 @@ namespace {
 
 struct Ray {
     glm::dvec3 origin;
-    glm::dvec3 direction;  // any length; the point at ray parameter t is origin + t · direction
+    glm::dvec3 direction;  // of any length; the point at ray parameter t is origin + t · direction
 };
 
 bool reaches(const Ray& ray, const Bounds& box, double farthest) {
@@ -183,7 +183,7 @@ std::vector<std::optional<Hit>> firstHits(const Scene& scene, const Pose& pose, 
     std::vector<Ray> rays;
     for (const glm::dvec3& direction : directions) rays.push_back({origin, glm::normalize(direction)});
     std::vector<Hit> nearest(rays.size(), {std::numeric_limits<double>::infinity(), -1});
-    std::vector<std::vector<Bounds>> boxes(scene.meshes.size());  // boxes of runs, per mesh; computed when first needed
+    std::vector<std::vector<Bounds>> boxes(scene.meshes.size());  // of runs of triangles, per mesh; empty until needed
     for (std::size_t i = 0; i < pose.objects.size(); ++i) {
         const Object& object = pose.objects[i];
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];

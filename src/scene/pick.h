@@ -1,6 +1,6 @@
 #pragma once
-// Finds the first surface that a ray hits. Each ray is tested against all triangles on the CPU, in milliseconds per
-// million triangles.
+// Finds the first surface that a ray hits. Each ray is tested against all triangles on the CPU, which takes
+// milliseconds per million triangles.
 
 #include <optional>
 #include <vector>

@@ -23,9 +23,9 @@ struct NodeState {
     glm::dvec3 translation;
     glm::dquat rotation;
     glm::dvec3 scale;
-    std::vector<double> morphWeights;  // one per morph target of the node's mesh
-    bool visible;                      // the node's own visibility, without its ancestors'
-    bool hides;                        // an animation hides the node at some times
+    std::vector<double> morphWeights;  // weights of the morph targets of the node's mesh
+    bool visible;                      // visibility of the node without its ancestors'
+    bool hides;                        // true: an animation hides the node at some times
 };
 
 // Animatable properties of a scene at one instant.
@@ -233,7 +233,7 @@ void leaveOutFaintLights(Pose& pose) {
 // Visibility of a node, including the visibility of its ancestors.
 struct Visibility {
     bool now = true;
-    bool everShown = true;  // false: hidden at all times
+    bool everShown = true;  // false: the node is hidden at all times
 };
 
 // Returns which nodes have an object in the pose.

@@ -1,5 +1,5 @@
 #pragma once
-// Scene at one instant: objects (mesh instances), lights and cameras in world space.
+// Computes a scene at one instant: objects (mesh instances), lights and cameras in world space.
 
 #include <glm/mat4x4.hpp>
 #include <string>
@@ -20,7 +20,7 @@ struct Object {  // mesh instance with all its primitives
     // World matrix times inverse bind matrix of each joint; empty without a skin. With a skin, worldFromObject does not
     // apply to vertices.
     std::vector<glm::dmat4> worldFromJoint;
-    std::vector<double> morphWeights;  // one per morph target of the mesh
+    std::vector<double> morphWeights;  // weights of the mesh's morph targets
     // True for the ground of addGround. Default framing and focus ignore the ground, and it casts no shadows.
     bool ground = false;
 
@@ -36,11 +36,11 @@ struct PlacedLight {
 inline constexpr std::size_t maxLights = 336;  // max lights that fit into a uniform block on every OpenGL driver
 
 struct Pose {
-    std::vector<glm::dmat4> worldFromNode;  // one matrix per entry of Scene::nodes
+    std::vector<glm::dmat4> worldFromNode;  // matrices of the nodes; same indices as Scene::nodes
     std::vector<Object> objects;
     std::vector<PlacedLight> lights;       // at most maxLights; intensity 0 while an animation hides the light
     std::size_t faintLights = 0;           // number of fainter lights that were dropped
-    std::vector<Camera> cameras;           // one per entry of Scene::cameras, with animated values
+    std::vector<Camera> cameras;           // cameras with animated values; same indices as Scene::cameras
     std::optional<TrackedCamera> tracked;  // state of Scene::cameraTrack
     Bounds bounds;                         // bounding box of all objects except the ground, in world space
 };

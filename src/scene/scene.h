@@ -31,7 +31,7 @@ using Wrap = TextureWrap;
 using Filter = TextureFilter;
 
 struct Texture {
-    int image = -1;  // index into Scene::images
+    int image = -1;  // index into Scene::images; −1: none
     Wrap wrapS = Wrap::repeat;
     Wrap wrapT = Wrap::repeat;
     Filter magnification = Filter::linear;
@@ -60,7 +60,7 @@ struct Material {
     TextureUse occlusion;          // linear texture, channel R
     TextureUse emissive;           // sRGB-encoded
     AlphaMode alphaMode = AlphaMode::opaque;
-    float alphaCutoff = 0.5f;  // for AlphaMode::mask
+    float alphaCutoff = 0.5f;  // alpha below which AlphaMode::mask draws nothing
     bool doubleSided = false;
     bool unlit = false;  // KHR_materials_unlit
 
@@ -85,7 +85,7 @@ struct Material {
     float clearcoatNormalScale = 1.0f;
     TextureUse clearcoat;           // linear texture, channel R
     TextureUse clearcoatRoughness;  // linear texture, channel G
-    TextureUse clearcoatNormal;     // like `normal`; without a texture, the coat uses the mesh normal
+    TextureUse clearcoatNormal;     // linear texture, as `normal`; without it, the coat uses the mesh normal
 
     // KHR_materials_sheen.
     glm::vec3 sheenColorFactor{0.0f};
@@ -226,7 +226,7 @@ enum class ChannelPath {
     weights,
     visible,      // KHR_node_visibility; values from 0.5 are true
     cameraYfov,   // radians; camera…: properties of a camera (KHR_animation_pointer)
-    cameraZnear,  // m
+    cameraZnear,  // m; near plane
     cameraLens,   // entry of Camera::lens named by AnimationChannel::lensValue
     lightColor,   // light…: properties of a light (KHR_animation_pointer)
     lightIntensity,
@@ -238,7 +238,7 @@ struct AnimationChannel {
     ChannelPath path = ChannelPath::translation;
     Interpolation interpolation = Interpolation::linear;
     std::vector<float> times;   // seconds, increasing
-    std::vector<float> values;  // 1, 3, 4 or (morph weights) n numbers per key; three times as many for cubicSpline
+    std::vector<float> values;  // per key: 1, 3, 4 or (morph weights) n numbers; thrice as many for cubicSpline
     std::string lensValue;      // for ChannelPath::cameraLens: key of Camera::lens
 };
 
@@ -248,7 +248,8 @@ struct AnimationClip {
     float duration = 0.0f;  // time of the last key in seconds
 };
 
-// Content of the file that is not drawn, and the reason. `count` is the number of items with equal text.
+// Content of the file that is not drawn, and the reason. `count` is the number of items with the same `what` and
+// `reason`.
 struct Ignored {
     std::string what;
     std::string reason;
@@ -272,7 +273,7 @@ struct Scene {
     std::vector<Skin> skins;
     std::vector<AnimationClip> clips;
     std::optional<Environment> environment;  // environment; nullopt: see environmentOrDefault
-    double metresPerUnit = 1;                // length unit of all lengths in this scene; a Pose is in metres
+    double metresPerUnit = 1;                // metres per unit of all lengths in this Scene; a Pose is in metres
     std::optional<double> ownMetresPerUnit;  // unit from the file's extras; nullopt: not stated
     std::vector<std::string> variants;       // names of the material variants (KHR_materials_variants)
     std::string variant;                     // chosen material variant; empty: the default materials

@@ -24,7 +24,7 @@ template <typename... Args>
     throw UsageError(shortLine(fmt::format(format, std::forward<Args>(args)...)));
 }
 
-// ---- checks ---------------------------------------------------------------------------------------------------------
+// ---- checks of values ----------------------------------------------------------------------------------------------
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double maxFloat = std::numeric_limits<float>::max();
@@ -55,7 +55,7 @@ void checkChoice(const std::string& label, const char* name, Choice value, Choic
     refuse("{}: {} has no value {}", label, name, static_cast<int>(value));
 }
 
-// Throws UsageError unless `index` is −1 or an index into `count` parts.
+// Throws UsageError unless `index` is −1 or below `count`, the number of parts of the kind `kind`.
 void checkIndex(const std::string& label, const char* kind, int index, std::size_t count) {
     if (index >= -1 && (index < 0 || static_cast<std::size_t>(index) < count)) return;
     refuse("{}: there is no {} {}; the scene has {}", label, kind, index, count);

@@ -1,5 +1,5 @@
 #pragma once
-// Builds a Scene from data in memory (defocus/scene_data.h), like the glTF loader does from a file.
+// Builds a Scene from data in memory (defocus/scene_data.h), as the glTF loader does from a file.
 
 #include <string>
 #include <string_view>

@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns Smith's Λ for GGX slopes of width α and a direction with this cosine to the normal.
+// Returns Smith's Λ for GGX slopes of width α and a direction whose cosine to the normal is `cosine`.
 double smithLambda(double cosine, double alpha) {
     const double tangent2 = 1 / (cosine * cosine) - 1;
     return 0.5 * (std::sqrt(1 + alpha * alpha * tangent2) - 1);
@@ -41,7 +41,7 @@ glm::vec2 integrated(double cosine, double alpha) {
             const glm::dvec3 cap = glm::dvec3(sine * std::cos(azimuth), sine * std::sin(azimuth), z) + stretched;
             const glm::dvec3 half = glm::normalize(glm::dvec3(alpha * cap.x, alpha * cap.y, std::max(cap.z, 1e-9)));
             const double vh = std::clamp(glm::dot(eye, half), 0.0, 1.0);
-            const double toLight = 2 * vh * half.z - cosine;  // cosine between reflected direction and normal
+            const double toLight = 2 * vh * half.z - cosine;  // cosine between the reflected direction and the normal
             if (toLight <= 0) continue;
             const double masking = (1 + lambdaV) / (1 + lambdaV + smithLambda(toLight, alpha));
             const double schlick = std::pow(1 - vh, 5);

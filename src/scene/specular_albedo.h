@@ -1,6 +1,6 @@
 #pragma once
-// Directional albedo of glTF's specular reflection: the fraction of a uniform white environment that it reflects
-// towards the eye.
+// Computes the directional albedo of glTF's specular reflection: the fraction of a uniform white environment that is
+// reflected towards the eye.
 
 #include <array>
 #include <glm/vec2.hpp>

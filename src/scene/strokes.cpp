@@ -27,7 +27,7 @@ public:
         if (!isNew) return entry->second;
         Material material = index >= 0 ? scene_.materials[static_cast<std::size_t>(index)] : Material{};
         material.doubleSided = true;
-        material.normal = material.clearcoatNormal = {};  // strokes have no tangents
+        material.normal = material.clearcoatNormal = {};  // points and lines have no tangents for normal maps
         if (!lit) {
             material.unlit = true;
             material.baseColorFactor += glm::vec4(material.emissiveFactor, 0);

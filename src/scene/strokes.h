@@ -6,10 +6,10 @@
 
 namespace defocus::engine {
 
-// Camera in whose image the points and lines are one pixel wide.
+// Camera in whose image points and lines are one pixel wide.
 struct StrokeView {
     glm::dmat4 worldFromCamera{1.0};
-    double pixelTangent = 0;  // width of a pixel at distance 1
+    double pixelTangent = 0;  // width of a pixel at depth 1
     double nearPlane = 0;     // depth in m; nearer points get the width of this depth
 };
 
@@ -17,8 +17,8 @@ struct StrokeView {
 
 // Returns the scene with the points and lines of its meshes as triangles. They are one pixel wide only for `view` and
 // `pose`: the width is part of the mesh, so it changes with other poses and distances. A mesh with points or lines is
-// copied for each of its nodes; all instances of a node get the width of the first. Points and lines do not follow
-// skins and morph targets.
+// copied for each of its nodes; all instances of a node get the width of the first instance. Points and lines do not
+// follow skins and morph targets.
 Scene withStrokes(const Scene& scene, const Pose& pose, const StrokeView& view);
 
 }  // namespace defocus::engine

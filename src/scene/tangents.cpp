@@ -37,7 +37,7 @@ double cornerAngle(const Vertices& vertices, const std::uint32_t* triangle, std:
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// Assigns indices to vertices in order of first use. A vertex of both mirrored and unmirrored triangles gets two
+// Assigns new indices to vertices in order of first use. A vertex of both mirrored and unmirrored triangles gets two
 // indices.
 class MirrorSplit {
 public:

@@ -1,5 +1,5 @@
 #pragma once
-// Conversion of float images to the 8-bit textures that a Scene stores.
+// Converts float images to the 8-bit textures that a Scene stores.
 
 #include <string>
 

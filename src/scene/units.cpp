@@ -63,7 +63,7 @@ std::string lengthsIn(const std::string& unit, const std::string& text) {
 }
 
 double guessedMetresPerUnit(double extent) {
-    constexpr double thumb = 0.05, building = 30, everyday = 0.75;  // sizes in metres
+    constexpr double thumb = 0.05, building = 30, everyday = 0.75;  // sizes of objects in metres
     if (!(extent > 0) || !std::isfinite(extent) || (extent >= thumb && extent <= building)) return 1;
     return std::pow(10, std::round(std::log10(everyday / extent)));
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Length units of scenes and of values that users type. glTF prescribes metres, but many files use centimetres,
-// millimetres or arbitrary units.
+// Converts the length units of scenes and of values that users type. glTF prescribes metres, but many files use
+// centimetres, millimetres or arbitrary units.
 
 #include <string>
 

@@ -1,6 +1,6 @@
 #pragma once
-// Operations on vertex arrays while a mesh is read: gathering, compacting, flat shading, and appending blocks with
-// different attributes.
+// Modifies vertex arrays while a mesh is read: gathers, compacts and flat-shades vertices, and appends vertices that
+// have other attributes.
 
 #include <cstdint>
 #include <span>

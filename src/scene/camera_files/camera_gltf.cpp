@@ -26,14 +26,15 @@ double yfovOf(const CameraTake& take, const CameraSample& sample) {
     return 2 * std::atan(tanHalfHorizontal(sample) / take.aspect);
 }
 
-// Returns the names of the lens values that the extras store. The focal length follows from the field of view.
+// Returns the names of the lens values that are written as glTF extras. The focal length is left out, because it
+// follows from the field of view.
 std::vector<std::string> extraNames(const CameraTake& take) {
     std::vector<std::string> names = lensNames(take);
     std::erase(names, "focalLength");
     return names;
 }
 
-// Collects the animation and the buffer that holds its keys.
+// Collects the animation's channels, and the buffer that holds its key frames.
 class Keys {
 public:
     explicit Keys(const CameraTake& take) : take_(take) {

@@ -46,7 +46,8 @@ CameraSample sampleOf(const Json& json, const std::string& what) {
     return sample;
 }
 
-// Interpolates between two rigid transforms: positions linearly, rotations spherically. `share`: weight of `b`, 0 … 1.
+// Interpolates between the rigid transforms `a` and `b`: positions linearly, rotations spherically. `share`: weight of
+// `b`, 0 … 1.
 glm::dmat4 mixed(const glm::dmat4& a, const glm::dmat4& b, double share) {
     const glm::dquat rotation = glm::slerp(glm::quat_cast(glm::dmat3(a)), glm::quat_cast(glm::dmat3(b)), share);
     glm::dmat4 result = glm::mat4_cast(rotation);

@@ -12,9 +12,9 @@
 namespace defocus::engine {
 
 struct CameraSample {
-    double time = 0;                  // s
+    double time = 0;                  // time of the sample in s
     glm::dmat4 worldFromCamera{1.0};  // rigid transform in m, y up
-    double nearPlane = 0.01;          // m
+    double nearPlane = 0.01;          // depth of the near plane, m
     // Lens values by their names in lens/lens_fields.h; focalLength and horizontalAperture give the field of view.
     std::map<std::string, double, std::less<>> lens;
 };

@@ -14,9 +14,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double unitsPerMillimetre = 0.01;  // USD gives lens lengths in tenths of the layer's unit, 1 m here
+constexpr double unitsPerMillimetre = 0.01;  // USD gives lens lengths in tenths of the layer's unit, which is 1 m here
 
-// Lens values that USD attributes express, directly or indirectly.
+// Names of the lens values that USD attributes express, directly or indirectly.
 constexpr std::array<std::string_view, 5> usdValues = {"focalLength", "horizontalAperture", "fStop", "focusDistance",
                                                        "dofEnabled"};
 
@@ -31,7 +31,7 @@ std::string identifier(const std::string& name) {
 }
 
 std::string matrixText(const glm::dmat4& matrix) {
-    const double* values = glm::value_ptr(matrix);  // columns of GLM are rows of USD
+    const double* values = glm::value_ptr(matrix);  // GLM's columns become USD's rows
     std::string rows;
     for (int row = 0; row < 4; ++row)
         rows += fmt::format("{}({})", row > 0 ? ", " : "", fmt::join(values + 4 * row, values + 4 * row + 4, ", "));
@@ -42,7 +42,7 @@ class Writer {
 public:
     explicit Writer(const CameraTake& take) : take_(take) {}
 
-    // Adds an attribute, with time samples if its text changes.
+    // Adds an attribute, with time samples if its value changes over time.
     void add(std::string_view type, std::string_view name,
              const std::function<std::string(const CameraSample&)>& text) {
         const std::string first = text(take_.samples.front());

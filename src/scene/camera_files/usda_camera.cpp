@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double widestSensor = 1000;  // width in mm; a wider sensor is probably in mm instead of tenths of a unit
+constexpr double widestSensor = 1000;  // max width in mm; a greater width means that the file's lengths are in mm
 constexpr double plainUnit = 0.01;     // default of the layer entry metersPerUnit; a tenth of this unit is 1 mm
 constexpr const char* lensPrefix = "defocus:";
 
@@ -183,7 +183,7 @@ private:
         return usdNumber(prim(), name, time, otherwise, where_);
     }
 
-    // Returns a length of lens or sensor in mm. USD gives it in tenths of the layer's unit.
+    // Returns a length of lens or sensor in mm. USD stores these lengths in tenths of the layer's unit.
     [[nodiscard]] double length(const char* name, double time, double otherwise) const {
         const double value = number(name, time, otherwise) * tenthMillimetres_.value_or(stage_.metresPerUnit * 100);
         if (!(value > 0)) fail("{}: {} must be above 0", where_, name);
@@ -207,7 +207,7 @@ private:
             }
     }
 
-    // Returns the camera's matrix in metres, y up. chooseCamera removes the scale.
+    // Returns the camera's matrix in metres, y up. The matrix may contain scale, which chooseCamera removes.
     [[nodiscard]] glm::dmat4 worldFromCamera(double time) const {
         glm::dmat4 world(1.0);
         for (const UsdPrim* each : path_) {
@@ -226,7 +226,7 @@ private:
     PrimPath path_;
     std::string where_;
     Stage stage_;
-    std::optional<double> tenthMillimetres_;  // mm per unit of lens lengths; nullopt: a tenth of the layer's unit
+    std::optional<double> tenthMillimetres_;  // mm per unit of lens lengths; nullopt: unit = layer's unit / 10
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-// Cameras of a USD layer. Sources: USD documentation of UsdGeomCamera (units, exposure), UsdGeomXformable (order of
-// operations) and UsdStage (interpolation of time samples).
+// Reads cameras from a USD layer. Sources: USD documentation of UsdGeomCamera (units, exposure), UsdGeomXformable
+// (order of operations) and UsdStage (interpolation of time samples).
 //
 // Time code c corresponds to c / timeCodesPerSecond seconds of the animation. The layer's unit and up axis are
 // converted. Attributes "custom double defocus:NAME" of the camera are lens values; lens/lens_fields.h lists the names.

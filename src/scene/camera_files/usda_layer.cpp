@@ -48,7 +48,7 @@ private:
 
     // ---- tokens
 
-    // Skips spaces and comments. Returns the next character; 0 at the end.
+    // Skips spaces and comments. Returns the next character; 0 at the end of the text.
     char next() {
         for (; at_ < text_.size(); ++at_) {
             const char letter = text_[at_];
@@ -168,7 +168,7 @@ private:
         if (keep) into.numbers.push_back(found);
     }
 
-    // Parses a value. With `keep` = false, only checks its syntax, because arrays of meshes are large.
+    // Parses a value. If `keep` is false, only checks the value's syntax, because arrays of meshes are large.
     void value(UsdValue& into, bool keep, int depth = 0) {
         if (depth > deepestValue) refuse("the value is nested too deeply");
         const char first = next();

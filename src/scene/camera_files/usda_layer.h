@@ -10,7 +10,7 @@
 
 namespace defocus::engine {
 
-// A value whose nested lists and tuples are flattened: a matrix4d is 16 numbers. A list is empty if the value has
+// A value whose nested lists and tuples are flattened: a matrix4d is 16 numbers. Each vector is empty if the value has
 // another type.
 struct UsdValue {
     std::vector<double> numbers;     // booleans are 0 or 1
@@ -19,7 +19,7 @@ struct UsdValue {
 };
 
 struct UsdAttribute {
-    UsdValue value;                                    // value that applies without time samples
+    UsdValue value;                                    // value that applies if there are no time samples
     std::vector<std::pair<double, UsdValue>> samples;  // (time code, value), in ascending order
 };
 
@@ -27,7 +27,7 @@ struct UsdPrim {
     std::string specifier;  // "def", "over" or "class"
     std::string type;       // "Camera", "Xform", …; empty: the prim has no type
     std::string name;
-    std::map<std::string, UsdAttribute, std::less<>> attributes;  // attributes of transforms and of cameras only
+    std::map<std::string, UsdAttribute, std::less<>> attributes;  // only attributes of transforms and cameras
     std::vector<std::string> arcs;                                // composition arcs: "references", "payload", …
     std::vector<UsdPrim> children;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Values of a USD attribute at a time code, and transforms of prims.
+// Evaluates USD attributes, and the transforms of prims, at a time code.
 
 #include <glm/mat4x4.hpp>
 #include <optional>

@@ -6,8 +6,8 @@
 
 namespace defocus::engine::gltf {
 
-// Returns the file's clips. Channels of nodes that are not in `hierarchy` are dropped. Channels of unsupported
-// properties are listed in Source::ignored.
+// Returns the file's animation clips. Channels of nodes that are not in `hierarchy` are dropped. Channels of
+// unsupported properties are listed in Source::ignored.
 std::vector<AnimationClip> readAnimations(Source& source, const Hierarchy& hierarchy, const std::vector<Mesh>& meshes);
 
 std::vector<Skin> readSkins(Source& source, const Hierarchy& hierarchy);

@@ -111,7 +111,7 @@ std::vector<glm::u16vec4> readJoints(Source& source, const AttributeReader& read
     return result;
 }
 
-constexpr float maxBlur = 1e6f;  // max of _COC… attributes: mm on the sensor, or a multiple of the lens's blur
+constexpr float maxBlur = 1e6f;  // max of _COC… attributes, which are in mm or multiples of the lens's blur
 
 // Returns the scalar attribute `name` per vertex; empty if the primitive lacks it. Throws Error for values outside
 // [min, maxBlur].

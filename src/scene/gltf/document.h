@@ -28,7 +28,7 @@ struct Document {
 // byte order mark or nesting depth.
 Document readDocument(const std::filesystem::path& path);
 
-// Returns the number of entries in the JSON's top-level array `name`; 0 if it does not exist.
+// Returns the number of entries in the JSON's top-level array `name`; 0 if the array does not exist.
 std::size_t entryCount(const Document& document, std::string_view name);
 
 // Returns whether the URI contains its data ("data:…"); the scheme may be in upper case and preceded by white space.

@@ -18,10 +18,10 @@ namespace defocus::engine {
 
 namespace {
 
-// Charges each object's memory to the budget. Instances share a mesh, but need memory of their own.
+// Adds each object's memory to the scene's memory budget. Instances share a mesh, but each needs memory of its own.
 void checkObjects(gltf::Source& source, const gltf::Hierarchy& hierarchy, const Scene& scene) {
     constexpr std::uint64_t objectBytes = 2304;                   // measured memory of an object's pose and rendering
-    constexpr std::uint64_t jointBytes = 4 * sizeof(glm::dmat4);  // memory of a joint in the pose and the frame's plan
+    constexpr std::uint64_t jointBytes = 4 * sizeof(glm::dmat4);  // memory of a joint's matrices in pose and plan
     constexpr std::uint64_t weightBytes = 4 * sizeof(double);
     for (const Node& node : hierarchy.nodes) {
         if (node.mesh < 0) continue;
@@ -74,7 +74,7 @@ Scene readScene(gltf::Source& source, const std::filesystem::path& path, const P
     scene.textures = std::move(textures.textures);
     scene.images = std::move(textures.images);
     scene.imageNames = std::move(textures.names);
-    source.document.json.erase("materials");  // frees memory for the meshes
+    source.document.json.erase("materials");  // free memory, which the meshes need
 
     scene.meshes = gltf::readMeshes(source, scene.materials, progress);
 

@@ -35,8 +35,8 @@ glm::mat3 textureTransform(const nlohmann::json& json) {
             toFloat(s * scale[1]), toFloat(c * scale[1]),  0.0f, toFloat(offset[0]), toFloat(offset[1]), 1.0f};
 }
 
-// Returns the reason why a texture without a supported image is not drawn. Each extension of such a texture names an
-// image in another format.
+// Returns the reason why a texture is not drawn if it has no supported image: an extension names an image in another
+// format.
 std::string withoutImage(const nlohmann::json& texture) {
     std::vector<std::string> formats;
     if (const auto extensions = texture.find("extensions"); extensions != texture.end() && extensions->is_object())

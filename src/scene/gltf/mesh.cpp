@@ -21,7 +21,7 @@ struct VertexSource {
     auto operator<=>(const VertexSource&) const = default;
 };
 
-// Primitives of one mesh that share vertices; a Draco-compressed primitive forms its own group.
+// Primitives of one mesh that share vertices; a Draco-compressed primitive shares vertices with no other.
 struct Group {
     VertexSource vertices;
     std::vector<std::size_t> members;  // indices into the mesh's primitives
@@ -147,7 +147,7 @@ bool drawable(Source& source, const tinygltf::Primitive& primitive, const std::s
 std::vector<Group> groupPrimitives(Source& source, const tinygltf::Mesh& mesh, const nlohmann::json& json,
                                    const std::string& label) {
     std::vector<Group> groups;
-    std::map<VertexSource, std::size_t> places;  // index into `groups`, for uncompressed primitives
+    std::map<VertexSource, std::size_t> places;  // index into `groups`; only uncompressed primitives
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         const tinygltf::Primitive& primitive = mesh.primitives[i];
         if (!drawable(source, primitive, fmt::format("{}, primitive {}", label, i)) || isStroke(primitive)) continue;
@@ -195,7 +195,8 @@ public:
     }
 
 private:
-    // Reads the triangles and vertices of a group. Appends the vertices to the mesh and returns the primitives.
+    // Reads the triangles and vertices of the primitives in a group. Appends the vertices to the mesh and returns the
+    // primitives.
     std::vector<Primitive> readGroup(Mesh& mesh, const tinygltf::Mesh& from, const nlohmann::json& json,
                                      const Group& group, const std::string& label) {
         const std::string what = fmt::format("{}, primitive {}", label, group.members.front());
@@ -234,7 +235,7 @@ private:
         return last_->block;
     }
 
-    // Repairs the attributes, and adds normals if they are missing, and tangents if they are missing and needed.
+    // Repairs vertex attributes. Adds normals if they are missing, and tangents if they are missing and needed.
     VertexBlock finish(VertexBlock block, std::span<std::vector<std::uint32_t>* const> lists, int tangentUv,
                        const std::string& what) {
         const std::size_t replaced = repairAttributes(block, lists);

@@ -14,7 +14,7 @@ namespace defocus::engine::gltf {
 
 namespace {
 
-// ---- choice of nodes ----------------------------------------------------------------------------
+// ---- selection of nodes ------------------------------------------------------------------------
 
 // Returns the index of each node's parent; −1 for a root. Throws Error for nodes with two parents and for cycles.
 std::vector<int> parentsOf(const Source& source) {
@@ -87,7 +87,7 @@ std::vector<bool> neededNodes(const Source& source, const std::vector<int>& pare
     return needed;
 }
 
-// ---- one node -----------------------------------------------------------------------------------
+// ---- properties of a node ----------------------------------------------------------------------
 
 glm::dvec3 vectorOf(const std::vector<double>& numbers, const glm::dvec3& otherwise) {
     return numbers.empty() ? otherwise : glm::dvec3(numbers[0], numbers[1], numbers[2]);

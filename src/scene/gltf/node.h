@@ -5,8 +5,8 @@
 
 namespace defocus::engine::gltf {
 
-// Kept nodes: those of the file's default scene, else of its first scene, else all nodes. Joints outside the scene, and
-// their ancestors, are also kept.
+// Nodes that are kept: those of the file's default scene, else of its first scene, else all nodes. Joints outside the
+// scene, and their ancestors, are also kept.
 struct Hierarchy {
     std::vector<Node> nodes;
     std::vector<int> roots;

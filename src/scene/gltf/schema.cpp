@@ -32,9 +32,9 @@ enum class Kind {
 struct Property {
     std::string_view name;
     Kind kind;
-    std::string_view target = {};  // array of the indexed entries; for Kind::index, indices, indexMap, indexMaps
-    std::span<const Property> properties = {};  // members; for Kind::object, objects
-    std::size_t length = 0;                     // number of entries, 0: any; for Kind::numbers
+    std::string_view target = {};  // top-level array that the indices refer to; for Kind::index, indices, …
+    std::span<const Property> properties = {};  // members of the object; for Kind::object, objects
+    std::size_t length = 0;                     // number of entries; 0: any; for Kind::numbers
     bool required = false;
 };
 
@@ -264,7 +264,7 @@ constexpr Property animationSamplerProperties[] = {required({"input", Kind::inde
 constexpr Property animationProperties[] = {nameProperty, required(objects("channels", animationChannelProperties)),
                                             required(objects("samplers", animationSamplerProperties))};
 
-// ---- root ---------------------------------------------------------------------------------------
+// ---- properties of the root object --------------------------------------------------------------
 
 constexpr Property variantProperties[] = {required({"name", Kind::string})};
 constexpr Property variantsProperties[] = {required(objects("variants", variantProperties))};
@@ -281,16 +281,16 @@ constexpr Property rootProperties[] = {
     objects("skins", skinProperties),         objects("textures", textureProperties),
     object("extensions", rootExtensions)};
 
-// ---- check --------------------------------------------------------------------------------------
+// ---- validation ---------------------------------------------------------------------------------
 
 // JSON numbers represent all integers exactly only up to 2^53.
 constexpr std::uint64_t largestSize = 1ull << 53;
 
-// Position in the document, such as "nodes[3].mesh". It becomes text only for an error, because a file may have
-// millions of properties.
+// Position in the document, such as "nodes[3].mesh". The position becomes text only for an error message, because a
+// file may have millions of properties.
 class Place {
 public:
-    Place() = default;  // the document's root
+    Place() = default;  // the root object of the document
     [[nodiscard]] Place property(std::string_view name) const { return {this, name, noIndex}; }
     [[nodiscard]] Place entry(std::size_t index) const { return {this, {}, index}; }
 

@@ -43,10 +43,10 @@ constexpr std::array<std::string_view, 24> supportedExtensions = {
     "KHR_texture_transform",
 };
 
-// Extensions that do not change the picture: metadata about the file.
+// Extensions that do not change the image, because they only store metadata about the file.
 constexpr std::array<std::string_view, 2> metadataExtensions = {"KHR_xmp", "KHR_xmp_json_ld"};
 
-// An unsupported extension, and how files with it are drawn.
+// An extension that is not supported, and how files with this extension are drawn.
 struct Fallback {
     std::string_view extension;
     std::string_view look;

@@ -1,7 +1,7 @@
 #pragma once
-// Document with its buffers and its JSON as tinygltf structures, from which materials, meshes, nodes and animations are
-// read. tinygltf parses only JSON that passed checkSchema, and never reads files, images or binary data. Internal to
-// the glTF loader.
+// Opens a glTF document: provides its buffers, and its JSON as tinygltf structures, from which materials, meshes, nodes
+// and animations are read. tinygltf parses only JSON that passed checkSchema, and never reads files, images or binary
+// data. Internal to the glTF loader.
 
 #include <cstddef>
 #include <cstdint>
@@ -47,7 +47,7 @@ struct Source {
     Document document;
     tinygltf::Model model;                                             // result of readStructure
     std::vector<std::optional<std::vector<std::byte>>> buffers;        // nullopt: fallback buffer without data
-    std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // decompressed; EXT_meshopt_compression only
+    std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // of views with EXT_meshopt_compression
     UnpackBudget budget;
     std::set<std::filesystem::path> files;  // external files whose size was added to the budget
     std::vector<Ignored> ignored;
@@ -61,16 +61,16 @@ Source openSource(const std::filesystem::path& path, const std::string& variant,
 // Returns the bytes of a buffer view. Throws Error if its buffer has no data or is too short.
 std::span<const std::byte> viewBytes(const Source& source, int view);
 
-// Reserves memory for `count` elements of `elementBytes` in the budget. Throws Error, with `what` in its message, if
-// the budget is exceeded.
+// Reserves memory in the budget for `count` elements of `elementBytes` bytes each. Throws Error, with `what` in its
+// message, if the budget is exceeded.
 void takeBudget(Source& source, std::uint64_t count, std::uint64_t elementBytes, const std::string& what);
 
-// Calls budget.grant() for the file that `uri` refers to, and lists a backslash that was read as a slash in
-// Source::ignored. Does nothing for data URIs and for files that were granted before.
+// Calls budget.grant() for the file that `uri` refers to, once per file. If a backslash in the URI was read as a slash,
+// says so in Source::ignored. Does nothing for data URIs.
 void grantFile(Source& source, const std::string& uri, const std::string& what);
 
-// Adds content that is not drawn to Source::ignored. Entries with equal `what` and `reason` are merged, and their
-// counts are added.
+// Adds an entry to Source::ignored, for content that is not drawn. Entries with equal `what` and `reason` are merged,
+// and their counts are added.
 void ignore(Source& source, const std::string& what, const std::string& reason, std::uint64_t count = 1);
 // Same as ignore(), for content that cannot be drawn correctly because the file is damaged.
 void ignoreDamaged(Source& source, const std::string& what, const std::string& reason, std::uint64_t count);

@@ -92,7 +92,7 @@ std::vector<bool> usedImages(const Source& source, const std::vector<Material>& 
     return used;
 }
 
-// Returns an image whose roughness (G) is 1 − glossiness, the product of the factor and the texture's alpha.
+// Returns an image whose roughness (G) is 1 − glossiness. Glossiness is the factor times the alpha of image `glossy`.
 TextureImage roughnessOf(const TextureImage& glossy, double glossinessFactor) {
     TextureImage rough = glossy;
     for (std::size_t i = 0; i < rough.rgba.size(); i += 4) {
@@ -103,16 +103,16 @@ TextureImage roughnessOf(const TextureImage& glossy, double glossinessFactor) {
     return rough;
 }
 
-// Replaces the specular-glossiness textures that materials use as metallic-roughness textures. A material whose texture
-// was removed becomes a dielectric.
+// Replaces specular-glossiness textures, which materials hold as their metallic-roughness textures, by textures of
+// roughness. A material whose texture was removed becomes a dielectric.
 void convertGlossiness(Source& source, std::vector<Material>& materials, Textures& textures) {
-    std::map<std::pair<int, float>, int> converted;  // (texture, roughness factor) → texture
+    std::map<std::pair<int, float>, int> converted;  // (texture, roughness factor) → converted texture
     for (std::size_t i = 0; i < materials.size(); ++i) {
         TextureUse& use = materials[i].metallicRoughness;
         const nlohmann::json* extension =
             findExtension(source.document.json["materials"][i], "KHR_materials_pbrSpecularGlossiness");
         if (extension == nullptr || !extension->contains("specularGlossinessTexture")) continue;
-        if (!use.used()) {  // without the texture, use a dielectric instead of a mirror
+        if (!use.used()) {  // the texture was removed: use a dielectric instead of a mirror
             materials[i].ior = Material().ior;
             continue;
         }

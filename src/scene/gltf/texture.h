@@ -11,7 +11,7 @@ struct Textures {
     std::vector<std::string> names;    // one name per entry of `images`
 };
 
-// Reads the textures, and decodes the images that `materials` use in parallel. A texture whose image is missing or
+// Reads the textures. Decodes, in parallel, the images that `materials` use. A texture whose image is missing or
 // damaged is removed from the materials and listed in Source::ignored.
 Textures readTextures(Source& source, std::vector<Material>& materials, const Progress& progress);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Material variants of a file (KHR_materials_variants). Internal to the glTF loader.
+// Reads and applies a file's material variants (KHR_materials_variants). Internal to the glTF loader.
 
 #include <string>
 #include <vector>

@@ -20,7 +20,7 @@ namespace tinygltf = gltf::tinygltf;
 
 constexpr std::uint32_t unused = 0xffffffffu;
 
-// Vertices and triangles of the mesh that are written.
+// The vertices and triangles of a mesh that are written to the file.
 struct Written {
     std::vector<std::uint32_t> vertices;                // indices into the mesh's vertices, in output order
     std::vector<std::vector<std::uint32_t>> triangles;  // output vertex indices; one list per primitive with triangles
