@@ -1,6 +1,6 @@
 #pragma once
-// Evaluates a half-edge collapse: its effect on the surface, its effect on the wedges (wedges.h), and its cost. Each of
-// the three is computed by a module of OpenMesh's decimater.
+// Evaluates a half-edge collapse: its effect on the faces, its effect on the wedges (vertices at face corners,
+// wedges.h), and its cost. Each of the three is computed by a module of OpenMesh's decimater.
 
 #include <span>
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace defocus::engine {
 
-// Decides whether the surface allows a collapse, and classifies the effect on surrounding faces. The link condition is
+// Decides whether the topology allows a collapse, and classifies the effect on surrounding faces. The link condition is
 // OpenMesh's is_collapse_ok (Dey, Edelsbrunner, Guha and Nekhayev 1999, Topology Preserving Edge Contraction). As a
-// decimater module, it accepts good and poor collapses (simplify.h).
+// decimater module, it accepts the collapses that simplify.h defines as good or poor.
 class ShapeModule final : public CollapseModule {
 public:
     explicit ShapeModule(SurfaceMesh& surface);
@@ -34,15 +34,15 @@ private:
     std::vector<VertexHandle> hubs_;  // vertices with more than 8,192 half-edges; no edge of their faces may collapse
 };
 
-// A corner of a remaining face, and the wedge of the surviving vertex that the corner receives.
+// A corner of a remaining face, and the surviving vertex's wedge (attributes) that this corner receives.
 struct Handover {
     HalfedgeHandle corner;
     WedgeNumber wedge;
 };
 
-// Transfers wedges in a half-edge collapse (Hoppe 1998, Efficient Implementation of Progressive Meshes). Each remaining
-// corner of the removed vertex receives a wedge of the surviving vertex. As a decimater module, it accepts good and
-// poor collapses (simplify.h).
+// Transfers wedges (vertices at face corners) in a half-edge collapse, as in Hoppe 1998, Efficient Implementation of
+// Progressive Meshes. Each remaining corner of the removed vertex receives a wedge of the surviving vertex. As a
+// decimater module, it accepts the collapses that simplify.h defines as good or poor.
 class WedgeModule final : public CollapseModule {
 public:
     explicit WedgeModule(SurfaceMesh& surface) : CollapseModule(surface, true) {}
@@ -51,8 +51,8 @@ public:
     float collapse_priority(const CollapseInfo& collapse) override;
     // Assigns each corner its new wedge, and adds the quadrics of the old wedges to the quadrics of the new wedges.
     void preprocess_collapse(const CollapseInfo& collapse) override;
-    // Copies a wedge after the collapse, because OpenMesh replaces a half-edge beside the removed face by a half-edge
-    // of that face.
+    // Copies a wedge to another half-edge after the collapse: OpenMesh replaces a half-edge beside the removed face by
+    // a half-edge of that face.
     void postprocess_collapse(const CollapseInfo& collapse) override;
 
     // Selects a wedge of the surviving vertex for each remaining corner of the removed vertex, and classifies the
@@ -60,7 +60,7 @@ public:
     // second choice is the most similar wedge of the same primitive. Poor: the texture would be stretched across a
     // seam. Bad: the wedge belongs to another primitive.
     Fit judge(HalfedgeHandle along);
-    // Returns the wedges selected by the last judge(); empty after the collapse.
+    // Returns the corners and wedges that the last call of judge() selected; empty after the collapse.
     [[nodiscard]] std::span<const Handover> handovers() const { return handovers_; }
 
 private:
@@ -91,7 +91,7 @@ private:
     std::vector<HalfedgeHandle> spokes_;  // half-edges of the vertex, used by cheapest()
 };
 
-// The modules that evaluate each collapse of a surface and its cost, and update the surface's wedges and quadrics.
+// The modules that evaluate each collapse and its cost, and that update wedges and quadrics after it.
 struct CollapseModules {
     explicit CollapseModules(SurfaceMesh& mesh) : shape(mesh), wedges(mesh), quadrics(mesh) {}
 

@@ -1,5 +1,5 @@
 #pragma once
-// Rasterizes the area that a surface covers in a parallel projection along one direction.
+// Rasterizes the area that a surface covers in parallel projection along a given direction.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace defocus::engine {
 
-inline constexpr int wordBits = 64;  // grid cells per word
+inline constexpr int wordBits = 64;  // grid cells per 64-bit word of the bit mask
 
 // Coverage of a surface on a square grid perpendicular to a direction. Coordinates are in cells; coverage is tested at
 // cell centres.
@@ -72,7 +72,7 @@ private:
     std::size_t fillRow(CoverGrid& grid, int row);
 
     int resolution_;
-    std::vector<std::int32_t> steps_;   // change of the number of covering triangles from the previous cell
+    std::vector<std::int32_t> steps_;   // per cell, change of the number of covering triangles from the previous cell
     std::vector<std::uint64_t> edges_;  // one bit per cell, row by row; set where `steps_` has an entry
     int firstRow_, endRow_;             // range of rows with edges
 };

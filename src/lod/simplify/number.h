@@ -1,5 +1,5 @@
 #pragma once
-// Strongly typed indices, and arrays that accept only one type of index. Vertices, half-edges and faces of the
+// Defines strongly typed indices, and arrays that accept only one type of index. Vertices, half-edges and faces of the
 // collapsing surface use OpenMesh's handles (surface_mesh.h), which also work as index types.
 
 #include <compare>
@@ -29,8 +29,8 @@ struct Number {
 };
 
 using FileVertexNumber = Number<struct FileVertexKind>;  // index into Mesh::vertices
-// Index of a vertex of the mesh to simplify; equal file vertices share one number. Twins, which are copies of vertices
-// (see Simplification), have the numbers after the mesh's own vertices.
+// Index of a vertex of the mesh to simplify; equal file vertices share one number. Copies of vertices
+// (Simplification::twins) have the numbers after the mesh's own vertices.
 using MeshVertexNumber = Number<struct MeshVertexKind>;
 using PositionNumber = Number<struct PositionKind>;            // a position, which several vertices may share
 using SurfaceVertexNumber = Number<struct SurfaceVertexKind>;  // vertex of the manifold before any collapse
@@ -58,7 +58,7 @@ template <typename Face>
 constexpr CornerNumber<Face> cornerAt(Face face, std::uint32_t i) {
     return {3 * face.value + i};
 }
-// Return the next and the previous corner in the same face.
+// Return the next and the previous corner of the corner's face.
 template <typename Face>
 constexpr Number<CornerOf<Face>> nextCorner(Number<CornerOf<Face>> corner) {
     return {corner.value % 3 == 2 ? corner.value - 2 : corner.value + 1};

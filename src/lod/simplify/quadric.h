@@ -58,7 +58,7 @@ struct Quadric {
         return {xx * d.x + xy * d.y + xz * d.z, xy * d.x + yy * d.y + yz * d.z, xz * d.x + yz * d.y + zz * d.z};
     }
 
-    // Returns the sum at offset d; never negative.
+    // Returns the weighted sum of squared distances at offset d; never negative.
     [[nodiscard]] float at(const glm::vec3& d) const { return std::max(0.0f, glm::dot(timesA(d) + 2.0f * b, d) + c); }
 };
 
@@ -144,7 +144,7 @@ struct AttributeQuadric {
         squares.c = c + cost;
     }
 
-    // Returns the quadric at the position offset `step` and the attribute offset `change`; never negative.
+    // Returns the quadric's value at the position offset `step` and the attribute offset `change`; never negative.
     [[nodiscard]] float at(const glm::vec3& step, const AttributeRow<n>& change) const {
         AttributeRow<std::bit_ceil(n)> terms{};
         for (std::size_t j = 0; j < n; ++j) {

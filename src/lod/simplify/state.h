@@ -1,5 +1,5 @@
 #pragma once
-// State of simplify() during edge collapses. Private to this folder.
+// Declares the state of simplify() during edge collapses, and the functions that change it. Private to this folder.
 
 #include <cstdint>
 #include <functional>
@@ -17,7 +17,7 @@
 namespace defocus::engine {
 
 // Data of the original surface, before any collapse. Keeps references to `vertices` and `smoothing`, which must outlive
-// it.
+// this struct.
 struct Origin {
     const Vertices& vertices;
     const VertexGroups& smoothing;
@@ -28,7 +28,7 @@ struct Origin {
     Numbered<SurfaceVertexNumber, PositionNumber> places;
 };
 
-// A part of the mesh that shares no vertex position with other parts; see components.cpp.
+// A connected part of the mesh, which shares no vertex position with the rest; see components.cpp.
 struct Component {
     Ball ball;  // bounding sphere of the component in the original mesh
     // Area in object units squared: the component's area in the original mesh, plus the areas of components that it
@@ -36,7 +36,7 @@ struct Component {
     double area = 0;
     PrimitiveNumber primitive;  // primitive of one of the component's faces
     std::size_t faces = 0;      // number of remaining faces
-    // Number of vertices with a good or poor collapse (simplify.h), according to the tests made so far.
+    // Number of vertices with a good or poor collapse (classes of simplify.h), according to the tests made so far.
     std::size_t harmless = 0;
     bool spent = false;     // true as soon as `harmless` has reached 0
     bool standsIn = false;  // the component replaces removed components
@@ -61,7 +61,7 @@ struct Simplifier {
     std::function<void(double)> lost;
     std::uint32_t repairedFaces = 0;
 
-    std::vector<MeshVertexNumber> twins;  // see Simplification
+    std::vector<MeshVertexNumber> twins;  // copies of vertices, see Simplification::twins
     std::unordered_map<MeshVertexNumber, MeshVertexNumber> twinOf;
 
     Numbered<ComponentNumber, Component>
@@ -102,7 +102,7 @@ bool isConnected(const Simplifier& s);
 bool manyAreSmallest(const Simplifier& s);
 // Finds the components of the remaining mesh. Further calls have no effect.
 void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangles);
-// Marks the vertex's component as spent, because no good or poor collapse is left in it (simplify.h).
+// Marks the component of the vertex as spent (simplify.h), because no good or poor collapse is left in it.
 void spend(Simplifier& s, VertexHandle v);
 // Returns the number of faces on `area` if `faces` faces were distributed evenly over the area of the mesh.
 double evenShare(const Simplifier& s, double area, std::size_t faces);
@@ -111,11 +111,11 @@ double evenShare(const Simplifier& s, double area, std::size_t faces);
 // (evenShare). Other collapses are restricted only if spent components own more than half of these faces. The other
 // components must then keep the fraction `share` of their even share.
 bool isKept(const Simplifier& s, VertexHandle v, Fit fit, std::size_t target, double share);
-// Removes complete components until `target` faces are left or no further component may be removed.
+// Removes complete components (connected parts) until `target` faces are left or no further component may be removed.
 void removeComponents(Simplifier& s, std::size_t target);
-// Computes SimplifiedLevel::removed.
+// Returns the bounding spheres of the removed components, for SimplifiedLevel::removed.
 std::vector<Ball> removedBalls(const Simplifier& s);
-// Computes LevelMesh::growths.
+// Returns how much each component must grow to replace removed components, for LevelMesh::growths.
 Numbered<ComponentNumber, Growth> growths(const Simplifier& s);
 
 // A copy of a level that other threads measure and fit while collapses continue.
@@ -125,7 +125,7 @@ struct Snapshot {
     Numbered<VertexHandle, glm::vec3> positions;          // positions of the level's surface
     Numbered<SurfaceVertexNumber, VertexHandle> nearest;  // copy of Simplifier::current
     std::vector<MeshVertexNumber> twins;
-    std::vector<MeshVertexNumber> behind;               // vertices of `drawn` on the back of a thin sheet; sorted
+    std::vector<MeshVertexNumber> behind;               // vertices of `drawn` on the back of a thin plate; sorted
     std::vector<Ball> removed;                          // see SimplifiedLevel::removed
     Numbered<ComponentNumber, Growth> growths;          // see LevelMesh::growths
     Numbered<VertexHandle, ComponentNumber> growthsOf;  // LevelMesh::growthsOf; empty if no component grows
@@ -133,7 +133,7 @@ struct Snapshot {
 
 // Copies the current level (snapshot.cpp). compact() must have been called.
 Snapshot snapshot(Simplifier& s, std::size_t primitiveCount);
-// Makes a level from its copy `picture`. Computes anchors (level_fit.h) only if `withAnchors` is set.
+// Makes a level from its snapshot `picture`. Computes anchors (level_fit.h) only if `withAnchors` is set.
 SimplifiedLevel described(const Origin& origin, const Snapshot& picture, bool withAnchors);
 
 }  // namespace defocus::engine

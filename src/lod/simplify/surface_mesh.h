@@ -1,6 +1,6 @@
 #pragma once
-// The surface during simplification: OpenMesh's half-edge structure with the simplifier's data per vertex, half-edge
-// and face. Only this header includes OpenMesh; other files use the names below.
+// Defines the surface during simplification: OpenMesh's half-edge structure with the simplifier's data per vertex,
+// half-edge and face. Only this header includes OpenMesh; other files use the names defined here.
 //
 // Faces are oriented consistently with their neighbours. A half-edge also represents the corner of its face at the
 // vertex where the half-edge starts. At a border, the half-edges on the outside have no face. The halfedge_handle of a
@@ -38,7 +38,7 @@ struct Frame {
     [[nodiscard]] glm::dvec3 point(const glm::vec3& position) const {
         return (glm::dvec3(position) - centre) * inverse;
     }
-    // Returns the vector from one position to another, in units of the frame.
+    // Returns the vector from one position to another, scaled to the unit-size mesh.
     [[nodiscard]] glm::dvec3 step(const glm::vec3& from, const glm::vec3& to) const {
         return (glm::dvec3(to) - glm::dvec3(from)) * inverse;
     }
@@ -68,7 +68,7 @@ struct SurfaceTraits : OpenMesh::DefaultTraits {
     struct alignas(64) VertexT : Base {  // alignment to a cache line
         Quadric quadric;
         Candidate candidate;
-        ComponentNumber component;  // valid once findComponents() has run
+        ComponentNumber component;  // component (connected part) of the vertex; valid once findComponents() has run
     };
     template <class Base, class Refs>
     struct HalfedgeT : Base {
@@ -103,7 +103,8 @@ public:
         positions_ = points();
     }
 
-    // These accessors are faster than OpenMesh's own, which look up the property array at each access.
+    // These accessors return the simplifier's data. They are faster than OpenMesh's own accessors, which look up the
+    // property array at each access.
     [[nodiscard]] VertexData& data(VertexHandle v) { return vertexData_[v.idx()]; }
     [[nodiscard]] const VertexData& data(VertexHandle v) const { return vertexData_[v.idx()]; }
     [[nodiscard]] HalfedgeData& data(HalfedgeHandle h) { return halfedgeData_[h.idx()]; }
@@ -174,9 +175,9 @@ inline FaceCorners cornersOf(const SurfaceMesh& mesh, FaceHandle face) {
     return {{first, second, mesh.next_halfedge_handle(second)}};
 }
 
-// Fills the mesh with the faces of the manifold; vertices and faces keep their numbers. Unlike add_face(), it accepts a
-// second edge between two vertices, which may result from cutting non-manifold edges. `triangles` is the input of the
-// manifold. The mesh vertices at its corners become the wedges of the corners.
+// Fills the mesh with the faces of the manifold; vertices and faces keep their numbers. Unlike OpenMesh's add_face(),
+// it accepts a second edge between two vertices, which may result from cutting non-manifold edges. `triangles` are the
+// triangles from which the manifold was built. The mesh vertices at their corners become the wedges of the corners.
 void linkFaces(SurfaceMesh& mesh, const Manifold& manifold, const TriangleSet<MeshVertexNumber>& triangles);
 
 // Copies all elements that are not deleted, renumbered in the same order. garbage_collection() would fill gaps with the
