@@ -1,6 +1,7 @@
 #pragma once
-// Disk cache of pyramids: one file per mesh, named after its key (file.h). Several processes may use a folder at the
-// same time. Defective files, symbolic links and pipes count as cache misses; the rebuilt pyramid replaces them.
+// Implements the disk cache of pyramids (meshes with levels of detail): one file per mesh, named after its key
+// (file.h). Several processes may use a folder at the same time. Defective files, symbolic links and pipes count as
+// cache misses; the rebuilt pyramid replaces them.
 
 #include <cstdint>
 #include <filesystem>
@@ -46,8 +47,8 @@ struct CacheFile {
     bool pending = false;         // the file is still being written, or the writing process was killed
 };
 
-// Lists the cache files in `folder`, newest first. Cache files are recognised by name and first bytes. Returns an empty
-// list if the folder does not exist. Throws Error if the folder cannot be read.
+// Lists the cache files in `folder`, newest first. A cache file is recognised by its name and first bytes. Returns an
+// empty list if the folder does not exist. Throws Error if the folder cannot be read.
 std::vector<CacheFile> cacheFiles(const std::filesystem::path& folder);
 
 // Removes the cache files in `folder` and returns them. Throws Error if a file cannot be removed.

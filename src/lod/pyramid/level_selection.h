@@ -1,7 +1,7 @@
 #pragma once
-// Selects the level of detail of an object. The object's blur and its projected size give a real-valued level λ. λ is a
-// continuous function of the camera (Jeong, Kim and Lee 2011). The N lens samples are divided between the two levels
-// next to λ.
+// Selects the level of detail of an object. The object's blur and its projected size give a real-valued level λ, which
+// is a continuous function of the camera (Jeong, Kim and Lee 2011). The N lens samples are divided between the two
+// integer levels next to λ.
 
 #include <cstdint>
 #include <optional>
@@ -11,11 +11,11 @@
 
 namespace defocus::engine {
 
-// Return the names used on the command line.
+// Return the names of modes and metrics on the command line.
 const char* lodModeName(LodMode mode);
 const char* lodMetricName(LodMetric metric);
 
-// Thresholds set by the user; unset thresholds have defaults that depend on the sample count, so that long renders
+// Thresholds set by the user. Unset thresholds have defaults that depend on the sample count, so that long renders
 // converge to full detail. For the metrics `size` and `error`, the target is max(blur · c, size) px for a circle of
 // confusion of c px. For `proportional`, `blur` is the level of an object whose circle of confusion is as large as its
 // bounding box. For `measured`, a level's error is at most light / edge for edges of `edge` px. This error is
@@ -34,7 +34,7 @@ struct LodThresholds {
     double blur = 0;  // target edge length or error per CoC diameter; number of levels for `proportional`
     double size = 0;  // min target edge length or error in px
     // Max product of a level's edge length in px and its error in standard deviations of the radiance within the blur.
-    // Only for LodMetric::measured; see measuredLimit.
+    // 0 for all metrics except LodMetric::measured; see measuredLimit.
     double light = 0;
 };
 
@@ -70,12 +70,12 @@ inline constexpr double proportionalLevels = 10;
 // spots more than the outlines and fine ghosts caused by sampling.
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 
-// Returns the max error of a measured level with edges of `edge` px (> 0), in standard deviations of the radiance
-// within the blur. The limit is light / edge, but at most 0.3 times expectedSampleError(N), where N is the sample count
-// whose default threshold is `light`. Reason for 1/edge: halving the triangles doubles a level's error. For a given sum
-// of squared errors over the image, the fewest triangles are then needed if the squared error is proportional to
-// triangles per pixel. Objects with small triangles are therefore simplified first. Objects with large triangles are
-// hardly simplified, because this would save little.
+// Returns the max error of a level for LodMetric::measured, in standard deviations of the radiance within the blur, if
+// the level's edges have `edge` px (> 0). The limit is light / edge, but at most 0.3 times expectedSampleError(N),
+// where N is the sample count whose default threshold is `light`. Reason for 1/edge: halving the triangles doubles a
+// level's error. For a given sum of squared errors over the image, the fewest triangles are then needed if the squared
+// error is proportional to triangles per pixel. Objects with small triangles are therefore simplified first. Objects
+// with large triangles are hardly simplified, because this would save little.
 double measuredLimit(double light, double edge);
 
 struct LevelQuery {
@@ -83,7 +83,7 @@ struct LevelQuery {
     // horizontal field of view θx. z is the nearest depth of the object; for LodMetric::score, it is the depth of the
     // bounding box's centre.
     double pixelsPerUnit = 0;
-    double boxSize = 0;  // longer side of the projected bounding box, px, ≥ 0; only for LodMetric::proportional
+    double boxSize = 0;  // longer side of the projected bounding box, px, ≥ 0; used only by LodMetric::proportional
     double coc = 0;      // lower bound of the CoC diameter over the object, px, ≥ 0
 };
 
@@ -100,14 +100,14 @@ struct LevelQuery {
 double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,
                      const LodThresholds& thresholds);
 
-// Division of N lens samples between two levels. Samples [0, coarseCount) draw level `level` + 1, and samples
-// [coarseCount, N) draw level `level`. Below, f = λ − ⌊λ⌋.
+// Division of N lens samples between two levels of detail. Samples [0, coarseCount) draw level `level` + 1, and samples
+// [coarseCount, N) draw level `level`. With f = λ − ⌊λ⌋ for the real-valued level λ:
 //   fractional: coarseCount = round(f·N). As λ changes, one complete sample after another switches its level.
 //   continuous: f·N = n + g with the integer n = coarseCount and 0 ≤ g < 1.
 //     In sample n, a fraction g of the pixels draws the coarser level (screen door).
 //     As λ changes, the pixels of one sample switch one after another, evenly spread.
-// With continuous, each pixel of each sample still draws exactly one level, so that objects have no holes. Where the
-// outlines of the two levels differ, coverage changes by at most 1/N of a pixel.
+// In the continuous mode, each pixel of each sample still draws exactly one level, so that objects have no holes. Where
+// the outlines of the two levels differ, coverage changes by at most 1/N of a pixel.
 struct SampleSplit {
     std::uint32_t level = 0;
     std::uint32_t coarseCount = 0;

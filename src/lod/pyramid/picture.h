@@ -1,7 +1,7 @@
 #pragma once
-// Renders pictures of a level by parallel projection, without a lens. Each grid cell shows the surface that is nearest
-// to the eye at the cell's centre. The lighting is a uniform sky and the default lights of scenes without lights
-// (scene/defaults.h).
+// Renders small images (pictures) of a level of detail by parallel projection, without a lens. Each cell (pixel) shows
+// the surface that is nearest to the eye at the cell's centre. The lighting is a uniform sky and the default lights of
+// scenes without lights (scene/defaults.h).
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace defocus::engine {
 
-// A rectangle of grid cells; `right` and `top` are exclusive. Values are stored row by row.
+// A rectangle of cells (pixels) of a picture; `right` and `top` are exclusive. Values of cells are stored row by row.
 struct CellBox {
     int left = 0, right = 0;
     int bottom = 0, top = 0;
@@ -52,7 +52,7 @@ struct Picture {
     double sum = 0;           // sum over all cells of the mean of the three channels
 };
 
-// Renders levels one after another, with one finish (simplified material) per primitive. Reuses its memory.
+// Renders pictures of one level after another, with one finish (simplified material) per primitive. Reuses its memory.
 class Painter {
 public:
     Painter(const Pyramid& pyramid, const Eye& eye, std::span<const Finish> finishes);

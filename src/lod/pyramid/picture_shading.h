@@ -1,6 +1,6 @@
 #pragma once
-// Shading of picture cells. Private to picture.cpp. The shading model is the same as in shaders/include/shading.glsl,
-// which cites the sources.
+// Shades the cells (pixels) of a picture. Private to picture.cpp. The shading model is the same as in
+// shaders/include/shading.glsl, which cites the sources.
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ namespace defocus::engine {
 
 inline constexpr float skyRadiance = 0.5f;  // approximate mean of the default sky
 
-// Barycentric weights of a triangle's second and third corner, as linear functions of the position.
+// Barycentric weights of a triangle's second and third corner, as linear functions of the position in the picture.
 struct Weights {
     glm::vec2 origin{0};  // position where both weights are 0
     glm::vec2 stepB{0}, stepC{0};
@@ -62,13 +62,13 @@ struct SurfacePoint {
 struct DistantLight {
     glm::vec3 toLight{0};
     glm::vec3 illuminance{0};  // illuminance divided by π
-    // Terms that depend only on the light and the eye. lv: cosine of the angle between the two directions. sum2:
+    // Terms that depend only on the directions to the light and to the eye. lv: cosine of the angle between both. sum2:
     // squared length of their sum. vh: half the length of the sum. grazing: Fresnel weight of reflectance at grazing
     // incidence.
     float lv = 0, sum2 = 0, vh = 0, grazing = 0;
 };
 
-// Returns the default lights, oriented relative to the eye.
+// Returns the default lights; their directions are relative to the eye.
 inline std::vector<DistantLight> lightsFor(const Eye& eye) {
     std::vector<DistantLight> lights;
     for (const StudioLight& light : studioLights()) {
@@ -104,7 +104,8 @@ inline SeenNormals seenNormals(float nv, float agreement) {
     return seen;
 }
 
-// Returns 2·(n·l)·V with the shadowing-masking term V, like unmasked() in shading.glsl.
+// Returns 2·(n·l)·V, where V is the shadowing-masking term, like unmasked() in shading.glsl. `nl` and `nv` are the
+// cosines between normal and light and between normal and eye.
 inline float unmasked(float nl, float nv, float width2) {
     if (nl <= 0 || nv <= 0) return 0;
     const float masking =
@@ -112,12 +113,12 @@ inline float unmasked(float nl, float nv, float width2) {
     return nl / std::max(masking, 1e-4f);
 }
 
-// Terms of a glossy point that are independent of the light.
+// Terms of specular reflection at a point that are independent of the light.
 struct Gloss {
     float nv = 0;
     float width2 = 0, alpha2 = 0;
     float share = 0;  // fraction of the microfacet distribution that comes from the normals' spread
-    float shown = 0;  // mean cosine between eye direction and the normals of this fraction
+    float shown = 0;  // mean cosine between eye direction and the normals in this fraction
 
     Gloss(const SurfacePoint& point, const SeenNormals& seen, const glm::vec3& toEye)
         : nv(glm::dot(point.normal, toEye)), shown(seen.shown) {
@@ -177,7 +178,7 @@ struct SeenTriangle {
     std::array<float, 3> lengths{};  // lengths of the normals at the corners
 };
 
-// Collects the matt cells of a row and shades them together.
+// Collects the cells of a row that show a matt surface, and shades them together.
 class MattCells {
 public:
     MattCells(std::vector<DistantLight> lights, const glm::vec3& toEye, int max)
@@ -266,14 +267,15 @@ private:
     std::vector<Cell> cells_;
     std::array<std::vector<float>, 3> normal_;  // normals of the cells, one array per coordinate
     std::vector<float> agreement_;
-    std::vector<float> spread_, along_, towards_;  // see SeenNormals
+    std::vector<float> spread_, along_, towards_;  // per cell, members of SeenNormals
     std::vector<std::vector<float>> shares_;       // per light, the mean cosine of the angle of incidence at each cell
 };
 
-// Computes the visible radiance of surface points. Surfaces without a finish are matt, without specular reflection.
+// Computes the radiance of surface points towards the eye. Points without a finish are matt, without specular
+// reflection.
 class Shading {
 public:
-    // Prepares the shading of a level. shade() and endRow() write the radiance to `cells`.
+    // Prepares the shading of a level's picture. shade() and endRow() write the radiance to `cells`.
     Shading(const PyramidLevel& level, bool coarse, const Eye& eye, std::span<glm::vec3> cells)
         : level_(level),
           coarse_(coarse),
@@ -288,7 +290,7 @@ public:
         return result;
     }
 
-    // Shades the cell with this index. Matt cells are deferred to endRow().
+    // Shades the cell with index `cell`. Cells with a matt surface are deferred to endRow().
     void shade(const SeenTriangle& triangle, std::size_t cell, int x, int y) {
         const Finish& finish = *triangle.finish;
         const auto [b, c] = triangle.weights.at(static_cast<float>(x), static_cast<float>(y));
