@@ -28,11 +28,12 @@ bool leavesChart(const glm::vec2& gap, const std::array<glm::vec2, 3>& corners) 
     return !(glm::dot(gap, gap) <= maxTextureGap * maxTextureGap * longest);
 }
 
-// Sums for the fit, like AnchorSums, of displacements in texture space from the anchors to the mesh vertices.
+// Sums for the least-squares fit of texture coordinates, over displacements in texture space from the anchors (points
+// on the level) to the mesh vertices.
 struct TextureSums {
     struct Vertex {
         double weight = 0;
-        std::array<double, 4> gap{};  // uv0, then uv1
+        std::array<double, 4> gap{};  // weighted displacement of uv0, then of uv1
     };
     Numbered<LevelVertexNumber, Vertex> vertices;
     Numbered<TriangleNumber, TriangleSums> triangles;
@@ -101,7 +102,7 @@ void keepTextureUpright(Numbered<UnknownNumber, glm::vec2>& fitted, const Number
     }
 }
 
-// Returns one set of texture coordinates, displaced by the channels `channel` and `channel` + 1 of the solution.
+// Returns the texture coordinates `own`, displaced by the channels `channel` and `channel` + 1 of the solution.
 Numbered<LevelVertexNumber, glm::vec2> movedCoordinates(const std::vector<glm::vec2>& own, const Grouping& groups,
                                                         const LeastSquares& fit, std::size_t channel) {
     if (own.empty()) return {};
