@@ -26,7 +26,7 @@ namespace {
 constexpr std::string_view extension = ".pyramid";
 constexpr std::size_t keyDigits = 16;
 
-// Returns a file name that is a hash of the complete key. Different program versions and options therefore never
+// Returns a file name that is a hash of the complete key. Program versions and options that differ therefore never
 // overwrite each other's files.
 fs::path fileName(const PyramidKey& key) {
     const std::uint64_t rest[4] = {PyramidFileHeader::expectedVersion, key.options.minTriangles,
@@ -87,7 +87,7 @@ void store(const Pyramid& pyramid, const Mesh& mesh, const fs::path& folder, con
     writeFile(folder / fileName(key), encodePyramid(pyramid, mesh, key), NamedBy::program);
 }
 
-// Stores the pyramid. Returns the reason for a failure; empty on success.
+// Stores the pyramid in the cache folder. Returns the reason for a failure; empty on success.
 std::string tryToStore(const Pyramid& pyramid, const Mesh& mesh, const fs::path& folder, const PyramidKey& key) {
     try {
         store(pyramid, mesh, folder, key);

@@ -10,8 +10,8 @@
 
 namespace defocus::engine {
 
-// Structured bindings name all members of a struct, including unused ones. Adding a member then causes a compile error,
-// as a reminder to include the member in the key or the file.
+// Structured bindings name all members of a struct, including unused ones. If a member is added to a struct, they no
+// longer compile. This is a reminder to include the member in the key or in the file.
 
 static_assert(std::has_unique_object_representations_v<IndexRange>);
 static_assert(sizeof(PyramidFileHeader) == 208 && sizeof(PyramidFileLevel) == 120 && sizeof(Cluster) == 48,
@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t checkedFrom = offsetof(PyramidFileHeader, checksum) + sizeof(PyramidFileHeader::checksum);
 
-// ---- key ---------------------------------------------------------------------------------------
+// ---- hash the mesh for the cache key -----------------------------------------------------------
 
 template <typename T>
 void hashStream(std::uint64_t& hash, const std::vector<T>& stream) {
@@ -50,7 +50,7 @@ void hashMorphTarget(std::uint64_t& hash, const MorphTarget& target) {
     hashStream(hash, tangents);
 }
 
-// ---- writing -----------------------------------------------------------------------------------
+// ---- write a cache file ------------------------------------------------------------------------
 
 template <typename T>
 void append(std::vector<std::byte>& bytes, const std::vector<T>& values) {
@@ -94,7 +94,7 @@ std::size_t encodedSize(const Pyramid& pyramid, const Mesh& mesh) {
     return size;
 }
 
-// ---- reading -----------------------------------------------------------------------------------
+// ---- read a cache file -------------------------------------------------------------------------
 
 // Reads consecutive arrays from a file's bytes. Checks the remaining size before memory is allocated.
 class Reader {
@@ -151,7 +151,8 @@ bool clustersFit(const PyramidLevel& level) {
     return cluster == level.clusters.end();
 }
 
-// Reads the level records and index ranges. Checks that the ranges cover all indices without gaps, level by level.
+// Reads the level records and index ranges of a file. Checks that the ranges cover all indices without gaps, level by
+// level.
 bool readLevels(Reader& reader, const PyramidFileHeader& header, std::vector<PyramidLevel>& levels,
                 std::vector<IndexRange>& ranges) {
     std::vector<PyramidFileLevel> records;
@@ -189,7 +190,7 @@ bool readLevels(Reader& reader, const PyramidFileHeader& header, std::vector<Pyr
     return true;
 }
 
-// Returns whether level 0 has all triangles of each primitive.
+// Returns whether level 0 has as many triangles of each primitive as the mesh.
 bool keepsEveryTriangle(const PyramidLevel& level, const Mesh& mesh) {
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p)
         if (level.primitives[p].count != mesh.primitives[p].indices.size() / 3 * 3) return false;
@@ -243,7 +244,8 @@ std::uint64_t meshHash(const Mesh& mesh) {
 }
 
 PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options) {
-    // Hash of the sources in src/lod, set by the build system. A changed algorithm thus invalidates all cache files.
+    // Hash of the source files in src/lod, set by the build system. A changed algorithm thus invalidates all cache
+    // files.
     constexpr std::uint64_t sources[1] = {DEFOCUS_PYRAMID_SOURCES};
     const std::uint64_t own = meshHash(mesh) ^ (options.finishes == nullptr ? 0 : options.finishes->hash(mesh));
     return {hashBytes(std::as_bytes(std::span(sources)), own), options};
@@ -253,7 +255,7 @@ std::vector<std::byte> encodePyramid(const Pyramid& pyramid, const Mesh& mesh, c
     std::vector<std::byte> bytes(sizeof(PyramidFileHeader));
     bytes.reserve(encodedSize(pyramid, mesh));
 
-    // Write the level table, then the arrays.
+    // Write the table of levels, then the arrays.
     std::vector<PyramidFileLevel> records;
     std::vector<IndexRange> ranges;
     std::vector<Cluster> allClusters;
@@ -310,7 +312,7 @@ std::optional<Pyramid> decodePyramid(std::span<const std::byte> bytes, const Mes
         return {};
     if (!reader.read(pyramid.indices, header->indexCount) || !indicesInRange(pyramid)) return {};
 
-    // Gather vertices from the mesh, then read the levels' own attributes.
+    // Gather vertices from the mesh, then read the attributes stored for each level.
     pyramid.vertices = gathered(mesh.vertices, pyramid.source);
     if (mesh.vertices.normals.empty() && !reader.read(pyramid.vertices.normals, header->vertexCount)) return {};
     if (!readStreams(reader, pyramid) || !reader.finished()) return {};
