@@ -18,7 +18,7 @@ struct FinRay {
 
 struct Fin {
     FinKind kind = FinKind::dorsal;
-    std::function<FinRay(float t)> ray;    // t in [0, 1] from the first to the last fin ray
+    std::function<FinRay(float t)> ray;    // returns the fin ray at t in [0, 1], from the first to the last
     glm::vec3 sideways{0.0f, 0.0f, 1.0f};  // unit direction in which the fin ripples
     float ripple = 0.02f;
     float phase = 0.0f;

@@ -192,7 +192,7 @@ Scene fishSchool(const FishSchoolOptions& options, const Progress& progress) {
     checkOptions(options);
     const auto count = static_cast<std::size_t>(options.fishCount);
 
-    // Place the fish.
+    // Determine the positions of the fish.
     std::vector<Placement> school(
         composition.begin(), composition.begin() + static_cast<std::ptrdiff_t>(std::min(count, composition.size())));
     if (count > school.size()) scatter(count, options.seed, school);

@@ -22,7 +22,7 @@ struct Rings {
     std::vector<std::uint32_t> counts;
 };
 
-float ellipsePerimeter(float p, float q) {  // approximation by Ramanujan, 1914
+float ellipsePerimeter(float p, float q) {  // approximation by Ramanujan, 1914; p, q: semi-axes
     return pi * (3.0f * (p + q) - std::sqrt((3.0f * p + q) * (p + 3.0f * q)));
 }
 

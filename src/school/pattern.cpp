@@ -82,7 +82,7 @@ glm::vec3 skinColor(const FishPattern& pattern, const FishShape& shape, const Fi
     const float height = point.height;
     const float wobble = 2.0f * valueNoise({7.0f * a, 7.0f * y}, pattern.seed + 5u) - 1.0f;
 
-    // Apply countershading from the dark back to the pale belly, then the colours of the rear half and the face.
+    // Apply countershading from the dark back to the pale belly, then the colours of the rear part and the face.
     glm::vec3 color = glm::mix(pattern.flank, pattern.back, glm::smoothstep(0.05f, 0.95f, height + 0.1f * wobble));
     const float bellyAmount =
         1.0f - glm::smoothstep(pattern.bellyEdge - 0.45f, pattern.bellyEdge + 0.3f, height + 0.1f * wobble);

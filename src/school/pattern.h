@@ -57,7 +57,7 @@ struct FishPattern {
     std::vector<FishBand> bands;
     FishStripes stripes;
     FishSpots spots;
-    glm::vec3 scaleEdge{1.0f};  // colour of the pale rims of scales
+    glm::vec3 scaleEdge{1.0f};  // colour of the pale rims of fish scales
     float scaleEdgeAmount = 0.12f;
     float scaleVariation = 0.06f;
     glm::vec3 medianRoot{0.5f};  // colour of dorsal and anal fin at the fin's root

@@ -22,7 +22,7 @@ struct FishOutline {
 
 // Elliptical cross-section of the fish at position `a` along the body.
 struct FishSection {
-    float centre = 0;  // height of the section's centre above the body's axis
+    float centre = 0;  // height of the cross-section's centre above the body's axis
     float halfHeight = 0;
     float halfWidth = 0;
 };
@@ -71,7 +71,7 @@ struct FishShape {
     float mouthDrop = 0.02f;
     float gillA = 0.27f;  // position of the gill cover's rear edge along the body, 0 (snout) to 1 (tail)
     float scaleSize = 0.043f;
-    float finRipple = 0.02f;  // amplitude of sideways waves at the fins' edges
+    float finRipple = 0.02f;  // amplitude of sideways waves at the edges of fins, body lengths
     float finPhase = 0.0f;
     float swimAmplitude = 0.3f;  // amplitude of the heading at the tail while swimming, radians
     float swimPhase = 0.0f;
@@ -115,7 +115,7 @@ private:
     static constexpr float first = -0.2f;  // position of the first tabulated spine point along the body
     static constexpr float last = 2.3f;
     struct Station {
-        glm::vec2 position{0.0f};  // x and z coordinates
+        glm::vec2 position{0.0f};  // x and z coordinates of the spine point
         float heading = 0;
     };
     std::array<Station, steps + 1> table_;

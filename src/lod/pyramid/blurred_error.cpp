@@ -21,12 +21,12 @@ constexpr std::size_t viewCount = 4;
 constexpr int minResolution = 128;
 constexpr int maxResolution = 512;  // max cells per side of an image; BlurTable holds patches of 2, 4, … 512 cells
 static_assert(maxResolution == 1 << (blurSizes - 1));
-constexpr double minBlurredGrowth = 1.1;  // min ratio of the errors of consecutive levels
+constexpr double minBlurredGrowth = 1.1;  // min ratio of the blurred errors of consecutive levels
 constexpr double minError = 1e-6;         // min error after blurring of level 1
 // On a grey background, the error of a level may reach this fraction of the limit. A fraction of 1 would raise the FLIP
 // error of a smooth surface in focus by more than a fifth.
 constexpr double greyShare = 0.9;
-constexpr double minGreyContrast = 0.004;  // min contrast on a grey background, relative to the mean radiance
+constexpr double minGreyContrast = 0.004;  // min V on a grey background, relative to the mean radiance
 // Max ratio of the errors of consecutive levels. Halving the triangles of a smooth surface doubles its error, because
 // the error grows with the squared edge length. This limit is twice that ratio. It gives a lower bound on the error of
 // levels whose triangles are smaller than the cells of the measured image.
@@ -44,7 +44,7 @@ using SurroundSums = std::array<SquareSums, surrounds.size()>;
 class Patches {
     struct Size {
         CellBox shown;                                // patches that may contain non-black cells
-        CellBox kept;                                 // `shown`, padded with empty patches for the next patch size
+        CellBox kept;                                 // `shown`, padded with black patches for the next patch size
         std::array<LargeVector<glm::vec3>, 2> means;  // over white and black checker squares; empty for single cells
     };
 
@@ -228,10 +228,10 @@ struct Sight {
     SparseCells reference;              // image of level 0
     double covered = 0, sum = 0;        // Picture::covered and Picture::sum of level 0
     SquareSums light{};                 // sums of level 0's squared radiance on black, per patch size
-    SquareSums deviations{};            // sums of level 0's standard deviations on grey, per patch size
-    std::vector<SurroundSums> changes;  // sums of squared radiance differences from level 0, per level
+    SquareSums deviations{};            // sums of the radiance's standard deviations on grey at level 0, per patch size
+    std::vector<SurroundSums> changes;  // per level, sums of squared radiance differences from level 0
 
-    // Compares each level with level 0. `unit` is the mean radiance of the mesh.
+    // Measures the differences of each level from level 0. `unit` is the mean radiance of the mesh.
     void judge(const Pyramid& pyramid, std::span<const Finish> finishes, float unit) {
         const LargeVector<glm::vec3> cells = reference.all();
         reference = {};
@@ -335,7 +335,7 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
         sight.sum = reference.sum;
     });
 
-    // A black mesh has no error, because its mean radiance cannot serve as the unit.
+    // A black mesh keeps the error 0, because its mean radiance cannot serve as the unit of errors.
     double covered = 0;
     double light = 0;
     for (const Sight& sight : sights) {
@@ -346,7 +346,7 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
     const double unit = light / covered;
     const double scale = 1 / (3 * covered * unit * unit);
 
-    // Compare the other levels with level 0.
+    // Compare the other levels with level 0 in each view direction.
     fromAll([&](Sight& sight, const glm::dvec3&) { sight.judge(pyramid, finishes, static_cast<float>(unit)); });
     const auto measured = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(resolution)));
     const auto total = [&](const auto& sumsOf) {

@@ -31,7 +31,7 @@ std::uint64_t attributeBytes(const Vertices& vertices) {
                    vertices.joints, vertices.weights, vertices.blurs, vertices.joints1, vertices.weights1);
 }
 
-// Returns the bytes needed to build a pyramid that has only level 0.
+// Returns an upper bound on the bytes needed to build a pyramid that has only level 0.
 std::uint64_t fullDetailBytes(const Mesh& mesh) {
     return mesh.triangleCount() * fullTriangleBytes +
            mesh.vertices.count() * (vertexBytes + 2 * attributeBytes(mesh.vertices));

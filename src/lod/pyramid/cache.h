@@ -19,7 +19,7 @@ namespace defocus::engine {
 std::filesystem::path defaultCacheFolder();
 
 struct CachedPyramids {
-    std::vector<Pyramid> pyramids;  // one pyramid per mesh
+    std::vector<Pyramid> pyramids;  // one pyramid per mesh, in the order of the meshes
     std::size_t loaded = 0;         // number of pyramids loaded from the cache; the others were built
     std::string failure;            // reason why a pyramid was not stored; empty on success
 };
@@ -43,7 +43,7 @@ struct CacheFile {
     std::filesystem::path path;
     std::uint64_t bytes = 0;
     std::filesystem::file_time_type written;
-    std::uint32_t triangles = 0;  // triangle count of the mesh
+    std::uint32_t triangles = 0;  // triangle count of the mesh at level 0
     bool pending = false;         // the file is still being written, or the writing process was killed
 };
 

@@ -18,7 +18,7 @@ namespace {
 
 // ---- assign triangles to growing clusters ------------------------------------------------------
 
-constexpr float coneWeight = 0.75f;     // weight of orientation relative to distance, 0 to 1
+constexpr float coneWeight = 0.75f;     // weight of orientation relative to distance in the cost of a triangle, 0 to 1
 constexpr float minTurn = 1e-3f;        // min cost factor for a difference in orientation
 constexpr std::size_t seedsAhead = 64;  // max unassigned triangles kept as candidates for a cluster's first triangle
 // Max number of triangles at one vertex that a cluster considers. Files may have millions of triangles at one vertex.
@@ -38,13 +38,13 @@ struct ClusterGrowth {
 
     const Numbered<TriangleCorner, LocalNumber>& corners;
     Buckets<LocalNumber, TriangleCorner> around;
-    // Index into `around` of the first corner whose triangle may still be unassigned. Entries exist only for vertices
-    // with more than maxNeighbours corners.
+    // Per vertex with more than maxNeighbours corners: index into the vertex's entries of `around`, before which all
+    // corners belong to assigned triangles.
     std::unordered_map<LocalNumber, std::size_t> firstOpen;
     Numbered<TriangleNumber, Facet> facets;
     float radius = 0;  // radius of a full cluster on a flat mesh with equal triangles
 
-    Numbered<LocalNumber, std::uint32_t> open;         // per position, the number of corners of unassigned triangles
+    Numbered<LocalNumber, std::uint32_t> open;         // per position, number of corners of unassigned triangles
     Numbered<LocalNumber, ClusterNumber> lastCluster;  // per position, the last cluster that contains it
     Numbered<TriangleNumber, std::uint8_t> taken;
 
@@ -53,12 +53,12 @@ struct ClusterGrowth {
     glm::vec3 centres{0};
     glm::vec3 normals{0};
     // Lists of triangles that touch the growing cluster; some of them may already be assigned to a cluster.
-    std::vector<TriangleNumber> closed;    // triangles with all three corners in the cluster
+    std::vector<TriangleNumber> closed;    // triangles with all three corners in the growing cluster
     std::vector<TriangleNumber> hanging;   // triangles that are the last unassigned ones at one of their vertices
-    std::vector<TriangleNumber> beside;    // triangles with two corners in the cluster
-    std::vector<TriangleNumber> touching;  // triangles with one corner in the cluster
+    std::vector<TriangleNumber> beside;    // triangles with two corners in the growing cluster
+    std::vector<TriangleNumber> touching;  // triangles with one corner in the growing cluster
     std::vector<TriangleNumber> left;      // unassigned triangles that touch earlier clusters
-    TriangleNumber unseen{0};              // all triangles before this one are assigned
+    TriangleNumber unseen{0};              // all triangles before this triangle are assigned to clusters
 
     GrownClusters result;
 
@@ -256,7 +256,8 @@ GrownClusters growClusters(const Numbered<TriangleCorner, LocalNumber>& corners,
 
 namespace {
 
-// Rounding error of a value stored in single precision, relative to the magnitude of its inputs.
+// Bound on the rounding error of a value in single precision, relative to the magnitude of the values it is computed
+// from.
 constexpr double valueRounding = 1e-6;
 
 // Replaces NaN and infinite positions by 0.
@@ -348,8 +349,8 @@ Cluster measured(std::span<const Vertex> indices, std::span<const glm::vec3> pos
     return cluster;
 }
 
-// Reorders the triangles of a primitive into clusters and appends the clusters to `result`. `first` is the offset of
-// the primitive's first index in the level.
+// Reorders the triangles of a primitive so that clusters are contiguous, and appends the clusters to `result`. `first`
+// is the offset of the primitive's first index in the level.
 template <typename Vertex>
 void clusterPrimitive(std::span<Vertex> indices, std::span<const glm::vec3> positions, const LocalTriangles& local,
                       std::uint32_t first, std::vector<Cluster>& result) {

@@ -14,11 +14,11 @@
 namespace defocus::engine {
 
 struct Conserved {
-    double area = 0;       // object units squared
+    double area = 0;       // surface area, object units squared
     glm::dvec3 colour{0};  // area-weighted mean colour
     LightMeans light{};    // mean reflected radiance for each light direction; textures are ignored
-    // Area of the surface's silhouette in a parallel projection along each direction, in object units squared. Both
-    // sides of a face count. The opposite direction gives the same area.
+    // Area of the surface's silhouette in parallel projection along each direction, in object units squared. Faces
+    // cover the same area seen from both sides, so that opposite directions give the same area.
     std::array<double, outlineDirections> outline{};
 };
 
@@ -29,16 +29,17 @@ using ColourAt = std::function<glm::dvec3(std::uint32_t firstIndex, const glm::d
 // Returns a function that interpolates the level's vertex colours, or returns white if the level has none.
 ColourAt vertexColours(const Pyramid& pyramid, std::size_t level);
 
-// Measures a level. Colour and reflected radiance are sampled at `points` or more points; silhouettes are rasterized on
-// a grid of `resolution`² points. The mean colour is exact if the colour is linear over each triangle.
+// Measures the conserved properties of a level. Colour and reflected radiance are sampled at `points` or more points;
+// silhouettes are rasterized on a grid of `resolution`² points. The mean colour is exact if the colour is linear over
+// each triangle.
 Conserved conservedBy(const Pyramid& pyramid, std::size_t level, const ColourAt& colour, std::size_t points,
                       int resolution);
 
 // Differences between a level and level 0 in the properties of Conserved.
 struct ConservedDifference {
-    double colour = 0;       // max difference of the mean colour over all channels
-    double light = 0;        // max difference of the reflected radiance over all light directions
-    double outline = 0;      // max relative difference of the silhouette area over all view directions
+    double colour = 0;       // max difference of the mean colour, over all channels
+    double light = 0;        // max difference of the mean reflected radiance, over all light directions
+    double outline = 0;      // max relative difference of the silhouette area, over all view directions
     double meanOutline = 0;  // signed relative difference of the silhouette area's mean over all view directions
 };
 

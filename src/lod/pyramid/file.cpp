@@ -96,7 +96,8 @@ std::size_t encodedSize(const Pyramid& pyramid, const Mesh& mesh) {
 
 // ---- read a cache file -------------------------------------------------------------------------
 
-// Reads consecutive arrays from a file's bytes. Checks the remaining size before memory is allocated.
+// Reads consecutive arrays from the bytes of a file. Before memory for an array is allocated, checks that the file has
+// enough bytes left.
 class Reader {
 public:
     explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -135,7 +136,7 @@ bool areBlurTables(const BlurTables& tables) {
     });
 }
 
-// Returns whether the clusters' index ranges cover each primitive's range without gaps.
+// Returns whether the clusters' index ranges cover the index range of each primitive without gaps.
 bool clustersFit(const PyramidLevel& level) {
     auto cluster = level.clusters.begin();
     for (const IndexRange& primitive : level.primitives) {
@@ -280,7 +281,7 @@ std::vector<std::byte> encodePyramid(const Pyramid& pyramid, const Mesh& mesh, c
         append(bytes, pyramid.levels[l].uv1);
     }
 
-    // Write the header with the checksum of all following bytes.
+    // Write the header, which contains the checksum of all bytes after the checksum.
     PyramidFileHeader header = headerOf(pyramid, mesh, key);
     std::memcpy(bytes.data(), &header, sizeof header);
     header.checksum = hashBytes(std::span(bytes).subspan(checkedFrom));
@@ -297,7 +298,7 @@ std::optional<PyramidFileHeader> pyramidHeader(std::span<const std::byte> bytes)
 }
 
 std::optional<Pyramid> decodePyramid(std::span<const std::byte> bytes, const Mesh& mesh, const PyramidKey& key) {
-    // Check the key and the checksum.
+    // Check the cache key and the checksum.
     const std::optional<PyramidFileHeader> header = pyramidHeader(bytes);
     if (!header || !matches(*header, mesh, key)) return {};
     if (hashBytes(bytes.subspan(checkedFrom)) != header->checksum) return {};

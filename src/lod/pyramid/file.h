@@ -21,7 +21,7 @@ namespace defocus::engine {
 // Returns a hash of all vertex attributes, the indices of every primitive, and the morph targets.
 std::uint64_t meshHash(const Mesh& mesh);
 
-// Cache key: all inputs that a pyramid depends on.
+// Key of a cache file: all inputs on which a pyramid depends.
 struct PyramidKey {
     // Hash of the mesh (meshHash), of its simplified materials (finish.h), and of the source files in src/lod.
     std::uint64_t mesh = 0;

@@ -20,7 +20,7 @@ namespace defocus::engine {
 
 // A texture, downsampled to the size that the images of picture.h need.
 struct FinishImage {
-    static constexpr int maxSide = 256;  // texels
+    static constexpr int maxSide = 256;  // max width and height in texels
 
     int width = 0;
     int height = 0;
@@ -39,7 +39,7 @@ struct FinishMap {
     [[nodiscard]] glm::vec3 at(const glm::vec2& uv0, const glm::vec2& uv1) const;
 };
 
-// Simplified material. The default is white and matt, tinted by vertex colours only. Meshes without a scene use this
+// Simplified material. By default, it is white and matt, tinted by vertex colours only; meshes without a scene use the
 // default.
 struct Finish {
     bool unlit = false;
@@ -53,8 +53,8 @@ struct Finish {
     FinishMap emissionMap = {};
 };
 
-// Creates the finishes of a scene, which must outlive this object. An image is downsampled when a finish first needs
-// it, and kept as long as any finish uses it. Thread-safe.
+// Creates the finishes (simplified materials) of a scene, which must outlive this object. An image is downsampled when
+// a finish first needs it, and kept as long as any finish uses it. Thread-safe.
 class Finishes {
 public:
     explicit Finishes(const Scene& scene);

@@ -53,21 +53,21 @@ inline constexpr double proportionalLevels = 10;
 // Returns the thresholds of a metric for N = `sampleCount` lens samples.
 //
 // Metrics `size` and `error`: the defaults are (64/N)^(2/3) times the thresholds at N = 64. `blur` is at most twice its
-// value at N = 64; the limit applies for N ≤ 22. `size` never exceeds its value at N = 64, because few samples do not
+// value at N = 64; this limit applies for N ≤ 22. `size` never exceeds its value at N = 64, because few samples do not
 // blur objects in focus. The thresholds at N = 64 give the coarsest levels with a PSNR of 42 dB against full detail,
-// for the built-in school at 1024 × 768. The levels' error grows as threshold^1.3; the error of Sobol points falls as
-// N^(−0.65). Up to N = 32, the levels' error is therefore 0.9 to 1.6 times the sampling error. In this range, finer
-// levels with fewer samples gain nothing. The ratio is 2.4 at N = 64 and decreases beyond; both errors vanish as N
-// grows. Measured on the school of fish at 512 × 384 (bench/results/llvmpipe-thresholds.txt).
+// for the built-in school of fish at 1024 × 768. The levels' error grows as threshold^1.3; the error of Sobol points
+// falls as N^(−0.65). Up to N = 32, the levels' error is therefore 0.9 to 1.6 times the sampling error. In this range,
+// finer levels with fewer samples gain nothing. The ratio is 2.4 at N = 64 and decreases beyond; both errors vanish as
+// N grows. Measured on the school of fish at 512 × 384 (bench/results/llvmpipe-thresholds.txt).
 //
-// Metric `proportional`: `blur` is proportionalLevels for every N, because the paper's rule does not depend on the
-// number of samples.
+// Metric `proportional`: `blur` is proportionalLevels for every N, because the rule of Jeong, Kim and Lee 2011 does not
+// depend on the number of samples.
 //
 // Metric `measured`: `light` is 6.7 · expectedSampleError(N)². The error of one sample at a random lens position is the
 // standard deviation of the radiance within the blur. The error of N samples is expectedSampleError(N) times that
 // deviation. The levels' error is small compared with the sampling error and hardly raises the RMS of both together.
-// The levels' error must be smaller, because it appears as large soft spots on objects. FLIP, like the eye, weighs such
-// spots more than the outlines and fine ghosts caused by sampling.
+// The levels' error must be smaller than the sampling error, because it appears as large soft spots on objects. FLIP,
+// like the eye, weighs such spots more than the outlines and fine ghosts caused by sampling.
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 
 // Returns the max error of a level for LodMetric::measured, in standard deviations of the radiance within the blur, if

@@ -15,10 +15,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr float backBias = 1e-3f;  // depth offset in cells: a front face wins against a back face at the same depth
+constexpr float backBias = 1e-3f;  // depth offset of back faces in cells: a front face wins at the same depth
 constexpr float nothing = -std::numeric_limits<float>::infinity();  // depth of an empty cell
 
-constexpr int narrow = 8;  // if a triangle covers at most this many columns, every cell of its rows is tested
+constexpr int narrow = 8;  // if a triangle's box has at most this many columns, all of its cells are tested
 
 constexpr int lanes = 4;
 
@@ -29,7 +29,7 @@ int firstAt(float place, int first, int end) {
     return truncated + (static_cast<float>(truncated) < bounded ? 1 : 0);
 }
 
-// Computes the cells of a row at which the barycentric weights of a triangle are positive.
+// Computes the range of cells in a row at which the barycentric weights of a triangle are positive.
 class RowBounds {
 public:
     explicit RowBounds(const Weights& weights)

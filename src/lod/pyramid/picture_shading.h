@@ -22,11 +22,11 @@
 
 namespace defocus::engine {
 
-inline constexpr float skyRadiance = 0.5f;  // approximate mean of the default sky
+inline constexpr float skyRadiance = 0.5f;  // approximate mean radiance of the default sky
 
 // Barycentric weights of a triangle's second and third corner, as linear functions of the position in the picture.
 struct Weights {
-    glm::vec2 origin{0};  // position where both weights are 0
+    glm::vec2 origin{0};  // position in the picture where both weights are 0
     glm::vec2 stepB{0}, stepC{0};
     bool flat = false;  // the triangle has no area
     bool back = false;  // the triangle is back-facing
@@ -43,7 +43,8 @@ struct Weights {
         stepC = inverse * glm::vec2(-ab.y, ab.x);
     }
 
-    // Returns the weights at cell centres. `x` and `y` are cell indices; `x` may be a SIMD vector of four.
+    // Returns the weights of the second and third corner at a cell's centre. `x` and `y` are cell indices; `x` may be a
+    // SIMD vector of four.
     template <typename X>
     [[nodiscard]] std::array<X, 2> at(const X& x, float y) const {
         const X dx = x + 0.5f - origin.x;
@@ -61,7 +62,7 @@ struct SurfacePoint {
 
 struct DistantLight {
     glm::vec3 toLight{0};
-    glm::vec3 illuminance{0};  // illuminance divided by π
+    glm::vec3 illuminance{0};  // illuminance of the light divided by π
     // Terms that depend only on the directions to the light and to the eye. lv: cosine of the angle between both. sum2:
     // squared length of their sum. vh: half the length of the sum. grazing: Fresnel weight of reflectance at grazing
     // incidence.
@@ -85,9 +86,9 @@ inline std::vector<DistantLight> lightsFor(const Eye& eye) {
     return lights;
 }
 
-// Visible part of the normal distribution that a single mean normal represents.
+// Visible normals of a distribution of normals that is stored as a single mean normal.
 struct SeenNormals {
-    float spread = 0;              // value of normalSpread() for these normals
+    float spread = 0;              // spread of the distribution, from normalSpread()
     float shown = 0;               // mean cosine between eye direction and visible normals
     float along = 1, towards = 0;  // mean visible normal: along · normal + towards · toEye, as in seenNormal()
 };
@@ -175,7 +176,7 @@ struct SeenTriangle {
     const std::uint32_t* corners = nullptr;
     const Finish* finish = nullptr;
     Weights weights;
-    std::array<float, 3> lengths{};  // lengths of the normals at the corners
+    std::array<float, 3> lengths{};  // lengths of the vertex normals at the corners
 };
 
 // Collects the cells of a row that show a matt surface, and shades them together.
@@ -188,7 +189,7 @@ public:
         shares_.assign(lights_.size(), agreement_);
     }
 
-    // Adds a cell. The normal may have any length.
+    // Adds a cell of the row. The normal may have any length.
     void add(std::size_t number, const glm::vec3& diffuse, const glm::vec3& emission, const glm::vec3& normal,
              float agreement) {
         // Assign each value separately: copying a complete Cell would stall until all its values are available.
@@ -203,7 +204,7 @@ public:
         ++count_;
     }
 
-    // Calls put(number, radiance) for each cell and then removes all cells.
+    // Calls put(number, radiance) for each collected cell and then removes all cells.
     template <typename Put>
     void shade(const Put& put) {
         normalise();
@@ -334,7 +335,7 @@ public:
         matt_.shade([&](std::size_t cell, const glm::vec3& light) { put(cell, light); });
     }
 
-    double sum = 0;           // sum over all cells of the mean of the three channels
+    double sum = 0;           // sum over all cells of the mean of the three colour channels
     std::size_t covered = 0;  // number of shaded cells
 
 private:

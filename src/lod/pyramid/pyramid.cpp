@@ -30,13 +30,14 @@ namespace {
 constexpr double minEdgeGrowth = 1.05;   // min ratio of the mean edge lengths of consecutive levels
 constexpr double minEdgeToError = 2;     // min ratio of a level's mean edge length to its error
 constexpr double minErrorGrowth = 1.25;  // min ratio of the errors of consecutive levels, from level 1 on
-constexpr double errorFloor = 1e-6;      // min error, relative to the bounding box's diagonal
+constexpr double errorFloor = 1e-6;      // min error of level 1, relative to the bounding box's diagonal
 // Number of sample points on each surface for measuring the distance between a level and level 0. It equals the number
 // of triangles of the surface, within these bounds. Measuring then takes little time compared with simplification.
 constexpr std::size_t minErrorPoints = 256;
 constexpr std::size_t maxErrorPoints = 1024;
 constexpr double errorPercentile = 0.99;
-// Enough levels for 2³² triangles, because each level has at most ¾ of the triangles of the next finer level.
+// Number of levels that suffices for 2³² triangles, because each level has at most ¾ of the triangles of the next finer
+// level.
 constexpr std::size_t maxPossibleLevels = 128;
 
 TriangleSet<MeshVertexNumber> allTriangles(const Mesh& mesh, const Numbered<FileVertexNumber, MeshVertexNumber>& ids) {
@@ -185,7 +186,7 @@ FittedLevel surviving(const Vertices& vertices, SimplifiedLevel level) {
     return result;
 }
 
-// Returns the diagonal of the triangles' bounding box; vertices with NaN or infinity are ignored.
+// Returns the diagonal of the triangles' bounding box; vertices with NaN or infinite coordinates are ignored.
 double diagonalOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& triangles) {
     Bounds bounds;
     for (const MeshVertexNumber v : triangles.indices)
@@ -210,7 +211,7 @@ void measure(FittedLevel& level, const Surface& mesh, double diagonal) {
     level.removed = {};
 }
 
-// Reorders the level's triangles into clusters. `positions` covers the mesh's vertices and the copies of vertices in
+// Reorders the level's triangles into clusters. `positions` covers the mesh's vertices and the copies in
 // Simplification::twins.
 void cluster(FittedLevel& level, const WeldedPositions& positions) {
     Numbered<LevelVertexNumber, PositionNumber> places;
@@ -265,7 +266,7 @@ std::optional<PyramidEnd> endWithoutCollapses(const Mesh& mesh, const PyramidOpt
 // Builds the pyramid without the measurements on finished levels (blurred errors and deformation bounds).
 Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers,
                   const std::function<void(double)>& reach) {
-    // Merge equal vertices, then weld equal positions.
+    // Merge equal vertices, then find vertices at equal positions.
     WeldedVertices unique = weldVertices(mesh);
     std::vector<FittedLevel> levels(1);
     levels[0].triangles = allTriangles(mesh, unique.id);

@@ -38,7 +38,7 @@ struct IndexRange {
 // measured at the level's own vertices. The bounds are rounded outwards, so that they hold for the exact planes of the
 // triangles.
 struct Cluster {
-    IndexRange indices;       // index range within one primitive
+    IndexRange indices;       // range of indices within one primitive
     glm::vec3 centre{0};      // centre of a bounding sphere of the vertices
     float radius = 0;         // radius of the bounding sphere
     glm::vec3 axis{0, 0, 1};  // unit axis of a cone that contains the unit normals n of all triangles
@@ -73,8 +73,8 @@ struct PyramidLevel {
     std::vector<Cluster> clusters;  // sorted by index range; together they contain all triangles of the level
     // Vertex attributes of the level, fitted to level 0. Level 0 and levels of LevelVertices::surviving have the mesh's
     // own attributes. Fitted positions lie inside the bounds of level 0. Vertices at the same position stay at the same
-    // position. Fitted normals have length ≤ 1. A shorter normal stands for normals of level 0 that diverge more, so
-    // that a matt surface reflects less light.
+    // position. Fitted normals have length ≤ 1. A shorter normal stands for normals of level 0 that diverge more; a
+    // matt surface with such normals reflects less light.
     std::vector<glm::vec3> positions;  // vertexCount entries
     std::vector<glm::vec3> normals;    // vertexCount entries
     std::vector<glm::vec4> colors;     // vertexCount entries; empty without colours; may lie outside [0, 1]
@@ -82,25 +82,25 @@ struct PyramidLevel {
 
     // Mean edge length over all faces, in object units; an edge counts once per face. The value is raised where needed:
     // it grows by at least 5 % per level and is at least 2·error. Reason for the second bound: a level with a large
-    // error is no finer than that error, however short its edges are.
+    // error is not finer than its error, however short its edges are.
     double meanEdge = 0;
-    double longestEdge = 0;  // object units
+    double longestEdge = 0;  // length of the longest edge, object units
 
     // Distance between the surfaces of the level and of level 0, in object units: the larger of the 99th percentiles
     // over the area in both directions. The percentile is estimated conservatively from 256 to 1,024 points per
-    // direction (surface_distance.h). The value is raised where needed so that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of
-    // the bounding box's diagonal; e[0] = 0. If components were removed from the level, the error is at least their
-    // size and at least the distance from any of their points to the level. The error never exceeds the diagonal of the
-    // bounding box.
+    // direction (surface_distance.h). With e[l] for the error of level l: e[0] = 0, and errors are raised where needed
+    // so that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding box's diagonal. If components were removed from the
+    // level, the error is at least their size and at least the distance from any of their points to the level. The
+    // error never exceeds the diagonal of the bounding box.
     double error = 0;
 
     BlurTables blurredError{};  // errors after blurring (blurred_error.h); 0 for level 0
 };
 
 struct Pyramid {
-    // The vertices of level 0, sorted by the coarsest level that uses them; identical vertices are merged. `normals`
-    // are the normals of level 0. A few vertices are stored twice, for coarser levels that need two normals at one
-    // position.
+    // The vertices of level 0, sorted by the coarsest level that uses each vertex; identical vertices are merged.
+    // `normals` are the normals of level 0. A few vertices are stored twice, for coarser levels that need two normals
+    // at one position.
     Vertices vertices;
     std::vector<std::uint32_t> source;   // index of each vertex in Mesh::vertices, used for morph targets
     std::vector<std::uint32_t> indices;  // indices of all levels, level by level
@@ -112,7 +112,7 @@ struct Pyramid {
     // For each morph target, the bounding box of its displacements and of the origin, in object units.
     std::vector<Bounds> morphBounds;
     double smallestPatch = 0;  // side of the smallest patches (BlurTable), object units; 0 if there is only level 0
-    // Standard deviation of level 0's radiance within patches; see blurred_error.h.
+    // Standard deviation V of level 0's radiance within patches of each size; see blurred_error.h.
     BlurTables contrast{};
     // Number of faces that were repaired to build a manifold for collapses (manifold.h); 0 if no collapse was
     // attempted.
@@ -129,7 +129,7 @@ struct PyramidOptions {
     std::uint64_t memoryLimit = 0;       // max memory of the process in bytes during the build; 0: no limit
 };
 
-const char* levelVerticesName(LevelVertices vertices);  // name on the command line
+const char* levelVerticesName(LevelVertices vertices);  // Returns the name used on the command line.
 
 // Builds a mesh's pyramid of levels. Deterministic: equal meshes give bit-identical pyramids. Level 0 keeps every
 // triangle of the mesh. The pyramid ends where a further level would save less than a quarter of the triangles. Throws

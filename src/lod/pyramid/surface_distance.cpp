@@ -24,8 +24,8 @@ namespace {
 
 constexpr std::size_t maxTrianglesPerLeaf = 4;
 constexpr std::size_t arity = 4;  // children per node of the bounding volume hierarchy
-// Rounding error of a single-precision difference of coordinates, relative to the largest coordinate of the surface and
-// the point.
+// Bound on the rounding error of a difference of coordinates in single precision, relative to the largest coordinate of
+// the surface and the point.
 constexpr float rounding = 2.5e-7f;
 constexpr double mortonCells = 1023;  // max index of a grid cell per axis in a Morton code: 10 bits
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -76,7 +76,8 @@ void sortByCode(LargeVector<std::uint64_t>& keys) {
     }
 }
 
-// Returns the triangles with finite corners and positive area, in Morton order. `count` is the number of all triangles.
+// Returns the triangles with finite corners and positive area, in Morton order. `count` is the number of triangles
+// before invalid ones are removed.
 template <typename TriangleAt>
 LargeVector<Triangle> inMortonOrder(std::size_t count, const TriangleAt& triangle) {
     LargeVector<std::uint64_t> keys;  // Morton code in the upper 32 bits, triangle number in the lower 32 bits
@@ -192,7 +193,7 @@ Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t
             max = bound();
             continue;
         }
-        // Push the children in order of decreasing distance, so that the nearest is on top.
+        // Push the child nodes in order of decreasing distance, so that the nearest child is on top of the stack.
         const Four squared = squaredDistances(surface.nodes[entry.node], place, slack);
         const std::size_t first = size;
         for (std::size_t k = 0; k < arity; ++k) {
@@ -286,7 +287,7 @@ std::vector<double> sampleDistances(const Surface& from, const Surface& to, std:
 double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double min) {
     if (from.empty() || rank == 0 || count < rank) return min;
     if (to.empty()) return infinity;
-    std::vector<double> largest(rank, min * min);  // squared distances as a min-heap
+    std::vector<double> largest(rank, min * min);  // squared distances, as a heap with the smallest on top
     std::size_t nearest = 0;                       // nearest triangle of the previous point, used as a first guess
     forEachSample(from, count, [&](const glm::dvec3& point) {
         const Nearest found = nearestTriangle(to, point, nearest, largest.front());

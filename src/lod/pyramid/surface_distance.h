@@ -20,9 +20,9 @@
 
 namespace defocus::engine {
 
-// The bounding boxes of the four children of a node.
+// Bounding boxes of the four children of a node of the bounding volume hierarchy.
 struct BoxNode {
-    Four minimum[3];  // x, y, z
+    Four minimum[3];  // one vector of four values each for x, y and z
     Four maximum[3];
 };
 
@@ -30,12 +30,12 @@ struct BoxNode {
 // threads.
 struct Surface {
     LargeVector<std::array<glm::vec3, 3>> triangles;  // in Morton order: neighbours in memory are close in space
-    LargeVector<double> areas;                        // cumulative areas; each entry includes its own triangle
+    LargeVector<double> areas;                        // area of each triangle plus the areas of all triangles before it
     // Complete 4-ary tree: the root is node 0, and the children of node i are 4i + 1 … 4i + 4. Child indices beyond the
     // last node denote leaves. The leaves split the triangle list into nearly equal runs of up to 4 triangles.
     LargeVector<BoxNode> nodes;
     int leafBits = 0;  // log2 of the number of leaves
-    float extent = 0;  // largest absolute coordinate
+    float extent = 0;  // largest absolute coordinate of the surface
 
     [[nodiscard]] bool empty() const { return triangles.empty(); }
 };
@@ -68,7 +68,7 @@ struct Distances {
 struct SurfaceDistance {
     Distances forward;   // distances from the first surface to the second
     Distances backward;  // distances from the second surface to the first
-    Distances both;      // each value is the larger of both directions, like the two-sided Hausdorff distance
+    Distances both;      // each value is the larger of `forward` and `backward`, like the two-sided Hausdorff distance
 };
 
 // Measures the distances from `count` points on each surface to the other surface. The error of the mean falls

@@ -45,7 +45,7 @@ void sortSpatially(WeldedVertices& unique, const std::vector<glm::vec3>& positio
 
 void sortSpatially(TriangleSet<MeshVertexNumber>& triangles) {
     std::size_t first = 0;
-    std::vector<std::array<MeshVertexNumber, 4>> sorted;  // sort key, followed by the triangle's corners
+    std::vector<std::array<MeshVertexNumber, 4>> sorted;  // smallest vertex index of a triangle, then its corners
     for (const std::uint32_t count : triangles.primitiveIndexCounts) {
         MeshVertexNumber* const indices = triangles.indices.data() + first;
         sorted.clear();

@@ -28,7 +28,7 @@ struct SurvivalOrder {
 };
 
 // Sorts vertices by the coarsest level that uses their position, then by first use in that level. Vertices at the same
-// position stay adjacent. `levels` starts with the finest.
+// position stay adjacent. `levels` starts with the finest level.
 SurvivalOrder sortBySurvival(const std::vector<TriangleSet<MeshVertexNumber>>& levels,
                              const WeldedPositions& positions);
 

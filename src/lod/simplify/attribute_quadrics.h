@@ -27,8 +27,8 @@ public:
     [[nodiscard]] float costInPlace(WedgeNumber w) const { return all_[w.value].squares.c; }
     // Adds a face's quadric to the quadric of wedge `w`.
     void addFace(WedgeNumber w, const AttributeQuadric<n>& face) { all_[w.value].addFaces(face); }
-    // Moves the quadric of wedge `from` into the quadric of wedge `to`. `step` and `change` are the differences in
-    // position and attributes from `from` to `to`.
+    // Moves the quadric of wedge `from` into the quadric of wedge `to`, when a collapse replaces `from` by `to`. `step`
+    // and `change` are the differences in position and attributes from `from` to `to`.
     void move(WedgeNumber from, WedgeNumber to, const glm::vec3& step, const AttributeRow<n>& change) {
         all_[to.value].add(all_[from.value], step, change);
         all_[from.value] = {};

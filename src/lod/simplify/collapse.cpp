@@ -1,4 +1,5 @@
-// Evaluates the effects of collapses on faces, wedges and quadrics; performs collapses and removes deleted elements.
+// Evaluates the effects of collapses on faces, wedges (vertices at face corners) and quadrics; performs collapses and
+// removes deleted elements.
 
 #include "lod/simplify/collapse.h"
 
@@ -103,8 +104,8 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
     // The surviving vertex's wedge in a face beside the collapsing edge, on the same side of each seam as the corner.
     WedgeNumber across;
     WedgeNumber exact;     // wedge like `across`, but also on the same side of every crease
-    bool torn = false;     // a seam crosses the edge at the surviving vertex
-    bool creased = false;  // a crease crosses the edge at the surviving vertex
+    bool torn = false;     // a seam crosses the collapsing edge at the surviving vertex
+    bool creased = false;  // a crease crosses the collapsing edge at the surviving vertex
     for (const EdgeSide& side : sides.both) {
         if (!side.face.is_valid() || sides.mesh.primitive(side.face) != primitive) continue;
         if (!wedges.sameChart(side.from, wedge)) continue;
@@ -143,9 +144,9 @@ constexpr float edgeWeight = 1e-4f;
 // the number of faces.
 constexpr std::size_t maxSpokes = 8192;
 
-// Returns whether the half-edge borders a triangular hole. OpenMesh allows a collapse along it if a second edge joins
-// two corners of the hole. The collapse would close the hole and leave a half-edge without a wedge, or a face with two
-// corners.
+// Returns whether the half-edge borders a triangular hole. OpenMesh allows the half-edge to collapse if a second edge
+// joins two corners of the hole. The collapse would close the hole and leave a half-edge without a wedge, or a face
+// with two corners.
 bool isAtHoleOfThree(const SurfaceMesh& surface, HalfedgeHandle e) {
     const HalfedgeHandle second = surface.next_halfedge_handle(e);
     return surface.is_boundary(e) && surface.next_halfedge_handle(surface.next_halfedge_handle(second)) == e;
@@ -305,7 +306,7 @@ float QuadricModule::cost(HalfedgeHandle along, float max) {
     float sum = own.at(step) + surface.data(to).quadric.c + own.weight * edgeWeight * glm::dot(step, step);
     if (!(sum < max)) return sum;
 
-    // Add the attribute costs on both sides of the edge; if both sides have the same pair of wedges, add the cost once.
+    // Add the attribute costs on both sides of the edge; if both sides have the same two wedges, add the cost once.
     WedgeNumber leftFrom, leftTo;
     if (!surface.is_boundary(along)) {
         leftFrom = surface.wedge(along);
@@ -320,7 +321,7 @@ float QuadricModule::cost(HalfedgeHandle along, float max) {
 }
 
 Candidate QuadricModule::cheapest(VertexHandle v) {
-    // Prefetch the data of all neighbours first, because successive collapses are scattered over the mesh.
+    // Prefetch the data of all neighbours first: the memory of successive collapses is scattered over the mesh.
     const SurfaceMesh& surface = mesh();
     spokes_.clear();
     forEachSpoke(surface, v, [&](HalfedgeHandle spoke) {

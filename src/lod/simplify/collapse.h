@@ -23,9 +23,10 @@ public:
     // Returns whether the collapse preserves the topology: OpenMesh's conditions hold, only one edge joins the two
     // vertices, and no two faces end up back to back.
     [[nodiscard]] bool keepsTopology(HalfedgeHandle along);
-    // Classifies the effect of the collapse on the remaining faces, ignoring the topology. Poor: the collapse makes a
-    // sliver, or pulls the surface away from its border. Bad: the collapse rotates a face's normal by more than 75° or
-    // makes a face degenerate. Impossible: a vertex of the edge's faces has more than 8,192 outgoing half-edges.
+    // Returns the class of the collapse by its effect on the remaining faces, ignoring the topology. Poor: the collapse
+    // makes a sliver, or pulls the surface away from its border. Bad: the collapse rotates a face's normal by more than
+    // 75° or makes a face degenerate. Impossible: a vertex of the faces beside the edge has more than 8,192 outgoing
+    // half-edges.
     [[nodiscard]] Fit judge(HalfedgeHandle along);
 
 private:
@@ -49,15 +50,16 @@ public:
 
     [[nodiscard]] const std::string& name() const override;
     float collapse_priority(const CollapseInfo& collapse) override;
-    // Assigns each corner its new wedge, and adds the quadrics of the old wedges to the quadrics of the new wedges.
+    // Assigns each corner of the removed vertex its new wedge, and adds the quadrics of the old wedges to the quadrics
+    // of the new wedges.
     void preprocess_collapse(const CollapseInfo& collapse) override;
     // Copies a wedge to another half-edge after the collapse: OpenMesh replaces a half-edge beside the removed face by
     // a half-edge of that face.
     void postprocess_collapse(const CollapseInfo& collapse) override;
 
-    // Selects a wedge of the surviving vertex for each remaining corner of the removed vertex, and classifies the
-    // result. The first choice is the wedge at the other end of the collapsed edge, on the same side of a seam. The
-    // second choice is the most similar wedge of the same primitive. Poor: the texture would be stretched across a
+    // Selects a wedge of the surviving vertex for each remaining corner of the removed vertex, and returns the class of
+    // the collapse. The first choice is the wedge at the other end of the collapsed edge, on the same side of a seam.
+    // The second choice is the most similar wedge of the same primitive. Poor: the texture would be stretched across a
     // seam. Bad: the wedge belongs to another primitive.
     Fit judge(HalfedgeHandle along);
     // Returns the corners and wedges that the last call of judge() selected; empty after the collapse.
@@ -81,10 +83,10 @@ public:
     // for attribute quadrics.
     void postprocess_collapse(const CollapseInfo& collapse) override;
 
-    // Returns the cost of collapsing a half-edge, ≥ 0. If the cost is at least `max`, any value from `max` to the cost
-    // may be returned.
+    // Returns the cost of collapsing a half-edge, ≥ 0. If the cost is at least `max`, the returned value may be
+    // anything between `max` and the cost.
     [[nodiscard]] float cost(HalfedgeHandle along, float max);
-    // Returns the vertex's cheapest collapse, whether it is allowed or not; the first in case of a tie.
+    // Returns the vertex's cheapest collapse, whether it is allowed or not; the first collapse in case of a tie.
     [[nodiscard]] Candidate cheapest(VertexHandle v);
 
 private:

@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double gridMargin = 1.04;  // grid side relative to the bounding box's diagonal; levels may protrude slightly
+constexpr double gridMargin = 1.04;  // grid side / diagonal of the bounding box, for levels that protrude slightly
 
 // Returns the index of the first grid cell whose centre is at or after the coordinate `place`, at most `end`. Cell i
 // has its centre at i. Returns 0 for NaN.
@@ -76,7 +76,7 @@ double CoverGrid::area() const {
 
 void CoverGrid::add(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
     if (resolution_ == 0) return;
-    std::vector<glm::vec2> cells;  // positions in cells; cell centres lie at 0, 1, …
+    std::vector<glm::vec2> cells;  // positions in units of cells; cell centres lie at 0, 1, …
     cells.reserve(positions.size());
     for (const glm::vec3& position : positions) cells.emplace_back(cellsOf(position) - 0.5);
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
@@ -152,7 +152,7 @@ void EdgeFill::add(const glm::dvec2& from, const glm::dvec2& to, int triangles) 
     if (first >= end) return;
     firstRow_ = std::min(firstRow_, first);
     endRow_ = std::max(endRow_, end);
-    // x is a fixed-point number, so that repeated addition of the same step causes no drift.
+    // x is a fixed-point number, so that adding the step for each row causes no drift.
     const double slope = (high.x - low.x) / (high.y - low.y);
     std::int64_t x = fixedPoint(low.x + (first + 0.5 - low.y) * slope - 0.5);
     const std::int64_t step = end - first > 1 ? fixedPoint(slope) : 0;

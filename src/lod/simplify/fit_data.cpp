@@ -17,7 +17,7 @@ namespace {
 constexpr double minArea = 1e-3;
 constexpr double largestArea = 1e3;
 
-// Groups the vertices 0 … `count` − 1 with equal keys and equal values. Keys are below `keyCount`.
+// Groups the vertices 0 … `count` − 1 that have equal keys and equal values. Keys are below `keyCount`.
 template <typename Key, typename KeyOf, typename ValuesOf>
 VertexGroups equalGroups(std::size_t count, std::size_t keyCount, const KeyOf& keyOf, const ValuesOf& valuesOf) {
     struct Member {

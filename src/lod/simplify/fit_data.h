@@ -27,14 +27,14 @@ Coordinates coordinatesOf(const Vertices& vertices, MeshVertexNumber v);
 // Total area and mean normal of the mesh vertices that one anchor (a point on the level) represents.
 struct Anchored {
     float area = 0;
-    glm::vec3 normal{0};  // area-weighted mean
+    glm::vec3 normal{0};  // area-weighted mean of the vertices' normals
 };
 
 // Areas, normals and colours that the anchor of each mesh vertex represents; undefined for vertices that use the anchor
 // of another vertex.
 struct AnchoredValues {
     Numbered<MeshVertexNumber, Anchored> values;
-    Numbered<MeshVertexNumber, glm::vec4> colors;  // area-weighted means; empty without colours
+    Numbered<MeshVertexNumber, glm::vec4> colors;  // area-weighted mean colours; empty without colours
 };
 
 AnchoredValues anchoredValues(const FitSource& source, const Numbered<MeshVertexNumber, Anchor>& anchors);
@@ -44,8 +44,8 @@ AnchoredValues anchoredValues(const FitSource& source, const Numbered<MeshVertex
 Numbered<TriangleNumber, glm::vec3> unitNormals(const std::vector<glm::vec3>& positions, const LevelMesh& level);
 
 // Returns the effective area of an anchor (a point on the level): the projection of `area` onto the anchor's triangle,
-// but at least 2 % of `area`. `normal` is the normal of the area; `face` is the unit normal of the triangle. Returns
-// the full area if the anchor lies at a corner or the triangle has no area.
+// but at least 2 % of `area`. `normal` is the normal of the surface with this area; `face` is the unit normal of the
+// triangle. Returns the full area if the anchor lies at a corner or the triangle has no area.
 float foreshortened(float area, const Anchor& anchor, const glm::vec3& face, const glm::vec3& normal);
 
 // Groups of the level's vertices; the vertices in one group share one value.

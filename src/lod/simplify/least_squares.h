@@ -1,5 +1,5 @@
 #pragma once
-// Least-squares fit of values at triangle corners to targets at points on the triangles. Minimises
+// Fits values at triangle corners by least squares to targets at points on the triangles. Minimises
 //   Σ share·|Σ weight·x − target|² + pull·Σ weightOf·|x − prior|²
 // by conjugate gradients with Jacobi preconditioner (Hestenes and Stiefel 1952). share is the weight of a point, and
 // weight is the barycentric weight of a corner with the value x. weightOf is the sum of share·weight at a corner. The

@@ -26,7 +26,7 @@ struct AnchorSums {
     Numbered<LevelVertexNumber, double> weights;
     Numbered<LevelVertexNumber, Three> gaps;  // offsets from the anchors to the vertices of level 0
     Numbered<LevelVertexNumber, Three> normals;
-    Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // empty without colours
+    Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // sums for colours; empty without colours
     Numbered<TriangleNumber, TriangleSums> triangles;
 
     template <std::size_t channels>
@@ -227,7 +227,7 @@ struct Grown {
     double area = 0;
     Bounds box;
     double factor = 1;
-    glm::dvec3 shift{0};  // moves the component back into level 0's bounding box
+    glm::dvec3 shift{0};  // translation of the component back into level 0's bounding box
 
     [[nodiscard]] glm::dvec3 place(const glm::dvec3& p, const glm::dvec3& centre) const {
         return centre + factor * (p - centre) + shift;

@@ -52,7 +52,7 @@ struct Anchor {
     float weight[3] = {0, 0, 0};
 
     // Returns the anchor of a vertex that has no point of its own. The vertex's area, colour and normal are added to
-    // the anchor of `near`.
+    // those of the anchor of vertex `near`.
     static Anchor sharedWith(MeshVertexNumber near) { return {{near.value}}; }
     [[nodiscard]] bool isUnused() const { return weight[0] == 0 && weight[1] == 0 && weight[2] == 0; }
     // Returns the vertex whose anchor this vertex shares; invalid if it shares none.
@@ -65,8 +65,8 @@ struct Anchor {
 // scaled about `centre` until it has `area`, the sum of its original area and the areas of the removed components. The
 // scale is in [1, `maxFactor`].
 struct Growth {
-    glm::dvec3 centre{0};  // object units
-    double area = 0;       // object units squared
+    glm::dvec3 centre{0};  // centre of the scaling, object units
+    double area = 0;       // area after scaling, object units squared
     double maxFactor = 1;
 };
 

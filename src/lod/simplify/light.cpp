@@ -33,8 +33,8 @@ Lights lights() {
 }
 
 struct LitPoint {
-    glm::vec3 weights{0};  // barycentric
-    glm::vec3 normal{0};   // unit length, or zero
+    glm::vec3 weights{0};  // barycentric coordinates of the point
+    glm::vec3 normal{0};   // unit normal, or zero if undefined
     float agreement = 1;
     float area = 0;
     float light = 0;  // area times the mean of the three colour channels
@@ -91,7 +91,7 @@ struct LightSlopes {
 // terms. For a light direction d, the first term is odd · d with a symmetric matrix `odd`; it changes sign with d. The
 // second term is the same for opposite lights.
 struct GroupSlopes {
-    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // elements of the matrix `odd`
+    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // elements of the symmetric matrix `odd`
     PairRow x{}, y{}, z{};
 
     void add(float weight, const GroupSlopes& other) {
@@ -151,7 +151,7 @@ GroupSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& valu
 // Mean radiance under each light, and its derivatives with respect to the normals of vertex groups.
 struct FollowingMeans {
     LightMeans means{};
-    std::vector<float> areas;  // area of each group, as a fraction of the surface
+    std::vector<float> areas;  // area of each vertex group, as a fraction of the surface's area
     LargeVector<GroupSlopes> slopes;
 };
 
@@ -268,8 +268,8 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
               std::span<glm::vec3> normals) {
     constexpr int maxRounds = 8;
     constexpr double enough = 5e-4;
-    // Rotating normals changes the shading at each point, which remains visible under a narrow blur. The RMS change of
-    // the normals is therefore limited to this multiple of the improvement of the mean radiance.
+    // Rotating normals changes the shading at each point, and this change remains visible under a narrow blur. The RMS
+    // change of the normals is therefore limited to this multiple of the improvement of the mean radiance.
     constexpr double maxTurn = 16;
     const std::vector<glm::vec3> original(normals.begin(), normals.end());
     std::vector<glm::vec3> best = original;

@@ -42,7 +42,7 @@ inline constexpr float minShownAgreement = 0.05f;
 struct LitSurface {
     std::span<const glm::vec3> positions;
     std::span<const glm::vec3> normals;
-    std::span<const glm::vec4> colors;  // empty: white
+    std::span<const glm::vec4> colors;  // vertex colours; empty: white
     std::span<const std::uint32_t> indices;
     bool coarse = true;  // true: a normal shorter than 1 stands for diverging normals, as in shading.glsl
 };

@@ -60,7 +60,7 @@ Numbered<SurfaceFaceNumber, TriangleNumber> properFaces(const TriangleSet<Positi
     // Sort key of a face: equal faces have the same smallest position number, so that only faces with this number are
     // compared.
     struct Key {
-        PositionNumber next, previous;  // the other two corners, in winding order
+        PositionNumber next, previous;  // the other two corners of the face, in winding order
         PrimitiveNumber primitive;
         TriangleNumber triangle;
 
@@ -135,7 +135,7 @@ void orient(PairedSurface& surface, const EdgeGroups& groups) {
         const SurfaceCorner a = groups[g][0];
         const SurfaceCorner b = groups[g][1];
         const bool sameFace = surface.at[previousCorner(a)] == surface.at[previousCorner(b)];
-        if (sameFace && surface.forward(a) == surface.forward(b)) continue;  // the same face in two primitives
+        if (sameFace && surface.forward(a) == surface.forward(b)) continue;  // the same face occurs in two primitives
         across[a] = b;
         across[b] = a;
     }

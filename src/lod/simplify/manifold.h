@@ -33,7 +33,7 @@ struct Manifold {
     Numbered<SurfaceFaceNumber, TriangleNumber> faces;  // the input triangle of each face
     Numbered<SurfaceCorner, SurfaceVertexNumber> corners;
     Numbered<SurfaceFaceNumber, std::uint8_t> turned;  // 1: the face is reversed relative to its input triangle
-    Numbered<SurfaceCorner, SurfaceCorner> twins;      // the opposite half-edge; invalid if there is none
+    Numbered<SurfaceCorner, SurfaceCorner> twins;      // opposite half-edge of each half-edge; invalid if there is none
     Numbered<SurfaceVertexNumber, PositionNumber> positions;
     Repairs repairs;
 };
@@ -44,7 +44,7 @@ TriangleSet<PositionNumber> weldedTriangles(const TriangleSet<MeshVertexNumber>&
                                             const WeldedPositions& positions,
                                             const Numbered<PositionNumber, glm::dvec3>& points);
 
-// Builds the manifold. `points` are the coordinates of the positions.
+// Builds the manifold. `points` are the coordinates of the numbered positions.
 Manifold buildManifold(const TriangleSet<PositionNumber>& triangles,
                        const Numbered<PositionNumber, glm::dvec3>& points);
 

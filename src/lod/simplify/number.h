@@ -42,7 +42,7 @@ using TriangleNumber = Number<struct TriangleKind>;            // index into a T
 using LevelVertexNumber = Number<struct LevelVertexKind>;      // vertex of one level, numbered by first use
 using PyramidVertexNumber = Number<struct PyramidVertexKind>;  // index into Pyramid::vertices
 
-// Tag type for corners of faces. Corner 3·f + i is corner i of face f.
+// Tag type for the corners of faces. Corner 3·f + i is corner i of face f.
 template <typename Face>
 struct CornerOf;
 template <typename Face>
@@ -68,8 +68,8 @@ constexpr Number<CornerOf<Face>> previousCorner(Number<CornerOf<Face>> corner) {
     return {corner.value % 3 == 0 ? corner.value + 2 : corner.value - 1};
 }
 
-// indexOf() converts a number or an OpenMesh handle to an array index; itemAt() converts an array index to a number or
-// handle.
+// indexOf() converts a typed number or an OpenMesh handle to an array index; itemAt() converts an array index to a
+// typed number or a handle.
 template <typename Key>
 constexpr std::size_t indexOf(Key item) {
     if constexpr (requires { item.value; })
@@ -87,7 +87,7 @@ constexpr Key itemAt(std::size_t index) {
         return Key(static_cast<int>(index));
 }
 
-// Returns the range of numbers 0 … count − 1.
+// Returns the range of typed numbers 0 … count − 1.
 template <typename Key>
 auto numbersBelow(std::size_t count) {
     return std::views::iota(std::size_t{0}, count) | std::views::transform(itemAt<Key>);
@@ -151,7 +151,7 @@ public:
     [[nodiscard]] std::span<Item> operator[](Key key) { return std::span(items_).subspan(at(key), count(key)); }
     [[nodiscard]] auto keys() const { return numbersBelow<Key>(first_.size() - 1); }
     [[nodiscard]] std::size_t itemCount() const { return items_.size(); }
-    // Moves the items out, sorted by key.
+    // Moves all items out of this object, sorted by key.
     std::vector<Item> takeItems() { return std::move(items_); }
 
 private:

@@ -22,18 +22,18 @@ constexpr int maxResolution = 512;
 constexpr double cellsPerEdge = 16;  // approximate grid cells per triangle edge, for evenly sized triangles
 
 constexpr double maxUnseen = 5e-3;   // max relative area difference that is not corrected
-constexpr int localRounds = 2;       // rounds that move each outline edge towards level 0's outline
-constexpr int maxGlobalRounds = 12;  // max rounds that match the covered area in each direction
+constexpr int localRounds = 2;       // number of rounds that move each outline edge towards level 0's outline
+constexpr int maxGlobalRounds = 12;  // max number of rounds that match the covered area in each direction
 // Relative difference between the covered areas of the level and of level 0 at which the fit ends. Levels with many
 // triangles use the larger value, because they are slow to fit and mostly cover enough area.
 constexpr double goodEnough = 1.5e-3;
 constexpr double passable = 3.5e-3;
 constexpr std::size_t fewTriangles = 2048;
-constexpr int maxVainRounds = 4;  // max consecutive rounds without improvement
+constexpr int maxVainRounds = 4;  // max number of consecutive rounds without improvement
 constexpr double maxWay = 48;     // max distance to level 0's outline in cells; farther outlines bound other parts
 constexpr int maxEdgePoints = 24;
 constexpr double stiffness = 0.1;      // damping of displacements, relative to the weight of the outline points
-constexpr double maxMoveShare = 0.25;  // max displacement per round, relative to the vertex's mean edge length
+constexpr double maxMoveShare = 0.25;  // max displacement per round, relative to the mean length of the vertex's edges
 constexpr double constraintSlack = 1e-3;
 
 // An edge between two vertex groups (vertices at one position), with up to two of its faces.
@@ -43,7 +43,7 @@ struct Edge {
     std::uint32_t face[2] = {0, 0};
     // Direction in which each face runs along the edge. 1: from a to b; −1: from b to a; 0: no face.
     std::int8_t way[2] = {0, 0};
-    bool closed = false;  // the edge has two faces; Edges::more has entries for further faces
+    bool closed = false;  // the edge has two faces; further faces are in Edges::more
 };
 
 struct Edges {
@@ -96,7 +96,7 @@ Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {
     return edges;
 }
 
-// A sample point of a level's outline, seen from one direction.
+// A sample point of a level's outline in the projection along one direction.
 struct OutlinePoint {
     std::uint32_t a = 0, b = 0;  // vertex groups at the ends of the edge
     double share = 0;            // interpolation weight of b; the weight of a is 1 − share
@@ -139,7 +139,7 @@ public:
             if (counts[v] > 0) maxMove_[v] *= maxMoveShare / counts[v];
     }
 
-    // Returns the largest relative area difference over all directions.
+    // Returns the largest relative difference between the areas that the level and level 0 cover, over all directions.
     double worstArea() {
         double worst = 0;
         for (std::size_t d = 0; d < outlines_.size(); ++d) {
@@ -212,7 +212,7 @@ public:
 
     // Returns the current positions, or the best earlier positions if the last rounds brought no improvement.
     [[nodiscard]] const std::vector<glm::vec3>& places() const { return vainRounds_ > 0 ? best_ : places_; }
-    // Returns the largest relative area difference at the positions that places() returns.
+    // Returns the largest relative difference from level 0's covered areas at the positions that places() returns.
     [[nodiscard]] double worst() { return vainRounds_ > 0 ? worstOfBest_ : worstArea(); }
 
 private:
@@ -303,13 +303,13 @@ private:
     Edges edges_;
     std::vector<double> maxMove_;  // max displacement of each vertex group per round
     std::span<const CoverGrid> outlines_;
-    std::vector<double> areas_;  // covered areas in `outlines_`, object units squared
+    std::vector<double> areas_;  // covered areas of level 0 in `outlines_`, object units squared
     const Bounds& box_;
-    std::vector<glm::vec3> best_;                                 // positions with the smallest misfit
+    std::vector<glm::vec3> best_;                                 // positions after the best round
     double minMisfit_ = std::numeric_limits<double>::infinity();  // min sum of squared relative area differences
     double worstOfBest_ = std::numeric_limits<double>::infinity();
     int vainRounds_ = 0;                // rounds since the last improvement
-    std::vector<glm::vec3> gradients_;  // gradients of the covered area: for each vertex group, one per direction
+    std::vector<glm::vec3> gradients_;  // gradients of the covered area: one per vertex group and direction
     // Temporary data of cover(), for one direction.
     EdgeFill fill_;
     std::vector<glm::dvec2> cells_;   // projected position of each vertex group

@@ -16,9 +16,9 @@ namespace {
 
 // Weights of constraint planes, which contain an edge and are perpendicular to the edge's face. The weight is
 // multiplied by the squared edge length. (The plane of a face is weighted by the face's area.)
-constexpr double borderWeight = 10;  // open borders and material borders
-constexpr double seamWeight = 0.5;   // discontinuities of uv or colour
-constexpr double rimWeight = 1;      // edges that bend by more than 60°; scaled by the bend
+constexpr double borderWeight = 10;  // weight at open borders and material borders
+constexpr double seamWeight = 0.5;   // weight at discontinuities of uv or colour
+constexpr double rimWeight = 1;      // weight at edges that bend by more than 60°; scaled by the bend
 
 glm::dvec3 faceCross(const SurfaceMesh& mesh, FaceHandle face) {
     const FaceCorners corner = cornersOf(mesh, face);
@@ -111,7 +111,7 @@ void buildQuadrics(SurfaceMesh& mesh) {
             const double length = glm::length(upright);
             if (!(length > 0)) continue;
             // A short border edge of a long face, such as the end of a strip, is weighted by the face's area. If only
-            // its length counted, shortening the strip would be cheaper than removing vertices in its interior.
+            // the edge's length counted, shortening the strip would be cheaper than removing vertices in its interior.
             const double area = border ? std::max(length * length, doubleArea) : length * length;
             const glm::vec3 constraint(upright / length);
             mesh.data(a).quadric.addPlane(constraint, static_cast<float>(weight * area));

@@ -19,15 +19,15 @@ namespace {
 // Factor by which the cost of poor collapses (simplify.h) is multiplied.
 constexpr float poorPenalty = 10;
 constexpr std::size_t minFacesToReport = 1000;  // meshes with fewer faces report no progress
-// Up to this number of faces, the costs of all candidates (planned collapses) are always up to date, because errors are
+// Number of faces up to which the costs of all candidates (planned collapses) are always up to date, because errors are
 // most visible at coarse levels.
 constexpr std::size_t maxFacesToFollow = 8192;
-// Levels with at least this number of faces are made in sweeps over all vertices.
+// Min number of faces of levels that are made in sweeps over all vertices.
 constexpr std::size_t minFacesToSweep = 16'384;
 constexpr std::size_t sweepsPerLevel = 8;   // one sweep makes about 1/8 of the collapses that a level still needs
 constexpr std::size_t minSweepShare = 128;  // one sweep makes at least one collapse per 128 faces, if possible
 constexpr std::size_t costSample = 8192;    // number of vertices sampled to estimate the distribution of costs
-// Max ratio of the triangle counts of a level and the next finer level: each level must save a quarter of the
+// Max ratio between the triangle counts of a level and of the next finer level: each level must save a quarter of the
 // triangles.
 constexpr double largestShare = 0.75;
 // Min fraction that each level keeps of the faces in components which collapses can still simplify. If many components
@@ -113,7 +113,7 @@ void requeueAround(Simplifier& s, VertexHandle survivor) {
     forEachSpoke(mesh, survivor, [&](HalfedgeHandle spoke) {
         const VertexHandle v = mesh.to_vertex_handle(spoke);
         const Candidate& candidate = mesh.data(v).candidate;
-        // Half-edges that led to the removed vertex lead to the surviving vertex after the collapse.
+        // Half-edges that led to the removed vertex now lead to the surviving vertex.
         const bool known =
             candidate.possible() && candidate.fit == Fit::good && mesh.to_vertex_handle(candidate.along) != survivor;
         if (!known) return outdate(v);
@@ -201,7 +201,7 @@ bool sweep(Simplifier& s, std::size_t target, float max) {
     const auto* const vertices = &s.mesh->data(VertexHandle(0));
     const auto count = static_cast<int>(s.mesh->n_vertices());
     for (int i = 0; i < count && s.liveFaces > target; ++i) {
-        // Skip the many candidates that are too expensive.
+        // Skip all vertices whose candidates (planned collapses) are too expensive.
         while (i < count && !(vertices[i].candidate.cost <= max)) ++i;
         if (i == count) break;
         const VertexHandle v(i);
@@ -365,8 +365,8 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
             break;
         }
 
-        // Components of minimum size may leave too few faces for the other components. In that case, remove complete
-        // components before collapsing.
+        // If many components (connected parts) are already as small as possible, too few faces may be left for the
+        // others. In that case, remove complete components before collapsing.
         if (s.liveFaces <= maxFacesToFollow && !isConnected(s)) findComponents(s, triangles);
         if (collapseFloor(s, target, minKeptShare) > max) {
             findComponents(s, triangles);
@@ -375,7 +375,8 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
         }
         if (collapseFloor(s, target, minKeptShare) <= max) collapseToLevel(s, target, max);
 
-        // If collapses did not reach the target, remove complete components; if this does not suffice, end the pyramid.
+        // If collapses did not reach the target, remove complete components; if removals do not suffice, end the
+        // pyramid.
         const bool tooMany = s.liveFaces > max || isJustAbove(s.liveFaces, options.minTriangles);
         if (tooMany || manyAreSmallest(s)) {
             findComponents(s, triangles);

@@ -45,8 +45,8 @@ struct SimplifyOptions {
     // If not empty, levels are not made by halving the triangles: each entry is the fraction of the mesh's vertex
     // positions that one level keeps, in decreasing order. Vertices at the same position count once.
     std::vector<double> vertexShares = {};
-    // Called repeatedly on the calling thread with the fraction of the triangles removed so far, in [0, 1]. May be
-    // empty.
+    // Called repeatedly on the calling thread of simplify() with the fraction of the triangles removed so far, in [0,
+    // 1]. May be empty.
     std::function<void(double)> lost = {};
 };
 
@@ -75,8 +75,8 @@ struct Simplification {
 
 // Makes levels with half the triangles each, or with the fractions of vertices in `options.vertexShares`. Ends where
 // the next level would save less than a quarter of the triangles. Calls take(l, level) once for each level l = 0 …
-// levelCount − 1, on the thread of `tasks` that computed the level's anchors. The last calls may come after the
-// function returns: the caller must call tasks.wait(). Until then, `smoothing` and `vertices` must stay alive.
+// levelCount − 1, on the thread of `tasks` that computed the level's anchors. The last calls may come after simplify()
+// returns: the caller must call tasks.wait(). Until then, `smoothing` and `vertices` must stay alive.
 Simplification simplify(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
                         const TriangleSet<MeshVertexNumber>& triangles, const SimplifyOptions& options, Tasks& tasks,
                         const std::function<void(std::uint32_t, SimplifiedLevel)>& take);

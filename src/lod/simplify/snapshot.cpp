@@ -1,5 +1,5 @@
-// Copies a level between collapses: the mesh vertices at its corners, and the position of each mesh vertex on the level
-// (anchor).
+// Copies a level between collapses: the mesh vertices at its corners, and for each mesh vertex the closest point of the
+// level (anchor).
 
 #include <algorithm>
 #include <array>
@@ -27,7 +27,7 @@ namespace {
 // Min length of the mean of the unit face normals around a wedge, weighted by corner angle. A wedge with a shorter mean
 // is split. The tip of a cone of 60° is not split.
 constexpr double minResultant = 0.5;
-constexpr int rounds = 3;  // iterations of k-means with two clusters
+constexpr int rounds = 3;  // iterations of k-means with two clusters of face normals
 
 struct CornerNormal {
     TriangleCorner corner;
@@ -84,8 +84,8 @@ std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
     }
     if (glm::length(sum) >= minResultant * angles) return corners.size();
 
-    // k-means with two clusters, started from the corner with the largest angle and the corner that faces away from it
-    // most.
+    // Divide the face normals by k-means with two clusters. Start from the normal with the largest corner angle and
+    // from the normal that differs most from it.
     const auto longer = [](const CornerNormal& a, const CornerNormal& b) {
         return glm::dot(a.normal, a.normal) < glm::dot(b.normal, b.normal);
     };
@@ -178,9 +178,10 @@ Creases creases(Simplifier& s, const Corners& corners) {
 // face starts at the vertex onto which a removed vertex has collapsed.
 
 constexpr std::size_t maxSteps = 12;          // max number of vertices visited on the way to the closest face
-constexpr std::size_t maxFacesAround = 1024;  // the search skips vertices with more faces
+constexpr std::size_t maxFacesAround = 1024;  // the search skips vertices with more faces around them
 constexpr double noDistance = 1e-24;          // squared distance below which a mesh of size 1 has only rounding errors
-// A point lies above a face if the squared cosine between the face's normal and the offset to the point exceeds this.
+// A point lies perpendicularly above a face if the squared cosine between the face's normal and the offset to the point
+// exceeds this value.
 constexpr double minUpright = 0.99;
 // Min number of mesh vertices per remaining vertex whose closest point on the level is searched. If many mesh vertices
 // collapsed onto a vertex, the search is made only for every second, fourth, … of them.
@@ -189,7 +190,7 @@ constexpr std::uint32_t enoughAnchors = 16;
 // The level's faces, and the face corners around each vertex.
 struct FaceRings {
     const Snapshot& level;
-    Numbered<VertexHandle, glm::dvec3> points;     // positions in units of the frame
+    Numbered<VertexHandle, glm::dvec3> points;     // positions on the mesh scaled to unit size
     Numbered<TriangleNumber, glm::dvec3> normals;  // face normals with twice the area as length
     Buckets<VertexHandle, TriangleCorner> around;
 
@@ -284,8 +285,8 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, VertexHandle star
     return result;
 }
 
-// Returns a stride n for each vertex of the level. Of the mesh vertices that collapsed onto it, every n-th gets its own
-// anchor (closest point on the level).
+// Returns a stride n for each vertex of the level. Of the mesh vertices that collapsed onto the level's vertex, every
+// n-th gets its own anchor (closest point on the level).
 Numbered<VertexHandle, std::uint32_t> anchorStrides(const Origin& origin, const Snapshot& level) {
     Numbered<VertexHandle, std::uint32_t> strides(level.positions.size(), 0);
     for (const SurfaceVertexNumber v : origin.firstVertex)

@@ -22,9 +22,9 @@ struct Origin {
     const Vertices& vertices;
     const VertexGroups& smoothing;
     Frame frame;
-    // First surface vertex of each mesh vertex; invalid if no face uses the mesh vertex.
+    // For each mesh vertex, the first surface vertex at which faces use it; invalid if no face uses the mesh vertex.
     Numbered<MeshVertexNumber, SurfaceVertexNumber> firstVertex;
-    Numbered<MeshVertexNumber, PrimitiveNumber> firstPrimitive;  // primitive of the mesh vertex's first face
+    Numbered<MeshVertexNumber, PrimitiveNumber> firstPrimitive;  // primitive of each mesh vertex's first face
     Numbered<SurfaceVertexNumber, PositionNumber> places;
 };
 
@@ -35,11 +35,11 @@ struct Component {
     // replaces.
     double area = 0;
     PrimitiveNumber primitive;  // primitive of one of the component's faces
-    std::size_t faces = 0;      // number of remaining faces
+    std::size_t faces = 0;      // number of remaining faces of the component
     // Number of vertices with a good or poor collapse (classes of simplify.h), according to the tests made so far.
     std::size_t harmless = 0;
     bool spent = false;     // true as soon as `harmless` has reached 0
-    bool standsIn = false;  // the component replaces removed components
+    bool standsIn = false;  // the component grows to replace removed components
     bool removed = false;
 };
 
@@ -67,7 +67,7 @@ struct Simplifier {
     Numbered<ComponentNumber, Component>
         components;              // empty until few faces are left or many components have reached their min size
     double area = 0;             // total area of the components, object units squared
-    bool grows = false;          // some components grow to replace removed ones
+    bool grows = false;          // true if some components grow to replace removed ones
     std::size_t spentFaces = 0;  // remaining faces of spent components
     double spentArea = 0;        // area of the remaining spent components, object units squared
 
@@ -76,22 +76,23 @@ struct Simplifier {
     [[nodiscard]] VertexHandle& survivor(VertexHandle v) { return survivors[v]; }
 };
 
-// Builds the manifold of the mesh and its quadrics, without candidates for collapses (setup.cpp). If all triangles are
-// degenerate, Simplifier::mesh stays empty.
+// Builds the manifold of the mesh and its quadrics (setup.cpp); candidates for collapses are set later. If all
+// triangles are degenerate, Simplifier::mesh stays empty.
 void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPositions& positions,
                        const VertexGroups& smoothing, const TriangleSet<MeshVertexNumber>& triangles);
 
 // Classifies the effect of a collapse on the surrounding faces and their wedges; ignores the topology (collapse.cpp).
 Fit judgeFaces(Simplifier& s, HalfedgeHandle along);
-// Like judgeFaces(), but returns Fit::impossible if the topology forbids the collapse. The topology is tested last, and
-// only if the collapse is not worse than `worst`. The test is slow: is_collapse_ok contains assertions, which are
-// active in Debian's OpenMesh.
+// Classifies a collapse like judgeFaces(), but returns Fit::impossible if the topology forbids it. The topology is
+// tested last, and only if the collapse is not worse than `worst`. The test is slow: is_collapse_ok contains
+// assertions, which are active in Debian's OpenMesh.
 Fit judgeCollapse(Simplifier& s, HalfedgeHandle along, Fit worst);
-// Collapses the half-edge and notifies the modules. The topology must allow the collapse.
+// Collapses the half-edge and notifies the collapse modules. The topology must allow the collapse.
 void collapseEdge(Simplifier& s, HalfedgeHandle along);
-// Returns the vertex that finally replaces `v`; `v` itself if not deleted, invalid if its component was removed.
+// Returns the vertex onto which `v` has collapsed directly or indirectly; `v` itself if it is not deleted, invalid if
+// its component was removed.
 VertexHandle survivorOf(Simplifier& s, VertexHandle v);
-// Removes deleted elements from the mesh, renumbers the others in the same order, and frees the memory.
+// Removes deleted elements from the mesh, renumbers the other elements in the same order, and frees the memory.
 void compact(Simplifier& s);
 
 // Returns whether all faces are connected through shared vertices (components.cpp). Separate vertices at the same
@@ -100,16 +101,17 @@ bool isConnected(const Simplifier& s);
 // Returns whether more than a quarter of the faces are isolated triangles or belong to tetrahedra. No collapse can
 // simplify these faces further.
 bool manyAreSmallest(const Simplifier& s);
-// Finds the components of the remaining mesh. Further calls have no effect.
+// Finds the components (connected parts) of the remaining mesh, unless they are already known.
 void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangles);
 // Marks the component of the vertex as spent (simplify.h), because no good or poor collapse is left in it.
 void spend(Simplifier& s, VertexHandle v);
-// Returns the number of faces on `area` if `faces` faces were distributed evenly over the area of the mesh.
+// Returns the number of faces that would lie on `area` if `faces` faces were distributed evenly over the area of the
+// mesh.
 double evenShare(const Simplifier& s, double area, std::size_t faces);
 // Returns whether a collapse of the vertex, of class `fit` (good, poor or bad), must be skipped while simplifying to
-// `target` faces. A bad collapse is skipped if its component would fall below its even share of these faces
-// (evenShare). Other collapses are restricted only if spent components own more than half of these faces. The other
-// components must then keep the fraction `share` of their even share.
+// `target` faces. A bad collapse is skipped if the vertex's component would fall below its even share of `target`
+// (evenShare). Good and poor collapses are restricted only if spent components own more than half of `target`. The
+// other components must then keep the fraction `share` of their even share.
 bool isKept(const Simplifier& s, VertexHandle v, Fit fit, std::size_t target, double share);
 // Removes complete components (connected parts) until `target` faces are left or no further component may be removed.
 void removeComponents(Simplifier& s, std::size_t target);
@@ -126,9 +128,9 @@ struct Snapshot {
     Numbered<SurfaceVertexNumber, VertexHandle> nearest;  // copy of Simplifier::current
     std::vector<MeshVertexNumber> twins;
     std::vector<MeshVertexNumber> behind;               // vertices of `drawn` on the back of a thin plate; sorted
-    std::vector<Ball> removed;                          // see SimplifiedLevel::removed
-    Numbered<ComponentNumber, Growth> growths;          // see LevelMesh::growths
-    Numbered<VertexHandle, ComponentNumber> growthsOf;  // LevelMesh::growthsOf; empty if no component grows
+    std::vector<Ball> removed;                          // value of SimplifiedLevel::removed
+    Numbered<ComponentNumber, Growth> growths;          // value of LevelMesh::growths
+    Numbered<VertexHandle, ComponentNumber> growthsOf;  // component of each vertex; empty if no component grows
 };
 
 // Copies the current level (snapshot.cpp). compact() must have been called.

@@ -30,7 +30,7 @@ std::size_t number(Numbered<Handle, Handle>& numbers, std::size_t count, const I
     return static_cast<std::size_t>(next);
 }
 
-// Removes the wedges that no remaining corner uses. Returns the new number of each wedge.
+// Removes the wedges (vertices) that no remaining face corner uses. Returns the new number of each wedge.
 Numbered<WedgeNumber, WedgeNumber> keepDrawnWedges(SurfaceMesh& mesh) {
     Numbered<WedgeNumber, WedgeNumber> numbers(mesh.wedges.size());
     forEachFace(mesh, [&](FaceHandle face) {

@@ -31,10 +31,10 @@ using OpenMesh::VertexHandle;
 
 // Maps the mesh to unit size, so that weights are independent of its scale.
 struct Frame {
-    glm::dvec3 centre{0};  // object units
+    glm::dvec3 centre{0};  // centre of the mesh's bounding box, object units
     double inverse = 0;    // 1 / longest side of the mesh's bounding box; 0: the mesh has no extent
 
-    // Converts a position from object units to the frame.
+    // Converts a position from object units to the unit-size mesh.
     [[nodiscard]] glm::dvec3 point(const glm::vec3& position) const {
         return (glm::dvec3(position) - centre) * inverse;
     }
@@ -44,15 +44,14 @@ struct Frame {
     }
 };
 
-// Class of a collapse. Collapses of a worse class wait until no collapse of a better class is left; simplify.h defines
-// poor and bad.
+// Class of a collapse. A collapse waits until no collapse of a better class is left; simplify.h defines the classes.
 enum class Fit : std::uint8_t { good, poor, bad, impossible };
 
 // The planned collapse of a vertex, which removes the vertex.
 struct Candidate {
     HalfedgeHandle along;  // leads to the surviving vertex; invalid: no collapse is possible
     float cost = std::numeric_limits<float>::infinity();
-    Fit fit = Fit::good;    // worst class found by the tests made so far
+    Fit fit = Fit::good;    // worst class found by the tests of the collapse made so far
     bool outdated = false;  // the cost has changed, or another collapse may be cheaper
 
     [[nodiscard]] bool possible() const { return along.is_valid(); }
@@ -93,7 +92,7 @@ public:
     SurfaceMesh(const SurfaceMesh&) = delete;
     SurfaceMesh& operator=(const SurfaceMesh&) = delete;
 
-    // Creates the given numbers of elements (at least one of each). This is the only way to create elements.
+    // Creates the given numbers of elements (at least one of each kind). This is the only way to create elements.
     void resize(std::size_t vertexCount, std::size_t edgeCount, std::size_t faceCount) {
         using Kernel = OpenMesh::TriMesh_ArrayKernelT<SurfaceTraits>;
         Kernel::resize(vertexCount, edgeCount, faceCount);
@@ -134,7 +133,7 @@ private:
     const Point* positions_ = nullptr;
 };
 
-// OpenMesh's types of a collapse and of a decimater module.
+// OpenMesh's types for a collapse and for a module of its decimater.
 using CollapseInfo = OpenMesh::Decimater::CollapseInfoT<SurfaceMesh>;
 using CollapseModule = OpenMesh::Decimater::ModBaseT<SurfaceMesh>;
 
@@ -162,7 +161,7 @@ void forEachVertex(const SurfaceMesh& mesh, const Visit& visit) {
         if (mesh.isAlive(VertexHandle(v))) visit(VertexHandle(v));
 }
 
-// The three half-edges of a face, in order.
+// The three half-edges of a face, in the order of the face's corners.
 struct FaceCorners {
     HalfedgeHandle at[3];
 

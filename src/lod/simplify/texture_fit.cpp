@@ -15,7 +15,7 @@ namespace defocus::engine {
 namespace {
 
 // Max distance in texture space between a mesh vertex and its closest point on the level, relative to the longest side
-// of the level's triangle in texture space. A more distant vertex belongs to another chart.
+// of the level's triangle in texture space. A vertex at a greater distance belongs to another chart.
 constexpr float maxTextureGap = 0.5f;
 
 // Returns whether the displacement `gap` in texture space leads from a triangle with these corners to another chart.
@@ -78,7 +78,8 @@ TextureSums sumTextureGaps(const FitSource& source, const LevelMesh& level,
     return sums;
 }
 
-// Undoes changes that flip a triangle in texture space or change its area there by more than a factor of two.
+// Undoes changes of texture coordinates that flip a triangle in texture space or change its area there by more than a
+// factor of two.
 void keepTextureUpright(Numbered<UnknownNumber, glm::vec2>& fitted, const Numbered<UnknownNumber, glm::vec2>& original,
                         const LeastSquares& fit) {
     const auto areaOf = [&](const Numbered<UnknownNumber, glm::vec2>& uv, TriangleCorner first) {

@@ -36,7 +36,7 @@ inline glm::dvec2 closestCoordinates(const glm::dvec3& p, const glm::dvec3& a, c
     const double alongAcFromC = glm::dot(ac, p - c);
     if (alongAcFromC >= 0 && alongAbFromC <= alongAcFromC) return {0, 1};
 
-    // 4 · area(abc) · signed area(abp). If this product is ≤ 0, p lies beyond edge ab.
+    // overAb = 4 · area(abc) · signed area(abp). If this product is ≤ 0, p lies beyond edge ab.
     const double overAb = alongAbFromA * alongAcFromB - alongAbFromB * alongAcFromA;
     if (overAb <= 0 && alongAbFromA >= 0 && alongAbFromB <= 0) return {alongAbFromA / (alongAbFromA - alongAbFromB), 0};
     const double overAc = alongAbFromC * alongAcFromA - alongAbFromA * alongAcFromC;

@@ -15,7 +15,7 @@
 
 namespace defocus::engine {
 
-// `Vertex` is the type of vertex number stored at the corners.
+// `Vertex` is the type of the vertex numbers stored at the corners.
 template <typename Vertex>
 struct TriangleSet {
     Numbered<TriangleCorner, Vertex> indices;                       // three indices per triangle

@@ -30,13 +30,13 @@ constexpr float blurWeight = 0.02f;
 
 class WedgeTable {
 public:
-    // Creates one wedge per vertex with the vertex's weighted attributes. `uvScale` converts uv to lengths in the unit
-    // frame.
+    // Creates one wedge per vertex with the vertex's weighted attributes. `uvScale` converts texture coordinates to
+    // lengths on the mesh scaled to unit size.
     void assign(const Vertices& vertices, float uvScale);
     // Returns whether attributes vary over a face with these three wedges at its corners.
     [[nodiscard]] bool changes(const WedgeNumber* corners) const;
     // Gives each wedge an empty quadric. Must precede addFace(). `changing` tells for each wedge whether attributes
-    // vary over any of its faces.
+    // vary over any of the wedge's faces.
     void startQuadrics(const std::vector<bool>& changing);
     // Keeps only the wedges in `order` (ascending), and renumbers them.
     void keep(std::span<const WedgeNumber> order);
@@ -44,7 +44,8 @@ public:
     [[nodiscard]] std::size_t size() const { return sources_.size(); }
     // Returns the mesh vertex of the wedge.
     [[nodiscard]] MeshVertexNumber source(WedgeNumber w) const { return sources_[w.value]; }
-    // Returns the weighted attributes: normal, colour, blur and uv, without attributes that the mesh lacks.
+    // Returns the weighted attributes of the wedge: normal, colour, blur and uv, without attributes that the mesh
+    // lacks.
     [[nodiscard]] std::span<const float> row(WedgeNumber w) const {
         return {&rows_[w.value * attributeCount_], attributeCount_};
     }
@@ -54,7 +55,7 @@ public:
         const auto first = row(a);
         return std::equal(first.begin() + 3, first.end(), row(b).begin() + 3);
     }
-    // Returns the squared distance between two wedges in texture space, in units of the frame.
+    // Returns the squared distance between two wedges in texture space, scaled to lengths on the unit-size mesh.
     [[nodiscard]] double uvDifference(WedgeNumber a, WedgeNumber b) const;
     // Returns the dissimilarity of two wedges: the sum of the squared differences of normal, colour (times 4), blur
     // (times 4) and texture coordinates.
@@ -66,7 +67,8 @@ public:
     // Returns the cost of replacing the wedge `from` by the wedge `to`, whose position differs by `step`; never
     // negative.
     [[nodiscard]] float cost(WedgeNumber from, WedgeNumber to, const glm::vec3& step) const;
-    // Moves the quadric of the wedge `from` into the quadric of the wedge `to`, whose position differs by `step`.
+    // Adds the quadric of the wedge `from` to the quadric of the wedge `to`, whose position differs by `step`, and
+    // clears the quadric of `from`.
     void moveQuadric(WedgeNumber from, WedgeNumber to, const glm::vec3& step);
     // Prefetch the memory of a wedge: prefetchStart() for the argument `to` of cost(), prefetch() for moveQuadric().
     void prefetchStart(WedgeNumber w) const;
