@@ -26,7 +26,7 @@ namespace {
 constexpr std::string_view extension = ".pyramid";
 constexpr std::size_t keyDigits = 16;
 
-// Returns a file name that is a hash of the complete key. Program versions and options that differ therefore never
+// Returns a file name that is a hash of the complete key. Different program versions and options therefore never
 // overwrite each other's files.
 fs::path fileName(const PyramidKey& key) {
     const std::uint64_t rest[4] = {PyramidFileHeader::expectedVersion, key.options.minTriangles,

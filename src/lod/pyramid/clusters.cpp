@@ -86,7 +86,7 @@ void measureFacets(ClusterGrowth& g, const Numbered<LocalNumber, glm::vec3>& pos
 
 // Returns all corners of triangles at the vertex if there are at most maxNeighbours. Otherwise returns at most
 // maxNeighbours corners of unassigned triangles. Corners of assigned triangles are moved to the front of the vertex's
-// list, each only once.
+// list of corners, each only once.
 std::span<const TriangleCorner> someAround(ClusterGrowth& g, LocalNumber v) {
     const std::span<TriangleCorner> all = g.around[v];
     if (all.size() <= maxNeighbours) return all;

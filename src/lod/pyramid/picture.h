@@ -53,7 +53,8 @@ struct Picture {
     double sum = 0;           // sum over all cells of the mean of the three colour channels
 };
 
-// Renders pictures of one level after another, with one finish (simplified material) per primitive. Reuses its memory.
+// Renders pictures of one level after another, with one finish (simplified material) per primitive. Reuses memory from
+// level to level.
 class Painter {
 public:
     Painter(const Pyramid& pyramid, const Eye& eye, std::span<const Finish> finishes);

@@ -31,8 +31,9 @@ constexpr double minEdgeGrowth = 1.05;   // min ratio of the mean edge lengths o
 constexpr double minEdgeToError = 2;     // min ratio of a level's mean edge length to its error
 constexpr double minErrorGrowth = 1.25;  // min ratio of the errors of consecutive levels, from level 1 on
 constexpr double errorFloor = 1e-6;      // min error of level 1, relative to the bounding box's diagonal
-// Number of sample points on each surface for measuring the distance between a level and level 0. It equals the number
-// of triangles of the surface, within these bounds. Measuring then takes little time compared with simplification.
+// Min and max number of sample points on each surface for measuring the distance between a level and level 0. Between
+// these bounds, it equals the number of triangles of the surface, so that measuring takes little time compared with
+// simplification.
 constexpr std::size_t minErrorPoints = 256;
 constexpr std::size_t maxErrorPoints = 1024;
 constexpr double errorPercentile = 0.99;

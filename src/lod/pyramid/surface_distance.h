@@ -50,7 +50,7 @@ Surface prepareSurface(std::span<const glm::vec3> positions, const TriangleSet<V
 double distanceTo(const Surface& surface, const glm::dvec3& point);
 
 // Returns the distances from `count` points of `from` to the surface `to`. The area of `from` is divided into `count`
-// equal strata, with one point each. The R2 sequence places the point within its triangle. Returns an empty vector if
+// equal strata, with one point each. The R2 sequence places each point within its triangle. Returns an empty vector if
 // `from` is empty.
 std::vector<double> sampleDistances(const Surface& from, const Surface& to, std::size_t count);
 

@@ -93,7 +93,7 @@ private:
     std::vector<HalfedgeHandle> spokes_;  // half-edges of the vertex, used by cheapest()
 };
 
-// The modules that evaluate each collapse and its cost, and that update wedges and quadrics after it.
+// The modules that evaluate each collapse and its cost, and that update wedges and quadrics after the collapse.
 struct CollapseModules {
     explicit CollapseModules(SurfaceMesh& mesh) : shape(mesh), wedges(mesh), quadrics(mesh) {}
 

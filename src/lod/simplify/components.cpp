@@ -330,8 +330,9 @@ void removeComponents(Simplifier& s, std::size_t target) {
     std::vector<Removable> rest = removableComponents(s);
     const CentreTree tree(s.components);
 
-    // Process components of similar size together, the smallest first. A component that has replaced another is kept
-    // until all components of similar size have been considered. Removals are therefore spread evenly.
+    // Remove components of similar size together, the smallest first. A component that has grown in place of another
+    // component is kept until all components of similar size have been considered. Removals are therefore spread
+    // evenly.
     for (std::size_t begin = 0; begin < rest.size() && s.liveFaces > target;) {
         std::size_t end = begin;
         while (end < rest.size() && rest[end].size == rest[begin].size) ++end;

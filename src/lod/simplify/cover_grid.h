@@ -74,7 +74,7 @@ private:
     int resolution_;
     std::vector<std::int32_t> steps_;   // per cell, change of the number of covering triangles from the previous cell
     std::vector<std::uint64_t> edges_;  // one bit per cell, row by row; 1 if the cell's entry of `steps_` is used
-    int firstRow_, endRow_;             // range of rows with edges
+    int firstRow_, endRow_;             // range [firstRow_, endRow_) of rows with edges
 };
 
 }  // namespace defocus::engine

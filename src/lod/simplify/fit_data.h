@@ -16,7 +16,7 @@
 
 namespace defocus::engine {
 
-// The two texture coordinates of a vertex; zero for those that the mesh lacks.
+// Coordinates of a vertex in both UV sets; zero for a set that the mesh lacks.
 struct Coordinates {
     glm::vec2 uv0{0};
     glm::vec2 uv1{0};

@@ -38,8 +38,8 @@ constexpr double constraintSlack = 1e-3;
 
 // An edge between two vertex groups (vertices at one position), with up to two of its faces.
 struct Edge {
-    std::uint32_t a = 0, b = 0;  // vertex groups at the ends, a < b
-    std::uint32_t third = 0;     // vertex group at the first face's third corner
+    std::uint32_t a = 0, b = 0;  // numbers of the vertex groups at the edge's ends, a < b
+    std::uint32_t third = 0;     // vertex group at the third corner of the first face
     std::uint32_t face[2] = {0, 0};
     // Direction in which each face runs along the edge. 1: from a to b; −1: from b to a; 0: no face.
     std::int8_t way[2] = {0, 0};

@@ -42,7 +42,8 @@ bool endsAt(const Crosses& crosses, FaceHandle beyond) {
     return !(glm::dot(cross, cross) > 0);
 }
 
-// Returns the weight that a seam or border adds at half-edge `e`, on the side of the half-edge's face.
+// Returns the weight of the constraint at half-edge `e`, on the side of the half-edge's face, if the edge is a seam or
+// border; else 0.
 double seamConstraint(const SurfaceMesh& mesh, HalfedgeHandle e) {
     const HalfedgeHandle twin = mesh.opposite_halfedge_handle(e);
     if (mesh.is_boundary(twin) || mesh.primitive(mesh.face_handle(e)) != mesh.primitive(mesh.face_handle(twin)))

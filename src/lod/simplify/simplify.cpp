@@ -366,7 +366,7 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
         }
 
         // If many components (connected parts) are already as small as possible, too few faces may be left for the
-        // others. In that case, remove complete components before collapsing.
+        // other components. In that case, remove complete components before collapsing.
         if (s.liveFaces <= maxFacesToFollow && !isConnected(s)) findComponents(s, triangles);
         if (collapseFloor(s, target, minKeptShare) > max) {
             findComponents(s, triangles);

@@ -218,8 +218,8 @@ struct Closest {
     glm::dvec2 along{0};    // coordinates of the closest point along the edges to the next and the previous corner
 };
 
-// Returns the vertex of `face` nearest to `p` that is not in `seen` and has at most maxFacesAround faces; invalid if
-// there is none.
+// Returns the vertex of `face` nearest to `p` that is not in `seen` and has at most maxFacesAround faces around it;
+// invalid if there is none.
 VertexHandle nearestUnseen(const FaceRings& rings, TriangleNumber face, const glm::dvec3& p,
                            std::span<const VertexHandle> seen) {
     VertexHandle nearest;
