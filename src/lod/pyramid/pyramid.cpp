@@ -32,7 +32,7 @@ constexpr double minEdgeToError = 2;     // min ratio of a level's mean edge len
 constexpr double minErrorGrowth = 1.25;  // min ratio of the errors of consecutive levels, from level 1 on
 constexpr double errorFloor = 1e-6;      // min error of level 1, relative to the bounding box's diagonal
 // Min and max number of sample points on each surface for measuring the distance between a level and level 0. Between
-// these bounds, it equals the number of triangles of the surface, so that measuring takes little time compared with
+// these bounds, one point per triangle of the surface is used, so that measuring takes little time compared with
 // simplification.
 constexpr std::size_t minErrorPoints = 256;
 constexpr std::size_t maxErrorPoints = 1024;

@@ -102,7 +102,7 @@ VertexGroups smoothingGroups(const std::vector<glm::vec3>& normals, const Welded
     const Numbered<MeshVertexNumber, PositionNumber>& at = positions.id;
     VertexGroups groups(normals.size());
     for (const MeshVertexNumber v : groups.numbers()) groups[v] = v;
-    Numbered<PositionNumber, std::uint8_t> met(positions.first.size(), 0);  // vertices per position, at most 2
+    Numbered<PositionNumber, std::uint8_t> met(positions.first.size(), 0);  // vertex count per position, clamped to 2
     for (const PositionNumber position : at) met[position] = met[position] == 0 ? 1 : 2;
     std::vector<MeshVertexNumber> order;
     for (const MeshVertexNumber v : groups)
