@@ -10,7 +10,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr float rimHalfThickness = 0.0013f;  // half thickness in body lengths
+constexpr float rimHalfThickness = 0.0013f;  // half the thickness at a fin's edge, body lengths
 constexpr float rootHalfThickness = 0.007f;
 constexpr float rayRelief = 0.0018f;
 
@@ -23,14 +23,14 @@ float rayLength(const std::array<float, 6>& heights, float t) {
     const float p2 = at(i + 1);
     const float p3 = i + 2 > 5 ? 2.0f * at(5) - at(4) : at(i + 2);
     const float f = x - static_cast<float>(i);
-    // Interpolate the lengths with a Catmull-Rom spline.
+    // Interpolate the fin ray lengths with a Catmull-Rom spline.
     const float length =
         p1 + 0.5f * f * (p2 - p0 + f * (2.0f * p0 - 5.0f * p1 + 4.0f * p2 - p3 + f * (3.0f * (p1 - p2) + p3 - p0)));
     return std::max(length, 0.0f);
 }
 
-// Returns a cosine wave over the position t across the fin (0 at the first fin ray, 1 at the last). The wave is 1 on
-// each fin ray and 0 halfway between two fin rays; `rays` is the number of its periods.
+// Returns a cosine wave over the position t across a fin (0 at the first fin ray, 1 at the last). The wave is 1 on each
+// fin ray and 0 halfway between two fin rays; `rays` is the number of periods.
 float rayWave(float t, int rays) {
     return 0.5f + 0.5f * std::cos(2.0f * std::numbers::pi_v<float> * t * static_cast<float>(rays));
 }
@@ -131,7 +131,7 @@ float halfThickness(const Fin& fin, float t, float r) {
     return rimHalfThickness + root + rayRelief * ends * rayWave(t, fin.rays) * (1.0f - 0.7f * r);
 }
 
-// Returns the length of the vertex row at position `at` (see FinRows).
+// Returns the length of a fin's vertex row at position `at` (see FinRows).
 float rowLength(const Fin& fin, float at) {
     constexpr int pieces = 24;
     float sum = 0.0f;
@@ -145,8 +145,8 @@ float rowLength(const Fin& fin, float at) {
     return sum;
 }
 
-// Returns the distance between the vertex rows at positions `from` and `to`, perpendicular to the rows. The distance
-// varies along the rows, because they diverge like a fan; several distances are averaged.
+// Returns the distance between a fin's vertex rows at positions `from` and `to`, perpendicular to the rows. The
+// distance varies along the rows, because they diverge like a fan; several distances are averaged.
 float rowGap(const Fin& fin, float from, float to) {
     float sum = 0.0f;
     constexpr std::array<float, 3> places{0.15f, 0.45f, 0.8f};
@@ -200,7 +200,7 @@ FinRows finRows(const Fin& fin, float edge) {
 void addFin(const Fin& fin, const FinRows& rows, const FishPattern& pattern, FishSurface& surface) {
     const auto first = static_cast<std::uint32_t>(surface.positions.size());
     std::vector<VertexRow> strips;
-    std::vector<glm::vec3> halves;  // half the thickness at each vertex, as a vector to the front side
+    std::vector<glm::vec3> halves;  // per vertex, vector from the fin's middle to its front side
     for (std::size_t row = 0; row < rows.at.size(); ++row) {
         const std::uint32_t count = rows.counts[row];
         strips.push_back({first + static_cast<std::uint32_t>(halves.size()), count, 0.0f});
@@ -210,7 +210,7 @@ void addFin(const Fin& fin, const FinRows& rows, const FishPattern& pattern, Fis
             const float t = fin.rowsAlongRays ? rows.at[row] : along;
             const float r = fin.rowsAlongRays ? along : rows.at[row];
             const FinRay ray = fin.rowsAlongRays ? shared : fin.ray(t);
-            // The front normal is the cross product of the derivatives across the rows and along the row.
+            // The normal of the fin's front is the cross product of the derivatives across the rows and along the row.
             constexpr float step = 0.004f;
             const float tStep = t + step > 1.0f ? -step : step;
             const float rStep = r + step > 1.0f ? -step : step;

@@ -1,6 +1,6 @@
 #pragma once
-// Fish fins: thin closed shells spanned by fin rays. Each fin ray is a quadratic Bézier curve from the body to the
-// fin's edge.
+// Creates the fins of a fish: thin closed shells spanned by fin rays. Each fin ray is a quadratic Bézier curve from the
+// body to the fin's edge.
 
 #include <cstdint>
 #include <functional>
@@ -18,16 +18,17 @@ struct FinRay {
 
 struct Fin {
     FinKind kind = FinKind::dorsal;
-    std::function<FinRay(float t)> ray;    // t in [0, 1] from the first to the last fin ray
-    glm::vec3 sideways{0.0f, 0.0f, 1.0f};  // direction in which the fin ripples
+    std::function<FinRay(float t)> ray;    // returns the fin ray at t in [0, 1], from the first to the last
+    glm::vec3 sideways{0.0f, 0.0f, 1.0f};  // unit direction in which the fin ripples
     float ripple = 0.02f;
     float phase = 0.0f;
     int rays = 20;
     bool rowsAlongRays = false;  // true: vertex rows follow the fin rays, for long low fins; false: rows cross the rays
 };
 
-// Vertex rows of a fin. If rows follow the fin rays, `at` is the position t of each row across the fin. Otherwise, `at`
-// is the row's fraction r of the distance from root to edge. `counts` holds the number of vertices of each row.
+// Vertex rows of a fin. If rows follow the fin rays, `at` holds the position t of each row across the fin. If rows
+// cross the rays, `at` holds each row's fraction r of the distance from root to edge. `counts` holds the number of
+// vertices of each row.
 struct FinRows {
     std::vector<float> at;
     std::vector<std::uint32_t> counts;

@@ -1,6 +1,6 @@
-// Fish school modelled on the test scene of Jeong, Kim and Lee, Multi-Resolution Depth-of-Field Rendering (2011):
-// twenty fish at depths of about one to eight metres. The first twenty are placed by hand; further fish are scattered
-// behind and among them.
+// Places the fish of the school, its camera and its lights. The school is modelled on the test scene of Jeong, Kim and
+// Lee, Multi-Resolution Depth-of-Field Rendering (2011): twenty fish at depths of about one to eight metres. The first
+// twenty fish are placed by hand; further fish are scattered behind and among them.
 
 #include "school/fish_school.h"
 
@@ -24,8 +24,9 @@ constexpr int minimumTriangles = 200;
 constexpr int maximumTriangles = 10'000'000;
 constexpr std::int64_t maximumTotal = 400'000'000;  // max triangles of a school, about 10 GB of memory
 
-// Camera: 50 mm lens at f/0.95 on a 36 mm sensor, focused at 2 m. The CoC diameter at 1024 px width is 74.9 px · |1/2 −
-// 1/z|, z in m. It is 37 px at 1 m, under 2 px from 1.90 to 2.11 m, and at most 37 px behind the focus.
+// Camera: 50 mm lens at f/0.95 on a 36 mm wide sensor, focused at 2 m. The CoC diameter in an image 1024 px wide is
+// 74.9 px · |1/2 − 1/z| for a depth of z m. It is 37 px at 1 m, under 2 px from 1.90 to 2.11 m, and at most 37 px
+// behind the focus plane.
 constexpr double horizontalAperture = 36.0;
 constexpr double fStop = 0.95;
 constexpr double focusDistance = 2.0;
@@ -37,8 +38,8 @@ struct Placement {
     FishSpecies species;
     int variant;
     double x, y;        // image position in [−1, 1]; +x right, +y up
-    double depth;       // m
-    float length;       // length in m, without the tail fin
+    double depth;       // distance from the camera along its axis, m
+    float length;       // body length in m, without the tail fin
     double yaw, pitch;  // degrees; yaw 0: swims to the right, yaw > 0: towards the camera, pitch > 0: upwards
 };
 
@@ -78,8 +79,8 @@ glm::dvec3 worldPosition(const Placement& fish) {
            glm::dvec3(fish.x * tanHalfWidth * fish.depth, fish.y * tanHalfHeight * fish.depth, -fish.depth);
 }
 
-// Scatters further fish over the view behind the focus plane until the school has `count` fish. Fish do not overlap;
-// the depth range grows with each position that is rejected.
+// Adds fish at random positions behind the focus plane until the school has `count` fish. Fish do not overlap; the
+// depth range grows with each position that is rejected.
 void scatter(std::size_t count, std::uint32_t seed, std::vector<Placement>& school) {
     std::vector<glm::dvec3> centres;
     centres.reserve(count);
@@ -131,7 +132,8 @@ void addCamera(Scene& scene) {
     addNode(std::move(node), scene);
 }
 
-// Adds a directional light along `direction` in camera coordinates. A glTF light shines along its node's −z axis.
+// Adds a directional light along `direction` in camera coordinates. In glTF, a directional light shines along its
+// node's −z axis.
 void addSun(const std::string& name, const glm::vec3& color, float lux, const glm::dvec3& direction, Scene& scene) {
     Light light;
     light.name = name;
@@ -190,7 +192,7 @@ Scene fishSchool(const FishSchoolOptions& options, const Progress& progress) {
     checkOptions(options);
     const auto count = static_cast<std::size_t>(options.fishCount);
 
-    // Place the fish.
+    // Determine the positions of the fish.
     std::vector<Placement> school(
         composition.begin(), composition.begin() + static_cast<std::ptrdiff_t>(std::min(count, composition.size())));
     if (count > school.size()) scatter(count, options.seed, school);

@@ -1,6 +1,6 @@
 #pragma once
-// Built-in scene: a school of fish modelled on the scene of Jeong, Kim and Lee 2011. Each fish has a unique mesh with
-// its own shape, fins, scales and pattern. The generator is deterministic and needs no file.
+// Generates the built-in scene: a school of fish modelled on the scene of Jeong, Kim and Lee 2011. Each fish has a
+// unique mesh with its own shape, fins, scales and pattern. The generator is deterministic and needs no file.
 
 #include <cstdint>
 

@@ -13,21 +13,21 @@ namespace defocus::engine {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr float eyeEdge = 0.75f;  // edge length in the eyes relative to the body; shorter for crisp pupils
+constexpr float eyeEdge = 0.75f;  // edge length in the eyes relative to edges of the body; shorter for crisp pupils
 
-// ---- body ------------------------------------------------------------------------------------------
+// ---- body of the fish ------------------------------------------------------------------------------
 
 struct Rings {
-    std::vector<float> at;  // position of each ring; body: position `a`, eye: angle from the pole
+    std::vector<float> at;  // position of each ring of vertices; body: 0 (snout) to 1 (tail), eye: angle from the pole
     std::vector<std::uint32_t> counts;
 };
 
-float ellipsePerimeter(float p, float q) {  // approximation by Ramanujan, 1914
+float ellipsePerimeter(float p, float q) {  // approximation by Ramanujan, 1914; p, q: semi-axes
     return pi * (3.0f * (p + q) - std::sqrt((3.0f * p + q) * (p + 3.0f * q)));
 }
 
 Rings bodyRings(const FishShape& shape, float edge) {
-    // Tabulate the distance from the snout along the skin, averaged over back, belly and flank. Steps are finer at the
+    // Tabulate the distance along the skin from the snout, averaged over back, belly and flank. Steps are finer at the
     // round snout.
     constexpr int pieces = 400;
     std::vector<float> distance{0.0f};
@@ -63,7 +63,8 @@ Rings bodyRings(const FishShape& shape, float edge) {
     return rings;
 }
 
-// Maps fractions of a body section's perimeter to angles, from the back down the left flank and up the right one.
+// Maps fractions of the perimeter of a body's cross-section to angles, from the back down the left flank and up the
+// right flank.
 class Girth {
 public:
     explicit Girth(const FishSection& section) {
@@ -74,7 +75,7 @@ public:
             length_[i] = length_[i - 1] + 0.5f * pi / static_cast<float>(quarter) * std::sqrt(dy * dy + dz * dz);
         }
     }
-    // Returns the angle at `fraction` (0 to 1) of the perimeter.
+    // Returns the angle at the fraction `fraction` (0 to 1) of the perimeter.
     [[nodiscard]] float angle(float fraction) const {
         const float turns = 4.0f * fraction;
         const float quadrant = std::floor(turns);
@@ -102,7 +103,7 @@ void addBody(const Fish& fish, const Rings& rings, float edge, FishSurface& surf
         const float a = rings.at[ring];
         const FishSection section = fishSection(shape, a);
         const Girth girth(section);
-        // The normals need the slope along the body, which comes from neighbouring sections.
+        // Normals need the slope of the skin along the body, which comes from the neighbouring cross-sections.
         const float reach = std::min(0.004f, 0.4f * std::min(a, 1.0f - a));
         const FishSection ahead = fishSection(shape, a - reach);
         const FishSection behind = fishSection(shape, a + reach);
@@ -134,7 +135,7 @@ void addBody(const Fish& fish, const Rings& rings, float edge, FishSurface& surf
     capRing(rows.back(), end, true, surface.indices);
 }
 
-// ---- eyes ------------------------------------------------------------------------------------------
+// ---- eyes of the fish ------------------------------------------------------------------------------
 
 Rings eyeRings(const FishShape& shape, float edge) {
     const float radius = shape.eyeRadius;
@@ -184,7 +185,7 @@ void addEye(const Fish& fish, const Rings& rings, float side, FishSurface& surfa
     capRing(rows.back(), end, true, surface.indices);
 }
 
-// ---- complete fish ---------------------------------------------------------------------------------
+// ---- layout of vertex rows for the complete fish -------------------------------------------------
 
 struct Layout {
     float edge = 0;
@@ -204,8 +205,8 @@ Layout layout(const FishShape& shape, const std::vector<Fin>& fins, float edge) 
     return result;
 }
 
-// Returns the layout whose triangle count is closest to `triangles`. The count is inversely proportional to the squared
-// edge length.
+// Returns the layout of vertex rows whose triangle count is closest to `triangles`. The count is inversely proportional
+// to the squared edge length.
 Layout layoutFor(const FishShape& shape, const std::vector<Fin>& fins, int triangles) {
     const auto wanted = static_cast<double>(triangles);
     Layout best = layout(shape, fins, static_cast<float>(1.6 / std::sqrt(wanted)));

@@ -1,6 +1,6 @@
 #pragma once
-// Mesh of one fish with vertex colours. The body, each fin and both eyes are closed surfaces with triangles of similar
-// size.
+// Generates the mesh of one fish with vertex colours. The body, each fin and both eyes are closed surfaces with
+// triangles of similar size.
 
 #include <cstdint>
 #include <string>
@@ -22,7 +22,8 @@ struct Fish {
 // (`eyeMaterial`). Units are metres. The origin lies inside the fish, the head points to +x, the back to +y.
 Mesh fishMesh(const Fish& fish, int triangles, int skinMaterial, int eyeMaterial);
 
-// Surface of a fish during assembly: not yet bent, in body lengths. Shared by mesh.cpp and fins.cpp.
+// Surface of a fish under construction: the fish is straight, and lengths are in body lengths. Shared by mesh.cpp and
+// fins.cpp.
 struct FishSurface {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec4> colors;

@@ -10,9 +10,9 @@
 namespace defocus::engine {
 namespace {
 
-constexpr float softness = 0.012f;  // half width of a soft colour border in body lengths, a few mesh edges
+constexpr float softness = 0.012f;  // half the width of a soft colour border in body lengths, a few mesh edges
 
-// Returns 1 for |distance| < halfWidth and 0 outside, with a soft transition.
+// Returns 1 for |distance| < halfWidth and 0 elsewhere, with a soft transition of half width `soft`.
 float painted(float distance, float halfWidth, float soft = softness) {
     return 1.0f - glm::smoothstep(halfWidth - soft, halfWidth + soft, std::abs(distance));
 }
@@ -82,7 +82,7 @@ glm::vec3 skinColor(const FishPattern& pattern, const FishShape& shape, const Fi
     const float height = point.height;
     const float wobble = 2.0f * valueNoise({7.0f * a, 7.0f * y}, pattern.seed + 5u) - 1.0f;
 
-    // Apply countershading from the dark back to the pale belly, then the colours of the rear half and the face.
+    // Apply countershading from the dark back to the pale belly, then the colours of the rear part and the face.
     glm::vec3 color = glm::mix(pattern.flank, pattern.back, glm::smoothstep(0.05f, 0.95f, height + 0.1f * wobble));
     const float bellyAmount =
         1.0f - glm::smoothstep(pattern.bellyEdge - 0.45f, pattern.bellyEdge + 0.3f, height + 0.1f * wobble);
@@ -100,7 +100,7 @@ glm::vec3 skinColor(const FishPattern& pattern, const FishShape& shape, const Fi
     const float nearMouth = 1.0f - glm::smoothstep(0.4f, 1.3f, a / std::max(shape.mouthLength, 0.02f));
     color = glm::mix(color, pattern.lips, pattern.lipsAmount * nearMouth);
 
-    // The body blends into the tail fin's colour at the tail.
+    // At the tail, the body's colour blends into the tail fin's colour.
     color = glm::mix(color, pattern.caudalRoot, glm::smoothstep(0.905f, 0.95f, a + 0.008f * wobble));
 
     // Apply the scale relief: each scale has its own brightness and a pale rim; grooves are dark.

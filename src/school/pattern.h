@@ -1,5 +1,5 @@
 #pragma once
-// Colours of a fish's skin and fins, in linear Rec.709.
+// Computes the colours of a fish's skin, fins and eyes from a pattern. Colours are in linear Rec. 709.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -9,21 +9,21 @@
 
 namespace defocus::engine {
 
-struct FishBand {  // band around the body
+struct FishBand {  // coloured band around the fish's body; lengths are in body lengths
     float a = 0.5f;
     float halfWidth = 0.05f;
-    float bow = 0.0f;    // curvature: shift of the band towards the tail at back and belly
-    float slant = 0.0f;  // shift of the band towards the tail at the back, towards the head at the belly
+    float bow = 0.0f;    // shift towards the tail at back and belly, relative to mid-height
+    float slant = 0.0f;  // tilt: shift towards the tail at the back, and towards the head at the belly
     glm::vec3 color{0.0f};
     glm::vec3 rim{0.0f};
     float rimWidth = 0.0f;
 };
 
-struct FishStripes {      // stripes along the body
+struct FishStripes {      // coloured stripes along the fish's body
     float count = 0.0f;   // number of stripes over the body's height; 0: none
     float share = 0.45f;  // painted fraction of a stripe's period
     float slant = 0.0f;   // rise of the stripes towards the tail, in half body heights per body length
-    float wave = 0.0f;    // amplitude of the stripes' waviness, in stripe periods
+    float wave = 0.0f;    // amplitude of random waviness, in stripe periods
     float from = 0.3f;
     float to = 1.0f;
     glm::vec3 color{0.0f};
@@ -31,10 +31,10 @@ struct FishStripes {      // stripes along the body
 
 struct FishSpots {
     float size = 0.0f;    // distance between spots in body lengths; 0: no spots
-    float radius = 0.3f;  // radius relative to `size`
+    float radius = 0.3f;  // spot radius relative to `size`
     float from = 0.3f;
     float to = 1.0f;
-    float lowest = -1.0f;  // lowest height of spots, from −1 at the belly to 1 at the back
+    float lowest = -1.0f;  // min height of spots, from −1 at the belly to 1 at the back
     float highest = 1.0f;
     glm::vec3 color{0.0f};
     glm::vec3 halo{0.0f};
@@ -46,8 +46,8 @@ struct FishPattern {
     glm::vec3 flank{0.5f};
     glm::vec3 belly{0.8f};
     float bellyEdge = -0.35f;  // upper edge of the belly colour, from −1 at the belly to 1 at the back
-    glm::vec3 rear{0.5f};      // colour of the rear half
-    float rearStart = 2.0f;    // position along the body, from 0 at the snout to 1 at the tail; above 1: no rear colour
+    glm::vec3 rear{0.5f};      // colour of the rear part of the body
+    float rearStart = 2.0f;    // start of the rear colour along the body, 0 (snout) to 1 (tail); above 1: none
     float rearSoftness = 0.15f;
     float rearSlant = 0.0f;
     glm::vec3 face{0.5f};
@@ -57,16 +57,16 @@ struct FishPattern {
     std::vector<FishBand> bands;
     FishStripes stripes;
     FishSpots spots;
-    glm::vec3 scaleEdge{1.0f};  // colour of the pale rims of scales
+    glm::vec3 scaleEdge{1.0f};  // colour of the pale rims of fish scales
     float scaleEdgeAmount = 0.12f;
     float scaleVariation = 0.06f;
-    glm::vec3 medianRoot{0.5f};  // colour of dorsal and anal fin at the root
+    glm::vec3 medianRoot{0.5f};  // colour of dorsal and anal fin at the fin's root
     glm::vec3 medianEdge{0.5f};
-    glm::vec3 medianRim{0.5f};  // colour of a thin line along the fin's edge
+    glm::vec3 medianRim{0.5f};  // colour of a thin line along the edge of dorsal and anal fin
     float medianRimWidth = 0.0f;
     glm::vec3 caudalRoot{0.5f};
     glm::vec3 caudalEdge{0.5f};
-    glm::vec3 caudalRim{0.5f};  // colour of lines along the outermost fin rays
+    glm::vec3 caudalRim{0.5f};  // colour of lines along the outermost rays of the tail fin
     float caudalRimWidth = 0.0f;
     glm::vec3 pairedRoot{0.5f};
     glm::vec3 pairedEdge{0.5f};
@@ -77,8 +77,9 @@ struct FishPattern {
 glm::vec3 skinColor(const FishPattern& pattern, const FishShape& shape, const FishSkinPoint& point,
                     const FishRelief& relief);
 
-// Returns a fin's colour at position `t` across the fin (0 at the first fin ray, 1 at the last) and fraction `r` of the
-// distance from root to edge. `ray` is 1 on a fin ray and 0 between two fin rays.
+// Returns a fin's colour at a point. `t` is the position across the fin (0 at the first fin ray, 1 at the last); `r` is
+// the fraction of the distance from the fin's root to its edge. `ray` is 1 on a fin ray and 0 halfway between two fin
+// rays.
 glm::vec3 finColor(const FishPattern& pattern, FinKind kind, float t, float r, float ray);
 
 // Returns the eye's colour at `angle` radians from the pupil's centre.

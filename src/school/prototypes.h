@@ -1,7 +1,7 @@
 #pragma once
-// Fish species before random variation: outline, fins and palettes. `variant`, modulo the number of palettes, selects a
-// palette. Tall disk-shaped fish are in prototypes_disks.cpp, oval fish in prototypes_ovals.cpp, and long swimmers in
-// prototypes_swimmers.cpp.
+// Defines the fish species before random variation: each function returns a species' outline and fins with one of its
+// colour palettes. `variant`, modulo the number of palettes, selects the palette. Tall disk-shaped fish are in
+// prototypes_disks.cpp, oval fish in prototypes_ovals.cpp, and long swimmers in prototypes_swimmers.cpp.
 
 #include "school/mesh.h"
 
@@ -19,7 +19,7 @@ Fish goldfish(int variant);
 Fish fusilier(int variant);
 Fish parrotfish(int variant);
 
-// Helper functions for the species tables. Colours are 0xRRGGBB in sRGB.
+// Helper functions that set the colours of a species. Colours are 0xRRGGBB in sRGB.
 inline glm::vec3 rgb(std::uint32_t srgb) {
     return linearColor(srgb);
 }

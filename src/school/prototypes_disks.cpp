@@ -2,7 +2,7 @@
 
 namespace defocus::engine::prototypes {
 
-// ---- tall disks ------------------------------------------------------------------------------------
+// ---- species of tall, disk-shaped fish -------------------------------------------------------------
 
 Fish angelfish(int variant) {
     Fish fish{.species = "Angelfish", .shape = {}, .pattern = {}};

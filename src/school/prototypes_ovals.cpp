@@ -2,7 +2,7 @@
 
 namespace defocus::engine::prototypes {
 
-// ---- ovals -----------------------------------------------------------------------------------------
+// ---- species of oval fish --------------------------------------------------------------------------
 
 Fish anthias(int variant) {
     Fish fish{.species = "Anthias", .shape = {}, .pattern = {}};

@@ -2,7 +2,7 @@
 
 namespace defocus::engine::prototypes {
 
-// ---- swimmers --------------------------------------------------------------------------------------
+// ---- species of long swimmers ----------------------------------------------------------------------
 
 Fish fusilier(int variant) {
     Fish fish{.species = "Fusilier", .shape = {}, .pattern = {}};

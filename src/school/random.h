@@ -1,6 +1,6 @@
 #pragma once
-// Random numbers of the fish school: PCG32 (O'Neill 2014), and value noise based on an integer hash. The distributions
-// of the standard library are not used, because they differ between implementations.
+// Generates the random numbers of the fish school: PCG32 (O'Neill 2014), and value noise based on an integer hash. The
+// distributions of the standard library are not used, because they differ between implementations.
 
 #include <cmath>
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 class FishRandom {
 public:
-    // Seeds or streams that differ in any bit give uncorrelated sequences.
+    // Two generators give uncorrelated sequences if their seeds or their stream numbers differ in any bit.
     FishRandom(std::uint32_t seed, std::uint32_t stream) : increment_((std::uint64_t{stream} << 1u) | 1u) {
         next();
         state_ += 0x9e3779b97f4a7c15ull * (std::uint64_t{seed} + 1u);
@@ -38,14 +38,14 @@ private:
     std::uint64_t increment_;
 };
 
-// Returns a pseudorandom value in [0, 1) for a lattice point.
+// Returns a pseudorandom value in [0, 1) for the lattice point (x, y).
 inline float latticeValue(int x, int y, std::uint32_t seed) {
     const std::uint32_t hash =
         lowbias32(seed + 0x9e3779b9u * static_cast<std::uint32_t>(x) + 0x85ebca6bu * static_cast<std::uint32_t>(y));
     return static_cast<float>(hash >> 8u) * 0x1p-24f;
 }
 
-// Returns smooth value noise in [0, 1]; lattice cells have size 1.
+// Returns smooth value noise in [0, 1] at `p`; lattice cells have side 1.
 inline float valueNoise(const glm::vec2& p, std::uint32_t seed) {
     const glm::vec2 cell = glm::floor(p);
     const glm::vec2 f = p - cell;

@@ -1,5 +1,5 @@
-// Outline interpolation: Fritsch and Carlson, Monotone Piecewise Cubic Interpolation (1980), which does not overshoot
-// the knots.
+// Evaluates the outline, the skin relief and the bent spine of a fish. The outline is interpolated with the method of
+// Fritsch and Carlson, Monotone Piecewise Cubic Interpolation (1980), which does not overshoot the knots.
 
 #include "school/shape.h"
 
@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr float originA = 0.45f;  // position `a` of the spine's point that does not move when the spine bends
+constexpr float originA = 0.45f;  // position along the body, 0 (snout) to 1 (tail), that bending does not move
 
 float monotoneCubic(const std::array<float, 9>& x, const std::array<float, 9>& y, float at) {
     const auto slope = [&](std::size_t i) { return (y[i + 1] - y[i]) / (x[i + 1] - x[i]); };
@@ -53,15 +53,15 @@ float distanceToSegment(const glm::vec2& p, const glm::vec2& a, const glm::vec2&
     return glm::length(p - a - t * ab);
 }
 
-// Adds scales, which overlap like roof tiles: each scale covers the front of the scale behind it. Scales are disks; the
-// foremost disk that contains the point is visible.
+// Adds the fish's scales to the relief. They overlap like roof tiles: each scale covers the front of the scale behind
+// it. Scales are disks; the foremost disk that contains the point is visible.
 void addScales(const FishShape& shape, float a, float alongGirth, float detail, FishRelief& relief) {
     const float behindGill = glm::smoothstep(shape.gillA * 0.97f, shape.gillA * 1.12f, a);
     const float beforeTail = 1.0f - glm::smoothstep(0.93f, 1.0f, a);
     const float held = 1.0f - glm::smoothstep(0.22f, 0.5f, detail / shape.scaleSize);
     const float strength = behindGill * beforeTail * held;
     if (strength <= 0.0f) return;
-    constexpr float radius = 0.66f;  // radius relative to the scale size
+    constexpr float radius = 0.66f;  // radius of a scale, relative to the distance between scales (scaleSize)
     constexpr float rowHeight = 0.56f;
     const glm::vec2 p(a / shape.scaleSize, alongGirth / shape.scaleSize);
     const int row = static_cast<int>(std::floor(p.y / rowHeight + 0.5f));
@@ -88,19 +88,19 @@ void addScales(const FishShape& shape, float a, float alongGirth, float detail, 
 
 void addHead(const FishShape& shape, const glm::vec2& p, float detail, FishRelief& relief) {
     const float fine = std::max(0.007f, 1.4f * detail);
-    // Mouth: a groove between two lips.
+    // Add the mouth: a groove between two lips.
     const FishSection snout = fishSection(shape, 0.01f);
     const glm::vec2 corner(shape.mouthLength, snout.centre - shape.mouthDrop);
     const float mouth = distanceToSegment(p, glm::vec2(-0.05f, snout.centre), corner);
     const float grooveMouth = bell(mouth, fine);
     relief.displacement += 0.006f * bell(mouth - 2.2f * fine, 1.3f * fine) - 0.009f * grooveMouth;
-    // Eye: a soft ring around the socket.
+    // Add the eye: a soft ring around the socket.
     const FishSection eyeSection = fishSection(shape, shape.eyeA);
     const glm::vec2 eye(shape.eyeA, eyeSection.centre + shape.eyeHeight * eyeSection.halfHeight);
     const float toEye = glm::length(p - eye);
     relief.displacement += 0.006f * bell(toEye - 1.15f * shape.eyeRadius, std::max(0.3f * shape.eyeRadius, fine));
     const float grooveEye = 0.6f * bell(toEye - 0.95f * shape.eyeRadius, std::max(0.16f * shape.eyeRadius, fine));
-    // Gill cover: a plate with a step at its rear edge and a fold of the cheek in front of it.
+    // Add the gill cover: a plate with a step at its rear edge and a fold of the cheek in front of it.
     const FishSection gill = fishSection(shape, shape.gillA * 0.8f);
     const glm::vec2 hinge(shape.gillA * 0.52f, gill.centre + 0.05f * gill.halfHeight);
     const glm::vec2 reach(shape.gillA * 0.48f, 0.68f * gill.halfHeight);
@@ -122,7 +122,7 @@ FishSection fishSection(const FishShape& shape, float a) {
     float top = monotoneCubic(knotRoots(), shape.outline.top, root);
     float bottom = monotoneCubic(knotRoots(), shape.outline.bottom, root);
     float width = monotoneCubic(knotRoots(), shape.outline.width, root);
-    // The body gets thinner towards the tail fin. Its end, hidden inside the fin, is rounded.
+    // The body gets thinner towards the tail fin. The body's end, hidden inside the fin, is rounded.
     width *= 1.0f - 0.62f * glm::smoothstep(0.86f, 0.98f, a);
     constexpr float roundFrom = 0.975f;
     if (a > roundFrom) {
@@ -139,7 +139,7 @@ FishRelief fishRelief(const FishShape& shape, const FishSkinPoint& point, float 
     FishRelief relief;
     addScales(shape, point.a, point.alongGirth, detail, relief);
     if (point.a < 1.4f * shape.gillA) addHead(shape, {point.a, point.y}, detail, relief);
-    // Lateral line: a fine groove along the flank that rises towards the head.
+    // Add the lateral line: a fine groove along the flank that rises towards the head.
     const float rise = 0.34f - 0.34f * glm::smoothstep(0.35f, 0.9f, point.a);
     const float held =
         glm::smoothstep(shape.gillA, shape.gillA + 0.08f, point.a) * (1.0f - glm::smoothstep(0.9f, 0.98f, point.a));
@@ -150,7 +150,8 @@ FishRelief fishRelief(const FishShape& shape, const FishSkinPoint& point, float 
 }
 
 FishSpine::FishSpine(const FishShape& shape) {
-    // Heading along the spine: the swimming wave grows from head to tail, and the uniform bend is zero at the origin.
+    // Returns the heading along the spine in radians. The swimming wave grows from head to tail; the uniform bend is
+    // zero at originA.
     const auto heading = [&](float a) {
         const float envelope = glm::smoothstep(0.1f, 1.25f, a) + 0.08f;
         return shape.turn * (a - originA) +

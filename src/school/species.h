@@ -1,6 +1,6 @@
 #pragma once
-// Fish species of the school, freely modelled on reef and pond fish. Each species has its own outline, fins and
-// palettes. Fish of one species differ in proportions, relief, bend and pattern.
+// Creates the individual fish of the school. Species are freely modelled on reef and pond fish; each has its own
+// outline, fins and palettes. Fish of one species differ in proportions, relief, bend and pattern.
 
 #include <cstdint>
 

@@ -9,13 +9,13 @@ void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::vector<std
     indices.insert(indices.end(), {a, b, c});
 }
 
-// Returns the index of vertex i (0 to count) of a ring; i = count wraps around to the first vertex.
+// Returns the index of vertex `i` of a ring; i = count wraps around to the first vertex.
 std::uint32_t onRing(const VertexRow& ring, std::uint32_t i) {
     return ring.first + (i == ring.count ? 0u : i);
 }
 
-// Triangulates the front side between two open rows. Each step uses the shorter diagonal, which avoids sheared
-// triangles between rows that are shifted relative to each other.
+// Adds the triangles between two open rows, seen from the front. Each step uses the shorter diagonal, which avoids
+// sheared triangles between rows that are shifted relative to each other.
 void stitchRows(const VertexRow& a, const VertexRow& b, const std::vector<glm::vec3>& positions,
                 std::vector<std::uint32_t>& indices) {
     std::uint32_t i = a.first;
@@ -37,7 +37,7 @@ void stitchRows(const VertexRow& a, const VertexRow& b, const std::vector<glm::v
     }
 }
 
-// Returns the sheet's outline, counter-clockwise as seen from the front.
+// Returns the vertices along the outline of a surface made of open rows, counter-clockwise as seen from the front.
 std::vector<std::uint32_t> outline(const std::vector<VertexRow>& rows) {
     std::vector<std::uint32_t> loop;
     for (std::size_t r = 0; r < rows.size(); ++r) loop.push_back(rows[r].first);
@@ -58,7 +58,8 @@ void stitchRings(const VertexRow& a, const VertexRow& b, std::vector<std::uint32
     const auto countA = static_cast<float>(a.count);
     const auto countB = static_cast<float>(b.count);
     while (i < a.count || j < b.count) {
-        // Midpoints of the next edges around the rings, (i + ½ + offset) / count, both multiplied by countA · countB.
+        // Position of the next edges' midpoints around rings a and b, (i + ½ + offset) / count, both multiplied by
+        // countA · countB.
         const float nextA = (static_cast<float>(i) + 0.5f + a.offset) * countB;
         const float nextB = (static_cast<float>(j) + 0.5f + b.offset) * countA;
         if (j >= b.count || (i < a.count && nextA <= nextB)) {
@@ -109,7 +110,8 @@ std::uint64_t ringTriangles(const std::vector<std::uint32_t>& counts) {
 std::uint64_t shellTriangles(const std::vector<std::uint32_t>& counts) {
     std::uint64_t side = 0;
     for (std::size_t r = 0; r + 1 < counts.size(); ++r) side += std::uint64_t{counts[r]} + counts[r + 1] - 2u;
-    // The outline consists of the edges of the first and last rows, and of two edges between consecutive rows.
+    // The outline consists of the edges of the first and last rows, and of two edges between each pair of consecutive
+    // rows.
     const std::uint64_t outlineEdges = counts.front() + counts.back() - 2u + 2u * (counts.size() - 1u);
     return 2u * side + 2u * outlineEdges;
 }

@@ -19,32 +19,32 @@ namespace {
 
 constexpr std::size_t viewCount = 4;
 constexpr int minResolution = 128;
-constexpr int maxResolution = 512;  // max cells per side of a picture; BlurTable holds patches of 2, 4, … 512 cells
+constexpr int maxResolution = 512;  // max cells per side of an image; BlurTable holds patches of 2, 4, … 512 cells
 static_assert(maxResolution == 1 << (blurSizes - 1));
-constexpr double minBlurredGrowth = 1.1;  // min ratio of the errors of consecutive levels
-constexpr double minError = 1e-6;         // min error of level 1
-// On a grey background, a level's error may reach this fraction of the limit. A fraction of 1 would raise the FLIP
+constexpr double minBlurredGrowth = 1.1;  // min ratio of the blurred errors of consecutive levels
+constexpr double minError = 1e-6;         // min error after blurring of level 1
+// On a grey background, the error of a level may reach this fraction of the limit. A fraction of 1 would raise the FLIP
 // error of a smooth surface in focus by more than a fifth.
 constexpr double greyShare = 0.9;
-constexpr double minGreyContrast = 0.004;  // min contrast on a grey background, relative to the mean radiance
+constexpr double minGreyContrast = 0.004;  // min V on a grey background, relative to the mean radiance
 // Max ratio of the errors of consecutive levels. Halving the triangles of a smooth surface doubles its error, because
-// the error grows with the squared edge length. This limit of twice that ratio yields a lower bound of the error of
-// levels whose triangles are smaller than picture cells.
+// the error grows with the squared edge length. This limit is twice that ratio. It gives a lower bound on the error of
+// levels whose triangles are smaller than the cells of the measured image.
 constexpr float maxUnseenGrowth = 4;
 
-// ---- averages over patches
+// ---- averages over patches of an image ---------------------------------------------------------
 
-// Sums of squares over all cells and channels, one per patch size. Entry 0 is the sum for single cells; the other
-// entries are sums for patch means.
+// Sums over all cells and channels of an image, for example of squared radiance, with one entry per patch size. Entry 0
+// is the sum over single cells; each further entry is a sum over patch means.
 using SquareSums = std::array<double, blurSizes>;
 using SurroundSums = std::array<SquareSums, surrounds.size()>;
 
-// A picture with its means over patches of 2, 4, … cells. Each patch has two means, over the cells on the white and on
+// An image with its means over patches of 2, 4, … cells. Each patch has two means, over the cells on the white and on
 // the black squares of a checkerboard.
 class Patches {
     struct Size {
         CellBox shown;                                // patches that may contain non-black cells
-        CellBox kept;                                 // `shown`, padded with empty patches for the next patch size
+        CellBox kept;                                 // `shown`, padded with black patches for the next patch size
         std::array<LargeVector<glm::vec3>, 2> means;  // over white and black checker squares; empty for single cells
     };
 
@@ -61,7 +61,7 @@ public:
         }
     }
 
-    // Computes the patch means of a picture. Keeps a reference to `cells`.
+    // Computes the patch means of the image `cells`. Keeps a reference to `cells`.
     void measure(const LargeVector<glm::vec3>& cells) {
         cells_ = &cells;
         for (std::size_t i = 1; i < sizes_.size(); ++i)
@@ -74,8 +74,9 @@ public:
 
     [[nodiscard]] std::size_t count() const { return sizes_.size(); }
     [[nodiscard]] const CellBox& box(std::size_t size) const { return sizes_[size].shown; }
-    // Returns a row of patch means, starting at the left edge of the box. `black` selects the means over the black
-    // squares of the checkerboard. For single cells (size 0), `black` is ignored and the row has the cells' values.
+    // Returns a row of patch means, starting at the left edge of the patches' box. `black` selects the means over the
+    // black squares of the checkerboard. For single cells (size 0), `black` is ignored and the row has the cells'
+    // values.
     [[nodiscard]] const glm::vec3* row(std::size_t size, bool black, int y) const {
         const LargeVector<glm::vec3>& values = size == 0 ? *cells_ : sizes_[size].means[black ? 1 : 0];
         return &values[sizes_[size].kept.indexOf(sizes_[size].shown.left, y)];
@@ -111,14 +112,14 @@ private:
     std::vector<Size> sizes_;
 };
 
-// Two rows of cells or patch means whose difference is measured.
+// Two rows of cells or patch means, of level 0 and of another level, whose difference is measured.
 struct Change {
     const glm::vec3* before;
     const glm::vec3* after;
 };
 
-// Multiplies the differences (after − before) of two pairs of rows, and returns the sum over `count` cells and all
-// channels. Values are clamped to `brightest`.
+// Multiplies the differences (after − before) of two pairs of rows with each other, and returns the sum of these
+// products over `count` cells and all channels. Values are clamped to `brightest` before the subtraction.
 double sumOfProducts(const Change& first, const Change& second, int count, float brightest) {
     const auto end = 3 * static_cast<std::size_t>(count);
     const auto at = [&](const Change& change, std::size_t i, auto bounded) {
@@ -138,8 +139,8 @@ double sumOfProducts(const Change& first, const Change& second, int count, float
     return double{sums[0]} + double{sums[1]} + double{sums[2]} + double{sums[3]} + double{rest};
 }
 
-// Returns the radiance minus the background's radiance, so that the background becomes black. Returns `light` itself if
-// the background is black. Otherwise, the result is stored in `shifted`, whose memory is reused.
+// Returns the radiance `light` minus the background's radiance, so that the background becomes black. Returns `light`
+// itself if the background is already black. Otherwise, the result is stored in `shifted`, whose memory is reused.
 const LargeVector<glm::vec3>& before(float background, const LargeVector<glm::vec3>& light,
                                      LargeVector<glm::vec3>& shifted) {
     if (background == 0) return light;
@@ -149,8 +150,8 @@ const LargeVector<glm::vec3>& before(float background, const LargeVector<glm::ve
     return shifted;
 }
 
-// Adds the squared differences between `seen` and `reference` to `sums`. A null `reference` stands for a black picture,
-// with the row `dark` of black cells.
+// Adds the squared differences between the images `seen` and `reference` to `sums`. A null `reference` stands for a
+// black image, with the row `dark` of black cells.
 //
 // Each cell samples one point of the surface, so that a patch mean contains sampling noise. Squaring the mean would add
 // the variance of this noise. Therefore, the mean over the white squares of a checkerboard is multiplied by the mean
@@ -171,7 +172,7 @@ void addSquares(const Patches* reference, const Patches& seen, std::span<const g
 }
 
 // For each patch and channel, adds the standard deviation of the radiance within the patch to `sums`, weighted by the
-// patch's number of cells. `seen` has the means of the radiance, `squares` the means of its square.
+// patch's number of cells. `seen` holds the means of the radiance, `squares` the means of the squared radiance.
 void addDeviations(const Patches& seen, const Patches& squares, SquareSums& sums) {
     for (std::size_t i = 1; i < seen.count(); ++i) {
         const CellBox& box = seen.box(i);
@@ -187,15 +188,15 @@ void addDeviations(const Patches& seen, const Patches& squares, SquareSums& sums
     }
 }
 
-// Clamps the noisy sums to possible values. The mean square never grows with the patch size. From one patch size to the
-// next, it falls at most to 1/16, which is the decrease for two adjacent spots that cancel each other.
+// Clamps the noisy sums to possible values. The mean square never grows with the patch size. When the patch size
+// doubles, the mean square falls at most to 1/16, as for two adjacent spots that cancel each other.
 void smooth(SquareSums& sums, std::size_t measured) {
     for (std::size_t i = measured; i > 1; --i) sums[i - 1] = std::max(sums[i - 1], sums[i]);
     for (std::size_t i = 1; i < blurSizes; ++i)
         sums[i] = i <= measured ? std::clamp(sums[i], sums[i - 1] / 16, sums[i - 1]) : sums[i - 1] / 4;
 }
 
-// Compressed storage for a picture with many black cells.
+// Stores an image with many black cells in compressed form.
 class SparseCells {
 public:
     SparseCells() = default;
@@ -218,25 +219,26 @@ public:
 
 private:
     std::vector<bool> lit_;
-    LargeVector<glm::vec3> values_;  // values of the lit cells
+    LargeVector<glm::vec3> values_;  // values of the cells that are not black
 };
 
-// Pictures and measurements for one view direction.
+// Images and measurements for one view direction.
 struct Sight {
     Eye eye;
-    SparseCells reference;              // picture of level 0
+    SparseCells reference;              // image of level 0
     double covered = 0, sum = 0;        // Picture::covered and Picture::sum of level 0
     SquareSums light{};                 // sums of level 0's squared radiance on black, per patch size
-    SquareSums deviations{};            // sums of level 0's standard deviations on grey, per patch size
-    std::vector<SurroundSums> changes;  // sums of squared radiance differences from level 0, per level
+    SquareSums deviations{};            // sums of the radiance's standard deviations on grey at level 0, per patch size
+    std::vector<SurroundSums> changes;  // per level, sums of squared radiance differences from level 0
 
-    // Compares each level with level 0. `unit` is the mean radiance of the mesh.
+    // Measures the differences of each level from level 0. `unit` is the mean radiance of the mesh.
     void judge(const Pyramid& pyramid, std::span<const Finish> finishes, float unit) {
         const LargeVector<glm::vec3> cells = reference.all();
         reference = {};
         const std::vector<glm::vec3> dark(static_cast<std::size_t>(eye.resolution), glm::vec3(0));
         const auto brightest = static_cast<float>(shownWhite) * unit;
-        // Clamp each point before averaging: a lens sample sees a single point, and the clamp bounds every average.
+        // Clamp each point before averaging, because a lens sample sees a single point. All averages then stay below
+        // the clamp, too.
         LargeVector<glm::vec3> points = cells;
         for (glm::vec3& value : points) value = glm::min(value, brightest);
         std::array<LargeVector<glm::vec3>, surrounds.size()> shifted;
@@ -273,8 +275,8 @@ int resolutionFor(std::uint32_t triangles) {
     return static_cast<int>(std::bit_ceil(wanted));
 }
 
-// Interpolates a BlurTable linearly at the patch side `side`; for sides beyond the table, returns the last value. at(i)
-// returns entry i.
+// Interpolates a table of blurSizes entries linearly at the patch side `side`; for sides beyond the table, returns the
+// last value. at(i) returns entry i.
 template <typename At>
 double interpolated(double smallest, double side, const At& at) {
     double low = 0;
@@ -298,7 +300,7 @@ double squared(float value) {
 
 }  // namespace
 
-// Returns a Fibonacci lattice on the sphere, which is not aligned with the coordinate axes.
+// Returns directions on a Fibonacci lattice of the sphere, which is not aligned with the coordinate axes.
 std::vector<glm::dvec3> blurredErrorViews() {
     std::vector<glm::dvec3> directions(viewCount);
     for (std::size_t i = 0; i < viewCount; ++i) {
@@ -316,7 +318,7 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
     const std::vector<Finish> matt(finishes.empty() ? pyramid.levels.front().primitives.size() : 0);
     if (finishes.empty()) finishes = matt;
 
-    // Render level 0 from each direction.
+    // Render level 0 from each view direction.
     const int resolution = resolutionFor(pyramid.levels.front().triangleCount);
     const std::vector<glm::dvec3> directions = blurredErrorViews();
     std::array<Sight, viewCount> sights;
@@ -333,7 +335,7 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
         sight.sum = reference.sum;
     });
 
-    // A black mesh has no error, because its mean radiance cannot serve as the unit.
+    // A black mesh keeps the error 0, because its mean radiance cannot serve as the unit of errors.
     double covered = 0;
     double light = 0;
     for (const Sight& sight : sights) {
@@ -344,7 +346,7 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
     const double unit = light / covered;
     const double scale = 1 / (3 * covered * unit * unit);
 
-    // Compare the other levels with level 0.
+    // Compare the other levels with level 0 in each view direction.
     fromAll([&](Sight& sight, const glm::dvec3&) { sight.judge(pyramid, finishes, static_cast<float>(unit)); });
     const auto measured = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(resolution)));
     const auto total = [&](const auto& sumsOf) {
@@ -411,7 +413,7 @@ double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides
     for (const Surround surround : surrounds)
         contrast[indexOf(surround)] = rootOfSum([&](double side) { return squaredContrast(pyramid, side, surround); });
     if (!(contrast[indexOf(Surround::black)] > 0) || !(light > 0)) return 0;
-    // Returns the error of a level minus its limit, in units of the contrast V.
+    // Returns the error of level `l` minus its limit, in units of the contrast V of level 0.
     const auto excess = [&](std::size_t l) {
         double error = 0;
         for (const Surround surround : surrounds) {

@@ -1,20 +1,21 @@
 #pragma once
-// Measures the error of a level of detail after blurring. Level 0 and each coarser level are rendered from several
-// directions (picture.h) with the mesh's materials and the default lights of scenes without lights. The error therefore
-// includes visible differences in colour, shading and outlines. The signed difference from level 0 is averaged over
-// square patches and then squared. E(level, s) is the RMS of the difference that remains after a blur of size s.
+// Measures the error of a level of detail after blurring. Level 0 (the full mesh) and each coarser level are rendered
+// from several directions (picture.h) with the mesh's materials and the default lights of scenes without lights. The
+// error therefore includes visible differences in colour, shading and outlines. The signed difference from level 0 is
+// averaged over square patches and then squared. E(level, s) is the RMS of the difference that remains after a blur of
+// size s.
 //
-// The pictures of level 0 also give the error of a lens sample. V(s) is the standard deviation of the radiance within
+// The images of level 0 also give the error of a lens sample. V(s) is the standard deviation of the radiance within
 // patches of side s. One sample at a random position within a blur of size s has the error V(s). N samples have the
 // error V(s) · N^−p, where p is the convergence rate of the sample sequence. E and V have the same unit, so that their
 // ratio is independent of the object's brightness and of the exposure. After averaging, radiance is clamped to four
 // times the mean radiance of the mesh, because brighter values appear white in an image.
 //
 // Errors are measured on two backgrounds: black, and a grey of the mesh's mean radiance. On black, outlines dominate
-// both E and V. A real background may hide the outlines, so that the error of the samples depends on the contrast of
-// the shading alone. A level must meet its limit on both backgrounds. On grey, V is the mean of the patches' standard
-// deviations instead of their RMS. Reason: samples have large errors only at a few edges, but a level has errors all
-// over a smooth surface, where they are more visible.
+// both E and V. A real background may hide the outlines; the error of the samples then depends only on the contrast of
+// the shading. A level must meet its limit on both backgrounds. On grey, V is the mean of the patches' standard
+// deviations instead of their RMS: samples have large errors only at a few edges, but a level has errors all over a
+// smooth surface, where they are more visible.
 
 #include <cstddef>
 #include <glm/vec3.hpp>
@@ -32,22 +33,23 @@ namespace defocus::engine {
 // additional threads; it does not affect the result.
 void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, std::size_t helpers = 0);
 
-// Returns the view directions from which levels are compared: unit vectors from the mesh to the eye.
+// Returns the directions from which levels are rendered and compared: unit vectors from the mesh to the eye.
 std::vector<glm::dvec3> blurredErrorViews();
 
-// Radiance is clamped to this multiple of the mesh's mean radiance, because brighter values appear white.
+// Radiance is clamped to this multiple of the mesh's mean radiance, because brighter values appear white in an image.
 inline constexpr double shownWhite = 4;
 
-// Return the squared error E² of a level and the squared contrast V² of level 0 for a patch of side `side` (object
-// units, ≥ 0). Both are continuous in the side. On a grey background, V is at least 0.4 % of the mean radiance. Beyond
-// the largest patch of the table, E falls as 1/side, like the error of a single spot.
+// Return the squared error E² of a level, and the squared contrast V² of level 0, for patches of side `side` (object
+// units, ≥ 0). E² and V² are continuous in `side`. On a grey background, V is at least 0.4 % of the mean radiance.
+// Beyond the largest measured patch, E falls as 1/side, like the error of a single spot.
 double squaredError(const Pyramid& pyramid, std::size_t level, double side, Surround surround = Surround::black);
 double squaredContrast(const Pyramid& pyramid, double side, Surround surround = Surround::black);
 
-// Returns the level λ at which the ratio E/V equals measuredLimit(light, edge), on the background where the ratio is
-// larger. Returns the coarsest level if the ratio stays below the limit, and 0 if no errors were measured. E and V are
-// RMS values over patches of the given sides (object units). `edge` is the level's mean edge length in px, for a scale
-// of `pixelsPerUnit` (> 0) px per object unit. λ is continuous in all arguments.
+// Returns the real-valued level λ at which the ratio E/V equals measuredLimit(light, edge), on the background where the
+// ratio is larger. E is the level's error and V the contrast of level 0, both as RMS over patches of the given sides
+// (object units). Returns the coarsest level if the ratio stays below the limit, and 0 if no errors were measured.
+// `edge` is the level's mean edge length in px, at `pixelsPerUnit` (> 0) px per object unit. λ is continuous in all
+// arguments.
 double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides, double pixelsPerUnit, double light);
 
 }  // namespace defocus::engine

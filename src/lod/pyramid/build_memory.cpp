@@ -14,14 +14,15 @@ namespace defocus::engine {
 
 namespace {
 
-// Memory for building a pyramid: a constant size for the images that measure blurred errors (blurred_error.h), and
-// bytes per triangle and per vertex. Fitting and comparing levels take most of this memory.
+// Memory to build a pyramid is at most the sum of these amounts: a constant for the images that measure blurred errors
+// (blurred_error.h), bytes per triangle with or without coarser levels, and bytes per vertex. Fitting and comparing the
+// levels take most of the bytes per triangle.
 constexpr std::uint64_t imageBytes = 16u << 20;
 constexpr std::uint64_t levelTriangleBytes = 300, fullTriangleBytes = 70;
 constexpr std::uint64_t vertexBytes = 60;
 
 // Pyramids that take at most this many bytes are built without a check of the memory limit. If the limit is too small
-// even for them, the frame's memory budget fails later, and its message reports a sufficient limit.
+// even for these pyramids, the check of the frame's memory budget fails later and reports a sufficient limit.
 constexpr std::uint64_t smallBytes = 1u << 20;
 
 std::uint64_t attributeBytes(const Vertices& vertices) {
@@ -30,19 +31,20 @@ std::uint64_t attributeBytes(const Vertices& vertices) {
                    vertices.joints, vertices.weights, vertices.blurs, vertices.joints1, vertices.weights1);
 }
 
-// Returns the bytes needed to build a pyramid that has only level 0.
+// Returns an upper bound on the bytes needed to build a pyramid that has only level 0.
 std::uint64_t fullDetailBytes(const Mesh& mesh) {
     return mesh.triangleCount() * fullTriangleBytes +
            mesh.vertices.count() * (vertexBytes + 2 * attributeBytes(mesh.vertices));
 }
 
-// Upper bound on the bytes of a finished pyramid.
+// Returns an upper bound on the bytes of a finished pyramid.
 std::uint64_t keptBytes(const Mesh& mesh) {
     return 2 * fullDetailBytes(mesh);
 }
 
-// Returns whether the memory limit allows building on all cores: the largest meshes at the same time, when all other
-// pyramids are already finished. `order`: mesh indices, the largest mesh first.
+// Returns whether the memory limit allows building on all cores. In the worst case, the largest meshes are built at the
+// same time, one per core, while all other pyramids are already finished. `order` holds mesh indices, the largest mesh
+// first.
 bool fitsInParallel(const std::vector<Mesh>& meshes, const std::vector<std::size_t>& order,
                     const PyramidOptions& options) {
     if (options.memoryLimit == 0) return true;

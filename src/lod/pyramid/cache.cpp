@@ -41,8 +41,9 @@ bool consistsOf(std::string_view text, const char* letters) {
     return !text.empty() && text.find_first_not_of(letters) == std::string_view::npos;
 }
 
-// Returns whether the name belongs to a complete cache file, a pending cache file, or another file. Complete files are
-// named "KEY.pyramid". While a file is being written, PendingFile names it ".KEY.PROCESS-NUMBER.pyramid".
+// Returns the kind of file that the name belongs to: a complete cache file, a pending cache file, or another file.
+// Complete files are named "KEY.pyramid". While a file is being written, PendingFile names it
+// ".KEY.PROCESS-NUMBER.pyramid".
 NameKind kindOf(std::string_view name) {
     const bool pending = name.starts_with('.');
     if (pending) name.remove_prefix(1);
@@ -78,7 +79,7 @@ std::optional<Pyramid> load(const Mesh& mesh, const fs::path& folder, const Pyra
         const std::optional<std::vector<std::byte>> bytes = readOwnFile(folder / fileName(key));
         return bytes ? decodePyramid(*bytes, mesh, key) : std::nullopt;
     } catch (const Error&) {
-        return {};  // a cache miss, not an error
+        return {};  // an unreadable file is a cache miss, not an error
     }
 }
 
@@ -87,7 +88,7 @@ void store(const Pyramid& pyramid, const Mesh& mesh, const fs::path& folder, con
     writeFile(folder / fileName(key), encodePyramid(pyramid, mesh, key), NamedBy::program);
 }
 
-// Stores the pyramid. Returns the reason for a failure; empty on success.
+// Stores the pyramid in the cache folder. Returns the reason for a failure; empty on success.
 std::string tryToStore(const Pyramid& pyramid, const Mesh& mesh, const fs::path& folder, const PyramidKey& key) {
     try {
         store(pyramid, mesh, folder, key);

@@ -1,6 +1,7 @@
 #pragma once
-// Disk cache of pyramids: one file per mesh, named after its key (file.h). Several processes may use a folder at the
-// same time. Defective files, symbolic links and pipes count as cache misses; the rebuilt pyramid replaces them.
+// Implements the disk cache of pyramids (meshes with levels of detail): one file per mesh, named after its key
+// (file.h). Several processes may use a folder at the same time. Defective files, symbolic links and pipes count as
+// cache misses; the rebuilt pyramid replaces them.
 
 #include <cstdint>
 #include <filesystem>
@@ -18,7 +19,7 @@ namespace defocus::engine {
 std::filesystem::path defaultCacheFolder();
 
 struct CachedPyramids {
-    std::vector<Pyramid> pyramids;  // one pyramid per mesh
+    std::vector<Pyramid> pyramids;  // one pyramid per mesh, in the order of the meshes
     std::size_t loaded = 0;         // number of pyramids loaded from the cache; the others were built
     std::string failure;            // reason why a pyramid was not stored; empty on success
 };
@@ -42,12 +43,12 @@ struct CacheFile {
     std::filesystem::path path;
     std::uint64_t bytes = 0;
     std::filesystem::file_time_type written;
-    std::uint32_t triangles = 0;  // triangle count of the mesh
+    std::uint32_t triangles = 0;  // triangle count of the mesh at level 0
     bool pending = false;         // the file is still being written, or the writing process was killed
 };
 
-// Lists the cache files in `folder`, newest first. Cache files are recognised by name and first bytes. Returns an empty
-// list if the folder does not exist. Throws Error if the folder cannot be read.
+// Lists the cache files in `folder`, newest first. A cache file is recognised by its name and first bytes. Returns an
+// empty list if the folder does not exist. Throws Error if the folder cannot be read.
 std::vector<CacheFile> cacheFiles(const std::filesystem::path& folder);
 
 // Removes the cache files in `folder` and returns them. Throws Error if a file cannot be removed.

@@ -16,9 +16,9 @@ namespace defocus::engine {
 
 namespace {
 
-// ---- growing: assignment of triangles to clusters
+// ---- assign triangles to growing clusters ------------------------------------------------------
 
-constexpr float coneWeight = 0.75f;     // weight of orientation relative to distance, 0 to 1
+constexpr float coneWeight = 0.75f;     // weight of orientation relative to distance in the cost of a triangle, 0 to 1
 constexpr float minTurn = 1e-3f;        // min cost factor for a difference in orientation
 constexpr std::size_t seedsAhead = 64;  // max unassigned triangles kept as candidates for a cluster's first triangle
 // Max number of triangles at one vertex that a cluster considers. Files may have millions of triangles at one vertex.
@@ -31,34 +31,34 @@ struct Facet {
 
 using ClusterNumber = Number<struct ClusterKind>;
 
-// The finished clusters and the growing cluster.
+// The finished clusters, the growing cluster, and candidates for its next triangle.
 struct ClusterGrowth {
     ClusterGrowth(const Numbered<TriangleCorner, LocalNumber>& all, std::size_t placeCount)
         : corners(all), around(placeCount, all.size(), [&](TriangleCorner corner) { return all[corner]; }) {}
 
     const Numbered<TriangleCorner, LocalNumber>& corners;
     Buckets<LocalNumber, TriangleCorner> around;
-    // Index into `around` of the first corner whose triangle may still be unassigned. Entries exist only for vertices
-    // with more than maxNeighbours corners.
+    // Per vertex with more than maxNeighbours corners: index into the vertex's entries of `around`, before which all
+    // corners belong to assigned triangles.
     std::unordered_map<LocalNumber, std::size_t> firstOpen;
     Numbered<TriangleNumber, Facet> facets;
     float radius = 0;  // radius of a full cluster on a flat mesh with equal triangles
 
-    Numbered<LocalNumber, std::uint32_t> open;         // per position, the number of corners of unassigned triangles
-    Numbered<LocalNumber, ClusterNumber> lastCluster;  // last cluster that contains the position
+    Numbered<LocalNumber, std::uint32_t> open;         // per position, number of corners of unassigned triangles
+    Numbered<LocalNumber, ClusterNumber> lastCluster;  // per position, the last cluster that contains it
     Numbered<TriangleNumber, std::uint8_t> taken;
 
-    // Sums over the triangles of the growing cluster.
+    // Number of triangles, sum of centres and sum of normals of the growing cluster.
     std::uint32_t size = 0;
     glm::vec3 centres{0};
     glm::vec3 normals{0};
-    // Triangles that touch the growing cluster; some of them may already be assigned.
-    std::vector<TriangleNumber> closed;    // triangles with all three corners in the cluster
-    std::vector<TriangleNumber> hanging;   // each is the last unassigned triangle at one of its vertices
-    std::vector<TriangleNumber> beside;    // triangles with two corners in the cluster
-    std::vector<TriangleNumber> touching;  // triangles with one corner in the cluster
-    std::vector<TriangleNumber> left;      // unassigned neighbours of earlier clusters
-    TriangleNumber unseen{0};              // all triangles before this one are assigned
+    // Lists of triangles that touch the growing cluster; some of them may already be assigned to a cluster.
+    std::vector<TriangleNumber> closed;    // triangles with all three corners in the growing cluster
+    std::vector<TriangleNumber> hanging;   // triangles that are the last unassigned ones at one of their vertices
+    std::vector<TriangleNumber> beside;    // triangles with two corners in the growing cluster
+    std::vector<TriangleNumber> touching;  // triangles with one corner in the growing cluster
+    std::vector<TriangleNumber> left;      // unassigned triangles that touch earlier clusters
+    TriangleNumber unseen{0};              // all triangles before this triangle are assigned to clusters
 
     GrownClusters result;
 
@@ -84,8 +84,9 @@ void measureFacets(ClusterGrowth& g, const Numbered<LocalNumber, glm::vec3>& pos
     g.radius = static_cast<float>(0.5 * std::sqrt(area / static_cast<double>(count) * max));
 }
 
-// Returns all corners at the vertex if there are at most maxNeighbours. Otherwise returns at most maxNeighbours corners
-// of unassigned triangles. Corners of assigned triangles are moved to the front of the vertex's list, each only once.
+// Returns all corners of triangles at the vertex if there are at most maxNeighbours. Otherwise returns at most
+// maxNeighbours corners of unassigned triangles. Corners of assigned triangles are moved to the front of the vertex's
+// list of corners, each only once.
 std::span<const TriangleCorner> someAround(ClusterGrowth& g, LocalNumber v) {
     const std::span<TriangleCorner> all = g.around[v];
     if (all.size() <= maxNeighbours) return all;
@@ -96,7 +97,7 @@ std::span<const TriangleCorner> someAround(ClusterGrowth& g, LocalNumber v) {
     return all.subspan(first, end - first);
 }
 
-// Adds a vertex to the cluster and sorts the unassigned triangles around it into the lists of neighbours.
+// Adds a vertex to the growing cluster and sorts the unassigned triangles around it into the lists of neighbours.
 void addVertex(ClusterGrowth& g, LocalNumber v) {
     const auto cluster = itemAt<ClusterNumber>(g.result.sizes.size());
     if (g.lastCluster[v] == cluster) return;
@@ -132,8 +133,8 @@ void take(ClusterGrowth& g, TriangleNumber triangle) {
     for (const LocalNumber v : g.cornersOf(triangle)) addVertex(g, v);
 }
 
-// Removes and returns the last triangle of the list that does not face away from the cluster, or an invalid number if
-// there is none. Triangles that face away, such as the back of a thin sheet, move to the list `beside`.
+// Removes and returns the last triangle of the list that does not face away from the growing cluster, or an invalid
+// number if there is none. Triangles that face away, such as the back of a thin plate, move to the list `beside`.
 TriangleNumber lastFacing(ClusterGrowth& g, std::vector<TriangleNumber>& list) {
     while (!list.empty()) {
         const TriangleNumber triangle = list.back();
@@ -149,7 +150,7 @@ void keepOpen(const ClusterGrowth& g, std::vector<TriangleNumber>& list) {
     std::erase_if(list, [&](TriangleNumber triangle) { return g.taken[triangle] != 0; });
 }
 
-// Returns the triangle of the list that is most similar to the cluster in position and orientation.
+// Returns the triangle of the list that is most similar to the growing cluster in position and orientation.
 TriangleNumber closestMatch(const ClusterGrowth& g, const std::vector<TriangleNumber>& list) {
     const glm::vec3 centre = g.centres / static_cast<float>(g.size);
     const float length = glm::length(g.normals);
@@ -177,8 +178,8 @@ TriangleNumber nextInside(ClusterGrowth& g) {
     return closestMatch(g, g.touching);
 }
 
-// Returns the unassigned neighbour of the full cluster with the fewest unassigned neighbours of its own. This triangle
-// might otherwise be left isolated.
+// Returns the unassigned triangle beside the full cluster that itself has the fewest unassigned neighbours. This
+// triangle might otherwise be left isolated.
 TriangleNumber seedBeside(const ClusterGrowth& g) {
     TriangleNumber best;
     std::uint32_t fewest = std::numeric_limits<std::uint32_t>::max();
@@ -194,8 +195,8 @@ TriangleNumber seedBeside(const ClusterGrowth& g) {
     return best;
 }
 
-// Returns the triangle nearest to `place` among the unassigned triangles last found beside earlier clusters. If there
-// are none, returns the first unassigned triangle of the primitive.
+// Returns the triangle nearest to `place` among unassigned triangles beside the latest clusters. If there are none,
+// returns the first unassigned triangle of the primitive.
 TriangleNumber seedElsewhere(ClusterGrowth& g, const glm::vec3& place) {
     while (!g.left.empty() && g.taken[g.left.back()] != 0) g.left.pop_back();
     TriangleNumber best;
@@ -213,8 +214,8 @@ TriangleNumber seedElsewhere(ClusterGrowth& g, const glm::vec3& place) {
     return g.unseen;
 }
 
-// Finishes the cluster. From each list, keeps at most `seedsAhead` unassigned neighbours to start later clusters,
-// because a vertex can have any number of triangles.
+// Finishes the growing cluster. From each list, keeps at most `seedsAhead` unassigned neighbours as first triangles of
+// later clusters, because a vertex can have any number of triangles.
 void close(ClusterGrowth& g) {
     for (auto* const list : {&g.touching, &g.beside, &g.hanging, &g.closed}) {
         keepOpen(g, *list);
@@ -251,11 +252,12 @@ GrownClusters growClusters(const Numbered<TriangleCorner, LocalNumber>& corners,
     return std::move(g.result);
 }
 
-// ---- bounds of a cluster
+// ---- compute the bounds of a cluster -----------------------------------------------------------
 
 namespace {
 
-// Rounding error of a value stored in single precision, relative to the magnitude of its inputs.
+// Bound on the rounding error of a value in single precision, relative to the magnitude of the values it is computed
+// from.
 constexpr double valueRounding = 1e-6;
 
 // Replaces NaN and infinite positions by 0.
@@ -263,13 +265,15 @@ glm::vec3 finitePosition(const glm::vec3& position) {
     return isFinite(position) ? position : glm::vec3(0);
 }
 
-// A primitive's triangles with positions numbered from 0, so that the cost depends only on the size of the primitive.
+// A primitive's triangles with positions numbered from 0, so that the time to cluster them depends only on the size of
+// the primitive.
 struct LocalTriangles {
     Numbered<TriangleCorner, LocalNumber> corners;
     Numbered<LocalNumber, glm::vec3> positions;
 };
 
-// Returns a primitive's triangles. All entries of `localOf` must be invalid before the call, and are invalid after it.
+// Returns a primitive's triangles. All entries of `localOf` must be invalid before the call, and are invalid after the
+// call.
 template <typename Vertex>
 LocalTriangles localTriangles(std::span<const Vertex> indices, std::span<const glm::vec3> positions,
                               const Numbered<Vertex, PositionNumber>& places,
@@ -316,7 +320,7 @@ Cluster measured(std::span<const Vertex> indices, std::span<const glm::vec3> pos
         sum += triangle.cross;
     }
 
-    // Compute the bounding sphere, and the normal cone around the area-weighted mean normal.
+    // Compute the cluster's bounding sphere, and the cone of normals around their area-weighted mean.
     Cluster cluster;
     cluster.centre = glm::vec3(0.5 * (glm::dvec3(min) + glm::dvec3(max)));
     const glm::dvec3 centre(cluster.centre);
@@ -345,8 +349,8 @@ Cluster measured(std::span<const Vertex> indices, std::span<const glm::vec3> pos
     return cluster;
 }
 
-// Reorders the triangles of a primitive into clusters and appends the clusters to `result`. `first` is the offset of
-// the primitive's first index in the level.
+// Reorders the triangles of a primitive so that clusters are contiguous, and appends the clusters to `result`. `first`
+// is the offset of the primitive's first index in the level.
 template <typename Vertex>
 void clusterPrimitive(std::span<Vertex> indices, std::span<const glm::vec3> positions, const LocalTriangles& local,
                       std::uint32_t first, std::vector<Cluster>& result) {

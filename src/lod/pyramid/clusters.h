@@ -1,7 +1,7 @@
 #pragma once
 // Groups triangles into clusters for culling (see Cluster). A cluster grows by one triangle at a time until it is full.
-// Each added triangle touches the cluster, adds few vertices, and is similar in position and orientation. meshoptimizer
-// builds its meshlets by similar criteria. Triangles may have any shape and order.
+// Each added triangle touches the cluster, adds few vertices, and is similar to the cluster's triangles in position and
+// orientation. meshoptimizer builds its meshlets by similar criteria. Triangles may have any shape and order.
 
 #include <glm/vec3.hpp>
 #include <span>
@@ -19,15 +19,15 @@ struct GrownClusters {
     std::vector<std::uint32_t> sizes;       // number of triangles per cluster
 };
 
-// Groups triangles into clusters of at most `max` (≥ 1) triangles. Corner positions are in object units and may be NaN
-// or infinite. Deterministic.
+// Groups triangles into clusters of at most `max` (≥ 1) triangles each. Corner positions are in object units and may be
+// NaN or infinite. Deterministic.
 GrownClusters growClusters(const Numbered<TriangleCorner, LocalNumber>& corners,
                            const Numbered<LocalNumber, glm::vec3>& positions, std::uint32_t max);
 
-// Reorders the triangles of each primitive into clusters. Consecutive clusters are mostly neighbours, and so are
-// consecutive triangles within a cluster. `positions` has the position of each vertex, and `places` has its position
-// number, below `placeCount`. Vertices with equal numbers have the same position. The index ranges of the clusters
-// start at the level's first index and are contiguous. Deterministic.
+// Reorders the triangles of each primitive so that clusters are contiguous, and returns the clusters. Consecutive
+// clusters are mostly neighbours, and so are consecutive triangles within a cluster. `positions` has the coordinates of
+// each vertex. `places` has a number below `placeCount` for each vertex; vertices at the same position have the same
+// number. The index ranges of the clusters start at the level's first index. Deterministic.
 template <typename Vertex>
 std::vector<Cluster> clusterTriangles(TriangleSet<Vertex>& level, std::span<const glm::vec3> positions,
                                       const Numbered<Vertex, PositionNumber>& places, std::size_t placeCount);

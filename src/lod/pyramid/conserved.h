@@ -1,6 +1,6 @@
 #pragma once
-// Measures the properties of a surface that a wide blur preserves: mean colour, reflected light and covered area. These
-// properties show how far a level of detail deviates from level 0.
+// Measures the properties of a surface that a wide blur preserves: mean colour, reflected radiance and covered area.
+// Their differences show how far a level of detail deviates from level 0, the full mesh.
 
 #include <array>
 #include <cstdint>
@@ -14,32 +14,33 @@
 namespace defocus::engine {
 
 struct Conserved {
-    double area = 0;       // object units squared
+    double area = 0;       // surface area, object units squared
     glm::dvec3 colour{0};  // area-weighted mean colour
-    LightMeans light{};    // reflected radiance per light direction; textures are ignored
-    // Area of the surface's silhouette in a parallel projection along each direction, in object units squared. Both
-    // sides of a face count. The opposite direction gives the same area.
+    LightMeans light{};    // mean reflected radiance for each light direction; textures are ignored
+    // Area of the surface's silhouette in parallel projection along each direction, in object units squared. Faces
+    // cover the same area seen from both sides, so that opposite directions give the same area.
     std::array<double, outlineDirections> outline{};
 };
 
-// Function that returns the colour of a surface at a point. `firstIndex` is the triangle's first entry in
-// Pyramid::indices; `weights` are barycentric coordinates.
+// Returns the colour of a surface at a point of a triangle. `firstIndex` is the offset of the triangle's first index in
+// Pyramid::indices; `weights` are the point's barycentric coordinates.
 using ColourAt = std::function<glm::dvec3(std::uint32_t firstIndex, const glm::dvec3& weights)>;
 
-// Returns a function that interpolates the level's vertex colours. The colour is white if the level has none.
+// Returns a function that interpolates the level's vertex colours, or returns white if the level has none.
 ColourAt vertexColours(const Pyramid& pyramid, std::size_t level);
 
-// Measures a level. Colour and reflected radiance are sampled at `points` or more points; silhouettes are rasterized on
-// a grid of `resolution`² points. The mean colour is exact if the colour is linear over each triangle.
+// Measures the conserved properties of a level. Colour and reflected radiance are sampled at `points` or more points;
+// silhouettes are rasterized on a grid of `resolution`² points. The mean colour is exact if the colour is linear over
+// each triangle.
 Conserved conservedBy(const Pyramid& pyramid, std::size_t level, const ColourAt& colour, std::size_t points,
                       int resolution);
 
-// Largest differences between a level and level 0.
+// Differences between a level and level 0 in the properties of Conserved.
 struct ConservedDifference {
-    double colour = 0;       // max difference of the mean colour over all channels
-    double light = 0;        // max difference of the reflected radiance over all light directions
-    double outline = 0;      // max relative difference of the silhouette area over all view directions
-    double meanOutline = 0;  // signed relative difference of the mean silhouette area over all view directions
+    double colour = 0;       // max difference of the mean colour, over all channels
+    double light = 0;        // max difference of the mean reflected radiance, over all light directions
+    double outline = 0;      // max relative difference of the silhouette area, over all view directions
+    double meanOutline = 0;  // signed relative difference of the silhouette area's mean over all view directions
 };
 
 ConservedDifference differenceOf(const Conserved& level, const Conserved& level0);

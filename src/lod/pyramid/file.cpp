@@ -10,8 +10,9 @@
 
 namespace defocus::engine {
 
-// Structured bindings name all members of a struct, including unused ones. Adding a member then causes a compile error,
-// as a reminder to include the member in the key or the file.
+// Structured bindings in this file name all members of a struct, including unused ones. If a member is added to the
+// struct, the bindings no longer compile, as a reminder to include the member in the key or in the file. The assertions
+// check that the stored structs have no padding.
 
 static_assert(std::has_unique_object_representations_v<IndexRange>);
 static_assert(sizeof(PyramidFileHeader) == 208 && sizeof(PyramidFileLevel) == 120 && sizeof(Cluster) == 48,
@@ -21,7 +22,7 @@ namespace {
 
 constexpr std::size_t checkedFrom = offsetof(PyramidFileHeader, checksum) + sizeof(PyramidFileHeader::checksum);
 
-// ---- key ---------------------------------------------------------------------------------------
+// ---- hash the mesh for the cache key -----------------------------------------------------------
 
 template <typename T>
 void hashStream(std::uint64_t& hash, const std::vector<T>& stream) {
@@ -50,7 +51,7 @@ void hashMorphTarget(std::uint64_t& hash, const MorphTarget& target) {
     hashStream(hash, tangents);
 }
 
-// ---- writing -----------------------------------------------------------------------------------
+// ---- write a cache file ------------------------------------------------------------------------
 
 template <typename T>
 void append(std::vector<std::byte>& bytes, const std::vector<T>& values) {
@@ -94,9 +95,10 @@ std::size_t encodedSize(const Pyramid& pyramid, const Mesh& mesh) {
     return size;
 }
 
-// ---- reading -----------------------------------------------------------------------------------
+// ---- read a cache file -------------------------------------------------------------------------
 
-// Reads consecutive arrays from a file's bytes. Checks the remaining size before memory is allocated.
+// Reads consecutive arrays from the bytes of a file. Before memory for an array is allocated, checks that the file has
+// enough bytes left.
 class Reader {
 public:
     explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -135,7 +137,7 @@ bool areBlurTables(const BlurTables& tables) {
     });
 }
 
-// Returns whether the clusters' index ranges cover each primitive's range without gaps.
+// Returns whether the clusters' index ranges cover the index range of each primitive without gaps.
 bool clustersFit(const PyramidLevel& level) {
     auto cluster = level.clusters.begin();
     for (const IndexRange& primitive : level.primitives) {
@@ -151,7 +153,8 @@ bool clustersFit(const PyramidLevel& level) {
     return cluster == level.clusters.end();
 }
 
-// Reads the level records and index ranges. Checks that the ranges cover all indices without gaps, level by level.
+// Reads the level records and index ranges of a file. Checks that the ranges cover all indices without gaps, level by
+// level.
 bool readLevels(Reader& reader, const PyramidFileHeader& header, std::vector<PyramidLevel>& levels,
                 std::vector<IndexRange>& ranges) {
     std::vector<PyramidFileLevel> records;
@@ -189,7 +192,7 @@ bool readLevels(Reader& reader, const PyramidFileHeader& header, std::vector<Pyr
     return true;
 }
 
-// Returns whether level 0 has all triangles of each primitive.
+// Returns whether level 0 has as many triangles of each primitive as the mesh.
 bool keepsEveryTriangle(const PyramidLevel& level, const Mesh& mesh) {
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p)
         if (level.primitives[p].count != mesh.primitives[p].indices.size() / 3 * 3) return false;
@@ -243,7 +246,8 @@ std::uint64_t meshHash(const Mesh& mesh) {
 }
 
 PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options) {
-    // Hash of the sources in src/lod, set by the build system. A changed algorithm thus invalidates all cache files.
+    // Hash of the source files in src/lod, set by the build system. A changed algorithm thus invalidates all cache
+    // files.
     constexpr std::uint64_t sources[1] = {DEFOCUS_PYRAMID_SOURCES};
     const std::uint64_t own = meshHash(mesh) ^ (options.finishes == nullptr ? 0 : options.finishes->hash(mesh));
     return {hashBytes(std::as_bytes(std::span(sources)), own), options};
@@ -253,7 +257,7 @@ std::vector<std::byte> encodePyramid(const Pyramid& pyramid, const Mesh& mesh, c
     std::vector<std::byte> bytes(sizeof(PyramidFileHeader));
     bytes.reserve(encodedSize(pyramid, mesh));
 
-    // Write the level table, then the arrays.
+    // Write the table of levels, then the arrays.
     std::vector<PyramidFileLevel> records;
     std::vector<IndexRange> ranges;
     std::vector<Cluster> allClusters;
@@ -278,7 +282,7 @@ std::vector<std::byte> encodePyramid(const Pyramid& pyramid, const Mesh& mesh, c
         append(bytes, pyramid.levels[l].uv1);
     }
 
-    // Write the header with the checksum of all following bytes.
+    // Write the header, which contains the checksum of all bytes after the checksum.
     PyramidFileHeader header = headerOf(pyramid, mesh, key);
     std::memcpy(bytes.data(), &header, sizeof header);
     header.checksum = hashBytes(std::span(bytes).subspan(checkedFrom));
@@ -295,7 +299,7 @@ std::optional<PyramidFileHeader> pyramidHeader(std::span<const std::byte> bytes)
 }
 
 std::optional<Pyramid> decodePyramid(std::span<const std::byte> bytes, const Mesh& mesh, const PyramidKey& key) {
-    // Check the key and the checksum.
+    // Check the cache key and the checksum.
     const std::optional<PyramidFileHeader> header = pyramidHeader(bytes);
     if (!header || !matches(*header, mesh, key)) return {};
     if (hashBytes(bytes.subspan(checkedFrom)) != header->checksum) return {};
@@ -310,7 +314,7 @@ std::optional<Pyramid> decodePyramid(std::span<const std::byte> bytes, const Mes
         return {};
     if (!reader.read(pyramid.indices, header->indexCount) || !indicesInRange(pyramid)) return {};
 
-    // Gather vertices from the mesh, then read the levels' own attributes.
+    // Gather vertices from the mesh, then read the attributes stored for each level.
     pyramid.vertices = gathered(mesh.vertices, pyramid.source);
     if (mesh.vertices.normals.empty() && !reader.read(pyramid.vertices.normals, header->vertexCount)) return {};
     if (!readStreams(reader, pyramid) || !reader.finished()) return {};

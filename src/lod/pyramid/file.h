@@ -1,7 +1,7 @@
 #pragma once
-// Encodes a pyramid as a cache file and decodes it. The file contains only data that cannot be derived from the mesh:
-// the mesh vertex of each pyramid vertex, the indices, and the positions, normals, colours and texture coordinates of
-// each level.
+// Encodes a pyramid (a mesh with its levels of detail) as a cache file, and decodes it. The file contains only data
+// that cannot be derived from the mesh: the mesh vertex of each pyramid vertex, the indices, and the positions,
+// normals, colours and texture coordinates of each level.
 //
 //   header | level records | index ranges, levels × primitives | clusters, level by level | source | indices
 //          | normals, if the mesh has none | for each level from 1: positions, normals, colours, uv0, uv1
@@ -18,12 +18,12 @@
 
 namespace defocus::engine {
 
-// Returns a hash of all vertex streams, the indices of every primitive, and the morph targets.
+// Returns a hash of all vertex attributes, the indices of every primitive, and the morph targets.
 std::uint64_t meshHash(const Mesh& mesh);
 
-// Cache key: all inputs that a pyramid depends on.
+// Key of a cache file: all inputs on which a pyramid depends.
 struct PyramidKey {
-    // meshHash, combined with hashes of the mesh's simplified materials (finish.h) and of the source files in src/lod.
+    // Hash of the mesh (meshHash), of its simplified materials (finish.h), and of the source files in src/lod.
     std::uint64_t mesh = 0;
     PyramidOptions options;
 };
@@ -32,15 +32,15 @@ PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options);
 
 struct PyramidFileHeader {
     static constexpr std::uint64_t expectedMagic = 0x3150445053554644ull;  // "DFUSPDP1"
-    // Version of the file format. Changes of buildPyramid need no new version, because the key (pyramidKey) contains a
-    // hash of the source files.
+    // Version of the file format. Changes of buildPyramid need no new version, because the cache key (PyramidKey)
+    // contains a hash of the source files.
     static constexpr std::uint32_t expectedVersion = 7;
 
     std::uint64_t magic = expectedMagic;
     std::uint64_t checksum = 0;  // hashBytes of all bytes after this field
     std::uint32_t version = expectedVersion;
     std::uint32_t levelCount = 0;
-    std::uint64_t mesh = 0;  // PyramidKey::mesh
+    std::uint64_t mesh = 0;  // hash PyramidKey::mesh
     std::uint32_t minTriangles = 0;
     std::int32_t maxLevels = 0;
     std::uint64_t indexCount = 0;
@@ -48,9 +48,9 @@ struct PyramidFileHeader {
     std::uint32_t vertexCount = 0;
     std::uint32_t triangleCount = 0;  // triangle count of level 0
     std::uint32_t repairedFaces = 0;
-    std::uint32_t end = 0;       // value of PyramidEnd
-    std::uint32_t vertices = 0;  // value of LevelVertices
-    double minimum[3] = {};      // Pyramid::bounds
+    std::uint32_t end = 0;       // Pyramid::end, reason why no further level exists
+    std::uint32_t vertices = 0;  // PyramidOptions::vertices as integer
+    double minimum[3] = {};      // lower corner of Pyramid::bounds
     double maximum[3] = {};
     double smallestPatch = 0;
     BlurTables contrast{};
@@ -67,15 +67,16 @@ struct PyramidFileLevel {
     BlurTables blurredError{};
 };
 
-// Encodes a pyramid. `pyramid` must be the result of buildPyramid for `mesh`.
+// Encodes a pyramid as the bytes of a cache file. `pyramid` must be the result of buildPyramid for `mesh`.
 std::vector<std::byte> encodePyramid(const Pyramid& pyramid, const Mesh& mesh, const PyramidKey& key);
 
-// Decodes a pyramid, bit-identical to the encoded pyramid. Returns nullopt if `bytes` are not a complete, valid file
-// for this mesh and key. Safe for arbitrary bytes: all indices are checked, and at most about 40 times the size of
-// `bytes` is allocated.
+// Decodes a pyramid from the bytes of a cache file; it is bit-identical to the encoded pyramid. Returns nullopt if
+// `bytes` are not a complete, valid file for this mesh and key. Safe for arbitrary bytes: all indices are checked, and
+// at most about 40 times the size of `bytes` is allocated.
 std::optional<Pyramid> decodePyramid(std::span<const std::byte> bytes, const Mesh& mesh, const PyramidKey& key);
 
-// Reads only the header, for any key and version. Returns nullopt if `bytes` are too short or of another format.
+// Reads only the header of a cache file with any key and version. Returns nullopt if `bytes` are too short or have
+// another format.
 std::optional<PyramidFileHeader> pyramidHeader(std::span<const std::byte> bytes);
 
 }  // namespace defocus::engine

@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr float dielectric = 0.04f;  // reflectance at normal incidence, as defined by glTF
+constexpr float dielectric = 0.04f;  // reflectance of non-metals at normal incidence, as defined by glTF
 
 using Decoding = std::array<float, 256>;
 
@@ -33,7 +33,7 @@ std::uint8_t byteOf(float value, bool srgb) {
     return static_cast<std::uint8_t>(std::lround(255 * (srgb ? srgbEncode(value) : value)));
 }
 
-// Downsamples the image by averaging blocks of texels; ignores alpha.
+// Downsamples an image by averaging blocks of texels; ignores alpha.
 FinishImage reduced(const TextureImage& image, bool srgb) {
     const Decoding& values = decoding(srgb);
     FinishImage result;

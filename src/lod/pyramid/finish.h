@@ -1,5 +1,5 @@
 #pragma once
-// Finishes are simplified materials of a scene's meshes, used for the pictures that measure the error of levels
+// Creates finishes: simplified materials with which the images that measure the error of levels are rendered
 // (picture.h). They follow glTF's metallic-roughness model, without normal maps, occlusion maps, transparency, clear
 // coat and sheen.
 
@@ -18,9 +18,9 @@
 
 namespace defocus::engine {
 
-// A texture, downsampled to a size that is sufficient for the pictures of picture.h.
+// A texture, downsampled to the size that the images of picture.h need.
 struct FinishImage {
-    static constexpr int maxSide = 256;  // texels
+    static constexpr int maxSide = 256;  // max width and height in texels
 
     int width = 0;
     int height = 0;
@@ -29,17 +29,17 @@ struct FinishImage {
 };
 
 struct FinishMap {
-    std::shared_ptr<const FinishImage> image;  // texels of the map; null: no image
+    std::shared_ptr<const FinishImage> image;  // image that the map samples; null: none
     Wrap wrapS = Wrap::repeat;
     Wrap wrapT = Wrap::repeat;
     int uvSet = 0;
     glm::mat3 uvTransform{1.0f};
-    // Returns the map's linear value, interpolated between texels. uvSet selects one of the two sets of texture
-    // coordinates. Returns 1 if there is no image.
+    // Returns the map's linear value, interpolated between texels. The member uvSet selects uv0 or uv1. Returns 1 if
+    // the map has no image.
     [[nodiscard]] glm::vec3 at(const glm::vec2& uv0, const glm::vec2& uv1) const;
 };
 
-// Simplified material. The default is white and matt, tinted by vertex colours only. Meshes without a scene use this
+// Simplified material. By default, it is white and matt, tinted by vertex colours only; meshes without a scene use the
 // default.
 struct Finish {
     bool unlit = false;
@@ -53,14 +53,14 @@ struct Finish {
     FinishMap emissionMap = {};
 };
 
-// Creates the finishes of a scene, which must outlive this object. An image is downsampled when a finish first needs
-// it, and kept as long as any finish uses it. Thread-safe.
+// Creates the finishes (simplified materials) of a scene, which must outlive this object. An image is downsampled when
+// a finish first needs it, and kept as long as any finish uses it. Thread-safe.
 class Finishes {
 public:
     explicit Finishes(const Scene& scene);
     // Returns the finish of a material; −1 selects glTF's default material.
     [[nodiscard]] Finish of(int material) const;
-    // Returns a hash of the mesh's materials and textures, restricted to the properties that a Finish holds.
+    // Returns a hash of those properties of the mesh's materials and textures that a Finish holds.
     [[nodiscard]] std::uint64_t hash(const Mesh& mesh) const;
 
 private:

@@ -1,5 +1,5 @@
 #pragma once
-// SIMD types: four values that GCC and Clang process in one instruction.
+// Defines SIMD types with four values, which GCC and Clang process in one instruction.
 
 #include <cstdint>
 #include <cstring>
@@ -9,7 +9,7 @@ namespace defocus::engine {
 using Four = float __attribute__((vector_size(16)));
 using FourWords = std::uint32_t __attribute__((vector_size(16)));
 
-// loaded() reads four consecutive values; store() writes them.
+// loaded() reads four consecutive values into a SIMD type; store() writes them to memory.
 template <typename Numbers, typename Value>
 Numbers loaded(const Value* from) {
     Numbers numbers;

@@ -1,5 +1,5 @@
-// Source: Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field Rendering: fractional levels from blur and projected
-// size.
+// Selects real-valued levels of detail from blur and projected size, as in Jeong, Kim and Lee 2011, Multi-Resolution
+// Depth-of-Field Rendering.
 
 #include "lod/pyramid/level_selection.h"
 
@@ -16,10 +16,10 @@ constexpr LodThresholds referenceError{0.018, 0.18};  // blur and size at 64 sam
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double sampleErrorExponent = 0.65;
 constexpr double lightOfSampleError = 6.7;   // default of LodThresholds::light for one sample, px
-constexpr double sampleErrorShareMax = 0.3;  // max level error / sampling error; raises their RMS sum by at most 4.4 %
+constexpr double sampleErrorShareMax = 0.3;  // max level error / sampling error; raises the total RMS by at most 4.4 %
 constexpr double largestFactor = 2;          // max factor on the blur threshold for few samples; limits outline errors
 
-// Returns whether the metric compares edge lengths with the target.
+// Returns whether the metric compares the levels' edge lengths with the target.
 bool bySize(LodMetric metric) {
     return metric == LodMetric::size || metric == LodMetric::score;
 }
@@ -28,9 +28,9 @@ double storedSize(const PyramidLevel& level, LodMetric metric) {
     return bySize(metric) ? level.meanEdge : level.error;
 }
 
-// Returns where `target` lies between the sizes of two levels: 0 at the finer level, 1 at the coarser level. Edge
-// lengths are interpolated logarithmically, because halving the triangles multiplies them by a constant. Errors start
-// at 0 and are interpolated linearly.
+// Returns where `target` lies between the edge lengths or errors of two levels: 0 at the finer level, 1 at the coarser
+// level. Edge lengths are interpolated logarithmically, because halving the triangles multiplies them by a constant.
+// Errors start at 0 and are interpolated linearly.
 double between(double fine, double coarse, double target, LodMetric metric) {
     const double fraction = bySize(metric) && fine > 0 ? std::log(target / fine) / std::log(coarse / fine)
                                                        : (target - fine) / (coarse - fine);

@@ -1,7 +1,7 @@
 #pragma once
-// Selects the level of detail of an object. The object's blur and its projected size give a real-valued level λ. λ is a
-// continuous function of the camera (Jeong, Kim and Lee 2011). The N lens samples are divided between the two levels
-// next to λ.
+// Selects the level of detail of an object. The object's blur and its projected size give a real-valued level λ, which
+// is a continuous function of the camera (Jeong, Kim and Lee 2011). The N lens samples are divided between the two
+// integer levels next to λ.
 
 #include <cstdint>
 #include <optional>
@@ -11,11 +11,11 @@
 
 namespace defocus::engine {
 
-// Return the names used on the command line.
+// Return the names of modes and metrics on the command line.
 const char* lodModeName(LodMode mode);
 const char* lodMetricName(LodMetric metric);
 
-// Thresholds set by the user; unset thresholds have defaults that depend on the sample count, so that long renders
+// Thresholds set by the user. Unset thresholds have defaults that depend on the sample count, so that long renders
 // converge to full detail. For the metrics `size` and `error`, the target is max(blur · c, size) px for a circle of
 // confusion of c px. For `proportional`, `blur` is the level of an object whose circle of confusion is as large as its
 // bounding box. For `measured`, a level's error is at most light / edge for edges of `edge` px. This error is
@@ -34,7 +34,7 @@ struct LodThresholds {
     double blur = 0;  // target edge length or error per CoC diameter; number of levels for `proportional`
     double size = 0;  // min target edge length or error in px
     // Max product of a level's edge length in px and its error in standard deviations of the radiance within the blur.
-    // Only for LodMetric::measured; see measuredLimit.
+    // 0 for all metrics except LodMetric::measured; see measuredLimit.
     double light = 0;
 };
 
@@ -53,29 +53,29 @@ inline constexpr double proportionalLevels = 10;
 // Returns the thresholds of a metric for N = `sampleCount` lens samples.
 //
 // Metrics `size` and `error`: the defaults are (64/N)^(2/3) times the thresholds at N = 64. `blur` is at most twice its
-// value at N = 64; the limit applies for N ≤ 22. `size` never exceeds its value at N = 64, because few samples do not
+// value at N = 64; this limit applies for N ≤ 22. `size` never exceeds its value at N = 64, because few samples do not
 // blur objects in focus. The thresholds at N = 64 give the coarsest levels with a PSNR of 42 dB against full detail,
-// for the built-in school at 1024 × 768. The levels' error grows as threshold^1.3; the error of Sobol points falls as
-// N^(−0.65). Up to N = 32, the levels' error is therefore 0.9 to 1.6 times the sampling error. In this range, finer
-// levels with fewer samples gain nothing. The ratio is 2.4 at N = 64 and decreases beyond; both errors vanish as N
-// grows. Measured on the school of fish at 512 × 384 (bench/results/llvmpipe-thresholds.txt).
+// for the built-in school of fish at 1024 × 768. The levels' error grows as threshold^1.3; the error of Sobol points
+// falls as N^(−0.65). Up to N = 32, the levels' error is therefore 0.9 to 1.6 times the sampling error. In this range,
+// finer levels with fewer samples gain nothing. The ratio is 2.4 at N = 64 and decreases beyond; both errors vanish as
+// N grows. Measured on the school of fish at 512 × 384 (bench/results/llvmpipe-thresholds.txt).
 //
-// Metric `proportional`: `blur` is proportionalLevels for every N, because the paper's rule does not depend on the
-// number of samples.
+// Metric `proportional`: `blur` is proportionalLevels for every N, because the rule of Jeong, Kim and Lee 2011 does not
+// depend on the number of samples.
 //
 // Metric `measured`: `light` is 6.7 · expectedSampleError(N)². The error of one sample at a random lens position is the
 // standard deviation of the radiance within the blur. The error of N samples is expectedSampleError(N) times that
 // deviation. The levels' error is small compared with the sampling error and hardly raises the RMS of both together.
-// The levels' error must be smaller, because it appears as large soft spots on objects. FLIP, like the eye, weighs such
-// spots more than the outlines and fine ghosts caused by sampling.
+// The levels' error must be smaller than the sampling error, because it appears as large soft spots on objects. FLIP,
+// like the eye, weighs such spots more than the outlines and fine ghosts caused by sampling.
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 
-// Returns the max error of a measured level with edges of `edge` px (> 0), in standard deviations of the radiance
-// within the blur. The limit is light / edge, but at most 0.3 times expectedSampleError(N), where N is the sample count
-// whose default threshold is `light`. Reason for 1/edge: halving the triangles doubles a level's error. For a given sum
-// of squared errors over the image, the fewest triangles are then needed if the squared error is proportional to
-// triangles per pixel. Objects with small triangles are therefore simplified first. Objects with large triangles are
-// hardly simplified, because this would save little.
+// Returns the max error of a level for LodMetric::measured, in standard deviations of the radiance within the blur, if
+// the level's edges have `edge` px (> 0). The limit is light / edge, but at most 0.3 times expectedSampleError(N),
+// where N is the sample count whose default threshold is `light`. Reason for 1/edge: halving the triangles doubles a
+// level's error. For a given sum of squared errors over the image, the fewest triangles are then needed if the squared
+// error is proportional to triangles per pixel. Objects with small triangles are therefore simplified first. Objects
+// with large triangles are hardly simplified, because this would save little.
 double measuredLimit(double light, double edge);
 
 struct LevelQuery {
@@ -83,7 +83,7 @@ struct LevelQuery {
     // horizontal field of view θx. z is the nearest depth of the object; for LodMetric::score, it is the depth of the
     // bounding box's centre.
     double pixelsPerUnit = 0;
-    double boxSize = 0;  // longer side of the projected bounding box, px, ≥ 0; only for LodMetric::proportional
+    double boxSize = 0;  // longer side of the projected bounding box, px, ≥ 0; used only by LodMetric::proportional
     double coc = 0;      // lower bound of the CoC diameter over the object, px, ≥ 0
 };
 
@@ -100,14 +100,14 @@ struct LevelQuery {
 double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,
                      const LodThresholds& thresholds);
 
-// Division of N lens samples between two levels. Samples [0, coarseCount) draw level `level` + 1, and samples
-// [coarseCount, N) draw level `level`. Below, f = λ − ⌊λ⌋.
+// Division of N lens samples between two levels of detail. Samples [0, coarseCount) draw level `level` + 1, and samples
+// [coarseCount, N) draw level `level`. With f = λ − ⌊λ⌋ for the real-valued level λ:
 //   fractional: coarseCount = round(f·N). As λ changes, one complete sample after another switches its level.
 //   continuous: f·N = n + g with the integer n = coarseCount and 0 ≤ g < 1.
 //     In sample n, a fraction g of the pixels draws the coarser level (screen door).
 //     As λ changes, the pixels of one sample switch one after another, evenly spread.
-// With continuous, each pixel of each sample still draws exactly one level, so that objects have no holes. Where the
-// outlines of the two levels differ, coverage changes by at most 1/N of a pixel.
+// In the continuous mode, each pixel of each sample still draws exactly one level, so that objects have no holes. Where
+// the outlines of the two levels differ, coverage changes by at most 1/N of a pixel.
 struct SampleSplit {
     std::uint32_t level = 0;
     std::uint32_t coarseCount = 0;

@@ -1,7 +1,7 @@
 #pragma once
-// Renders pictures of a level by parallel projection, without a lens. Each grid cell shows the surface that is nearest
-// to the eye at the cell's centre. The lighting is a uniform sky and the default lights of scenes without lights
-// (scene/defaults.h).
+// Renders small images (pictures) of a level of detail by parallel projection, without a lens. Each cell (pixel) shows
+// the surface that is nearest to the eye at the cell's centre. The lighting is a uniform sky and the default lights of
+// scenes without lights (scene/defaults.h).
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace defocus::engine {
 
-// A rectangle of grid cells; `right` and `top` are exclusive. Values are stored row by row.
+// A rectangle of cells (pixels) of a picture; `right` and `top` are exclusive. Values of cells are stored row by row.
 struct CellBox {
     int left = 0, right = 0;
     int bottom = 0, top = 0;
@@ -29,13 +29,14 @@ struct CellBox {
 };
 inline constexpr int boxAlignment = 32;  // sides of Eye::box are multiples of this number of cells
 
-// View direction and square grid of a picture. The grid is perpendicular to the direction and covers a bounding sphere
-// of the mesh.
+// View direction and square grid of cells of a picture. The grid is perpendicular to the direction and covers a
+// bounding sphere of the mesh.
 struct Eye {
     glm::dvec3 centre{0}, right{0}, up{0}, towards{0};  // towards: unit vector from the mesh to the eye
     double cellsPerUnit = 0;
-    int resolution = 0;  // cells per side
-    // Cells that the mesh may cover. The sides are multiples of boxAlignment, or equal to the side of the grid.
+    int resolution = 0;  // cells per side of the grid
+    // Rectangle of the cells that the mesh may cover. Its sides are multiples of boxAlignment, or equal to the side of
+    // the grid.
     CellBox box;
 
     // Projects a position to cell coordinates; z increases towards the eye.
@@ -45,14 +46,15 @@ struct Eye {
 Eye eyeAlong(const Pyramid& pyramid, const glm::dvec3& towards, int resolution);
 
 struct Picture {
-    // Linear radiance of the cells in Eye::box. 0 means a cell without a surface; black surfaces have a tiny positive
+    // Linear radiance of the cells in Eye::box. 0 marks a cell without a surface; black surfaces have a tiny positive
     // value.
     LargeVector<glm::vec3> light;
-    std::size_t covered = 0;  // number of covered cells
-    double sum = 0;           // sum over all cells of the mean of the three channels
+    std::size_t covered = 0;  // number of cells that show a surface
+    double sum = 0;           // sum over all cells of the mean of the three colour channels
 };
 
-// Renders levels one after another, with one finish (simplified material) per primitive. Reuses its memory.
+// Renders pictures of one level after another, with one finish (simplified material) per primitive. Reuses memory from
+// level to level.
 class Painter {
 public:
     Painter(const Pyramid& pyramid, const Eye& eye, std::span<const Finish> finishes);
@@ -66,11 +68,11 @@ private:
     std::span<const Finish> finishes_;
     std::vector<glm::vec3> places_;  // projected vertices of the level
     // Depth and triangle of the nearest surface at the centre of each cell of Eye::box.
-    LargeVector<float> depths_;          // depth z; −∞ for empty cells
+    LargeVector<float> depths_;          // z of the nearest surface; −∞ for empty cells
     LargeVector<std::uint32_t> firsts_;  // offset of the triangle's first index in Pyramid::indices
 };
 
-// Renders one picture of level `number`.
+// Renders one picture of level `number`, for callers that need no further level.
 Picture pictureOf(const Pyramid& pyramid, std::size_t number, const Eye& eye, std::span<const Finish> finishes);
 
 }  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #pragma once
-// Shading of picture cells. Private to picture.cpp. The shading model is the same as in shaders/include/shading.glsl,
-// which cites the sources.
+// Shades the cells (pixels) of a picture. Private to picture.cpp. The shading model is the same as in
+// shaders/include/shading.glsl, which cites the sources.
 
 #include <algorithm>
 #include <array>
@@ -22,11 +22,11 @@
 
 namespace defocus::engine {
 
-inline constexpr float skyRadiance = 0.5f;  // approximate mean of the default sky
+inline constexpr float skyRadiance = 0.5f;  // approximate mean radiance of the default sky
 
-// Barycentric weights of a triangle's second and third corner, as linear functions of the position.
+// Barycentric weights of a triangle's second and third corner, as linear functions of the position in the picture.
 struct Weights {
-    glm::vec2 origin{0};  // position where both weights are 0
+    glm::vec2 origin{0};  // position in the picture where both weights are 0
     glm::vec2 stepB{0}, stepC{0};
     bool flat = false;  // the triangle has no area
     bool back = false;  // the triangle is back-facing
@@ -43,7 +43,8 @@ struct Weights {
         stepC = inverse * glm::vec2(-ab.y, ab.x);
     }
 
-    // Returns the weights at cell centres. `x` and `y` are cell indices; `x` may be a SIMD vector of four.
+    // Returns the weights of the second and third corner at a cell's centre. `x` and `y` are cell indices; `x` may be a
+    // SIMD vector of four.
     template <typename X>
     [[nodiscard]] std::array<X, 2> at(const X& x, float y) const {
         const X dx = x + 0.5f - origin.x;
@@ -61,14 +62,14 @@ struct SurfacePoint {
 
 struct DistantLight {
     glm::vec3 toLight{0};
-    glm::vec3 illuminance{0};  // illuminance divided by π
-    // Terms that depend only on the light and the eye. lv: cosine of the angle between the two directions. sum2:
+    glm::vec3 illuminance{0};  // illuminance of the light divided by π
+    // Terms that depend only on the directions to the light and to the eye. lv: cosine of the angle between both. sum2:
     // squared length of their sum. vh: half the length of the sum. grazing: Fresnel weight of reflectance at grazing
     // incidence.
     float lv = 0, sum2 = 0, vh = 0, grazing = 0;
 };
 
-// Returns the default lights, oriented relative to the eye.
+// Returns the default lights; their directions are relative to the eye.
 inline std::vector<DistantLight> lightsFor(const Eye& eye) {
     std::vector<DistantLight> lights;
     for (const StudioLight& light : studioLights()) {
@@ -85,9 +86,9 @@ inline std::vector<DistantLight> lightsFor(const Eye& eye) {
     return lights;
 }
 
-// Visible part of the normal distribution that a single mean normal represents.
+// Visible normals of a distribution of normals that is stored as a single mean normal.
 struct SeenNormals {
-    float spread = 0;              // value of normalSpread() for these normals
+    float spread = 0;              // spread of the distribution, from normalSpread()
     float shown = 0;               // mean cosine between eye direction and visible normals
     float along = 1, towards = 0;  // mean visible normal: along · normal + towards · toEye, as in seenNormal()
 };
@@ -104,7 +105,8 @@ inline SeenNormals seenNormals(float nv, float agreement) {
     return seen;
 }
 
-// Returns 2·(n·l)·V with the shadowing-masking term V, like unmasked() in shading.glsl.
+// Returns 2·(n·l)·V, where V is the shadowing-masking term, like unmasked() in shading.glsl. `nl` and `nv` are the
+// cosines between normal and light and between normal and eye.
 inline float unmasked(float nl, float nv, float width2) {
     if (nl <= 0 || nv <= 0) return 0;
     const float masking =
@@ -112,12 +114,12 @@ inline float unmasked(float nl, float nv, float width2) {
     return nl / std::max(masking, 1e-4f);
 }
 
-// Terms of a glossy point that are independent of the light.
+// Terms of specular reflection at a point that are independent of the light.
 struct Gloss {
     float nv = 0;
     float width2 = 0, alpha2 = 0;
     float share = 0;  // fraction of the microfacet distribution that comes from the normals' spread
-    float shown = 0;  // mean cosine between eye direction and the normals of this fraction
+    float shown = 0;  // mean cosine between eye direction and the normals in this fraction
 
     Gloss(const SurfacePoint& point, const SeenNormals& seen, const glm::vec3& toEye)
         : nv(glm::dot(point.normal, toEye)), shown(seen.shown) {
@@ -174,10 +176,10 @@ struct SeenTriangle {
     const std::uint32_t* corners = nullptr;
     const Finish* finish = nullptr;
     Weights weights;
-    std::array<float, 3> lengths{};  // lengths of the normals at the corners
+    std::array<float, 3> lengths{};  // lengths of the vertex normals at the corners
 };
 
-// Collects the matt cells of a row and shades them together.
+// Collects the cells of a row that show a matt surface, and shades them together.
 class MattCells {
 public:
     MattCells(std::vector<DistantLight> lights, const glm::vec3& toEye, int max)
@@ -187,7 +189,7 @@ public:
         shares_.assign(lights_.size(), agreement_);
     }
 
-    // Adds a cell. The normal may have any length.
+    // Adds a cell of the row. The normal may have any length.
     void add(std::size_t number, const glm::vec3& diffuse, const glm::vec3& emission, const glm::vec3& normal,
              float agreement) {
         // Assign each value separately: copying a complete Cell would stall until all its values are available.
@@ -202,7 +204,7 @@ public:
         ++count_;
     }
 
-    // Calls put(number, radiance) for each cell and then removes all cells.
+    // Calls put(number, radiance) for each collected cell and then removes all cells.
     template <typename Put>
     void shade(const Put& put) {
         normalise();
@@ -266,14 +268,15 @@ private:
     std::vector<Cell> cells_;
     std::array<std::vector<float>, 3> normal_;  // normals of the cells, one array per coordinate
     std::vector<float> agreement_;
-    std::vector<float> spread_, along_, towards_;  // see SeenNormals
+    std::vector<float> spread_, along_, towards_;  // per cell, members of SeenNormals
     std::vector<std::vector<float>> shares_;       // per light, the mean cosine of the angle of incidence at each cell
 };
 
-// Computes the visible radiance of surface points. Surfaces without a finish are matt, without specular reflection.
+// Computes the radiance of surface points towards the eye. Points without a finish are matt, without specular
+// reflection.
 class Shading {
 public:
-    // Prepares the shading of a level. shade() and endRow() write the radiance to `cells`.
+    // Prepares the shading of a level's picture. shade() and endRow() write the radiance to `cells`.
     Shading(const PyramidLevel& level, bool coarse, const Eye& eye, std::span<glm::vec3> cells)
         : level_(level),
           coarse_(coarse),
@@ -288,7 +291,7 @@ public:
         return result;
     }
 
-    // Shades the cell with this index. Matt cells are deferred to endRow().
+    // Shades the cell with index `cell`. Cells with a matt surface are deferred to endRow().
     void shade(const SeenTriangle& triangle, std::size_t cell, int x, int y) {
         const Finish& finish = *triangle.finish;
         const auto [b, c] = triangle.weights.at(static_cast<float>(x), static_cast<float>(y));
@@ -332,7 +335,7 @@ public:
         matt_.shade([&](std::size_t cell, const glm::vec3& light) { put(cell, light); });
     }
 
-    double sum = 0;           // sum over all cells of the mean of the three channels
+    double sum = 0;           // sum over all cells of the mean of the three colour channels
     std::size_t covered = 0;  // number of shaded cells
 
 private:

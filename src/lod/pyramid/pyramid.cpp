@@ -30,13 +30,15 @@ namespace {
 constexpr double minEdgeGrowth = 1.05;   // min ratio of the mean edge lengths of consecutive levels
 constexpr double minEdgeToError = 2;     // min ratio of a level's mean edge length to its error
 constexpr double minErrorGrowth = 1.25;  // min ratio of the errors of consecutive levels, from level 1 on
-constexpr double errorFloor = 1e-6;      // min error, relative to the bounding box's diagonal
-// Number of points on each of two surfaces for measuring the distance between a level and level 0. It equals the number
-// of triangles of the surface, within these bounds. The cost is therefore small compared with simplification.
+constexpr double errorFloor = 1e-6;      // min error of level 1, relative to the bounding box's diagonal
+// Min and max number of sample points on each surface for measuring the distance between a level and level 0. Between
+// these bounds, one point per triangle of the surface is used, so that measuring takes little time compared with
+// simplification.
 constexpr std::size_t minErrorPoints = 256;
 constexpr std::size_t maxErrorPoints = 1024;
 constexpr double errorPercentile = 0.99;
-// Enough levels for 2³² triangles, because each level has at most ¾ of the triangles of the next finer level.
+// Number of levels that suffices for 2³² triangles, because each level has at most ¾ of the triangles of the next finer
+// level.
 constexpr std::size_t maxPossibleLevels = 128;
 
 TriangleSet<MeshVertexNumber> allTriangles(const Mesh& mesh, const Numbered<FileVertexNumber, MeshVertexNumber>& ids) {
@@ -70,21 +72,21 @@ bool isIdentity(const Numbered<MeshVertexNumber, FileVertexNumber>& first, std::
     return true;
 }
 
-// Returns whether `equal` duplicates among `count` vertices are so few that a copy without them needs more memory than
-// it saves.
+// Returns whether the mesh has so few duplicates, `equal` of `count` vertices, that a copy without them would need more
+// memory than it saves.
 bool areFew(std::size_t equal, std::size_t count) {
     return equal < count / 4;
 }
 
-// Restores the vertex numbers of the file, so that each file vertex is a mesh vertex. Of several equal vertices,
-// triangles still use only the first.
+// Keeps duplicate vertices apart, so that each file vertex is a mesh vertex with the number that it has in the file. Of
+// several equal vertices, triangles still use only the first.
 void leaveApart(WeldedVertices& unique, TriangleSet<MeshVertexNumber>& triangles, std::size_t count) {
     for (MeshVertexNumber& v : triangles.indices) v = {unique.first[v].value};
     unique.first.resize(count);
     for (const MeshVertexNumber v : unique.first.numbers()) unique.first[v] = {v.value};
 }
 
-// Computes the level's mean and max edge length over all faces.
+// Computes the mean and max edge length of a level over all faces.
 void measureEdges(PyramidLevel& level, std::span<const std::uint32_t> indices) {
     double sum = 0;
     double longest = 0;
@@ -100,7 +102,7 @@ void measureEdges(PyramidLevel& level, std::span<const std::uint32_t> indices) {
     level.longestEdge = std::isfinite(longest) ? longest : 0;
 }
 
-// Appends a level's indices to the pyramid. Returns the level with its index ranges and clusters.
+// Appends a level's indices to Pyramid::indices. Returns the level with its index ranges and clusters.
 PyramidLevel appendLevel(Pyramid& pyramid, const TriangleSet<MeshVertexNumber>& triangles,
                          std::vector<Cluster> clusters, const SurvivalOrder& order) {
     PyramidLevel level;
@@ -117,16 +119,16 @@ PyramidLevel appendLevel(Pyramid& pyramid, const TriangleSet<MeshVertexNumber>& 
     return level;
 }
 
-// Returns a rank k for a conservative estimate: the k-th largest of `count` random samples is very likely at least the
-// true 99th percentile. The margin is two standard deviations of the number of samples beyond the percentile.
+// Returns a rank k such that the k-th largest of `count` random samples is very likely at least the true 99th
+// percentile. The margin is two standard deviations of the number of samples beyond the percentile.
 std::size_t percentileRank(std::size_t count) {
     const auto number = static_cast<double>(count);
     const double deviation = std::sqrt(errorPercentile * (1 - errorPercentile) * number);
     return count - static_cast<std::size_t>(std::min(errorPercentile * number + 2 * deviation, number - 1));
 }
 
-// Returns the distance between the two surfaces: the larger of the distances in both directions, at most the bounding
-// box's diagonal. Without this limit, the distance to a level without area would be infinite.
+// Returns the distance between the surfaces of the mesh and of a level: the larger of the distances in both directions,
+// at most the bounding box's diagonal. Without this limit, the distance to a level without area would be infinite.
 double levelError(const Surface& mesh, const Surface& level, double diagonal) {
     const std::size_t points = std::clamp(mesh.triangles.size(), minErrorPoints, maxErrorPoints);
     const std::size_t rank = percentileRank(points);
@@ -134,7 +136,8 @@ double levelError(const Surface& mesh, const Surface& level, double diagonal) {
     return std::min(largeDistance(level, mesh, points, rank, oneWay), diagonal);
 }
 
-// Raises errors and mean edges so that both grow strictly with the level. Every target then selects a unique level.
+// Raises errors and mean edge lengths so that both grow strictly with the level. Every target then selects a unique
+// level.
 void separateSizes(std::vector<PyramidLevel>& levels, double diagonal) {
     for (std::size_t l = 1; l < levels.size(); ++l) {
         levels[l].error = std::max({levels[l].error, minErrorGrowth * levels[l - 1].error, errorFloor * diagonal});
@@ -143,14 +146,14 @@ void separateSizes(std::vector<PyramidLevel>& levels, double diagonal) {
     }
 }
 
-// A level before the final vertex order is known.
+// Data of a level while the final vertex order is unknown.
 struct FittedLevel {
     TriangleSet<LevelVertexNumber> own;                     // the level's triangles before clustering
     TriangleSet<MeshVertexNumber> triangles;                // triangles of `own` after clustering
-    Numbered<LevelVertexNumber, MeshVertexNumber> numbers;  // see SimplifiedLevel
+    Numbered<LevelVertexNumber, MeshVertexNumber> numbers;  // copy of SimplifiedLevel::numbers
     LevelFit fit;
     std::vector<Cluster> clusters;
-    std::vector<Ball> removed;  // see SimplifiedLevel
+    std::vector<Ball> removed;  // copy of SimplifiedLevel::removed
     double error = 0;
 };
 
@@ -164,8 +167,8 @@ FittedLevel fitted(const FitSource& source, SimplifiedLevel level) {
     return result;
 }
 
-// Returns the level with the original attributes of its vertices. A twin (copy of a vertex) has the attributes of its
-// original.
+// Returns the level with the original attributes of its vertices. A twin (copy of a vertex) has the attributes of the
+// copied vertex.
 FittedLevel surviving(const Vertices& vertices, SimplifiedLevel level) {
     FittedLevel result;
     const auto own = [&]<typename T>(const std::vector<T>& values, Numbered<LevelVertexNumber, T>& kept) {
@@ -184,7 +187,7 @@ FittedLevel surviving(const Vertices& vertices, SimplifiedLevel level) {
     return result;
 }
 
-// Returns the diagonal of the triangles' bounding box; vertices with NaN or infinity are ignored.
+// Returns the diagonal of the triangles' bounding box; vertices with NaN or infinite coordinates are ignored.
 double diagonalOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& triangles) {
     Bounds bounds;
     for (const MeshVertexNumber v : triangles.indices)
@@ -192,8 +195,8 @@ double diagonalOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>&
     return bounds.empty() ? 0 : glm::length(bounds.size());
 }
 
-// Returns an upper bound on the distance from the removed components to the level. The bound is also at least the size
-// of every removed component.
+// Returns an upper bound on the distance from the removed components to the level, never below the size of any removed
+// component.
 double removedError(const std::vector<Ball>& removed, const Surface& level) {
     double error = 0;
     for (const Ball& ball : removed)
@@ -201,7 +204,7 @@ double removedError(const std::vector<Ball>& removed, const Surface& level) {
     return error;
 }
 
-// Measures the level's distance from the mesh.
+// Measures the distance between the level and the mesh.
 void measure(FittedLevel& level, const Surface& mesh, double diagonal) {
     const Surface surface = prepareSurface(level.fit.positions, level.own);
     level.error =
@@ -209,7 +212,7 @@ void measure(FittedLevel& level, const Surface& mesh, double diagonal) {
     level.removed = {};
 }
 
-// Reorders the level's triangles into clusters. `positions` covers the mesh's vertices and the copies of vertices in
+// Reorders the level's triangles into clusters. `positions` covers the mesh's vertices and the copies in
 // Simplification::twins.
 void cluster(FittedLevel& level, const WeldedPositions& positions) {
     Numbered<LevelVertexNumber, PositionNumber> places;
@@ -236,7 +239,7 @@ std::vector<T> inOrder(const std::vector<T>& own, const Numbered<LevelVertexNumb
     return result;
 }
 
-// Returns one finish (simplified material) per primitive; empty without a scene.
+// Returns one finish (simplified material) per primitive; empty without PyramidOptions::finishes.
 std::vector<Finish> finishesOf(const Mesh& mesh, const PyramidOptions& options) {
     std::vector<Finish> finishes;
     if (options.finishes == nullptr) return finishes;
@@ -252,7 +255,7 @@ std::vector<double> vertexShares(LevelVertices vertices) {
 // Approximate fraction of the work that is complete after each stage. On one core, collapsing takes half of the time.
 constexpr double shareOfCollapses = 0.6, shareUntilFitted = 0.7, shareUntilMeasured = 0.8, shareUntilClustered = 0.85;
 
-// Returns the reason to build only level 0 without trying any collapse; nullopt if coarser levels may save time.
+// Returns the reason why only level 0 is built, without trying any collapse; nullopt if coarser levels may save time.
 std::optional<PyramidEnd> endWithoutCollapses(const Mesh& mesh, const PyramidOptions& options) {
     if (options.maxLevels <= 1) return PyramidEnd::maxLevels;
     if (options.vertices == LevelVertices::quarters) return {};  // levels keep given fractions of the vertices
@@ -261,10 +264,10 @@ std::optional<PyramidEnd> endWithoutCollapses(const Mesh& mesh, const PyramidOpt
     return {};
 }
 
-// Builds the pyramid except for the measurements on finished levels (blurred errors and deformation bounds).
+// Builds the pyramid without the measurements on finished levels (blurred errors and deformation bounds).
 Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers,
                   const std::function<void(double)>& reach) {
-    // Merge equal vertices, then weld equal positions.
+    // Merge equal vertices, then find vertices at equal positions.
     WeldedVertices unique = weldVertices(mesh);
     std::vector<FittedLevel> levels(1);
     levels[0].triangles = allTriangles(mesh, unique.id);
@@ -277,8 +280,8 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
         leaveApart(unique, levels[0].triangles, mesh.vertices.count());
     }
     unique.id = {};
-    // The mesh's vertices without duplicates. Empty if the mesh's own vertices are used instead, because they have
-    // normals and few or no duplicates.
+    // The mesh's vertices without duplicates. Empty if the mesh's own vertices are used, because they have normals and
+    // few or no duplicates.
     Vertices joined;
     const bool asTheyAre = hasNormals && isIdentity(unique.first, mesh.vertices.count());
     if (!asTheyAre) joined = gathered(mesh.vertices, plain(unique.first));
@@ -287,7 +290,7 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
     const Vertices& vertices = asTheyAre ? mesh.vertices : joined;
     WeldedPositions positions = weldPositions(vertices.positions);
 
-    // Simplify; fit finished levels on other threads in the meantime.
+    // Simplify the mesh; fit finished levels on other threads in the meantime.
     Pyramid pyramid;
     Simplification simplification;
     double diagonal = 0;
@@ -296,7 +299,8 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
         simplification.end = *end;
     } else {
         const VertexGroups smoothing = smoothingGroups(vertices.normals, positions);
-        // Created only when level 1 is complete, because memory use peaks while the complete mesh is being collapsed.
+        // Data for the fit of all levels. They are created only when level 1 is complete, because memory use peaks
+        // while the complete mesh is being collapsed.
         std::optional<FitSource> source;
         std::once_flag prepared;
         const auto prepare = [&] { source.emplace(prepareFit(vertices, positions, smoothing, levels[0].triangles)); };
@@ -325,7 +329,7 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
     const std::size_t ownCount = vertices.count();
     for (const MeshVertexNumber v : simplification.twins) positions.id.push_back(positions.id[v]);
 
-    // Measure the levels, then cluster them; each step frees its memory before the next one starts.
+    // Measure the levels, then cluster their triangles; each step frees its memory before the next step starts.
     if (levels.size() > 1) {
         const Surface surface = prepareSurface(vertices.positions, levels[0].triangles);
         Tasks tasks(helpers);
@@ -359,7 +363,7 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
     for (const MeshVertexNumber v : sources) pyramid.source.push_back(unique.first[v].value);
     pyramid.bounds = boundsOf(pyramid.vertices.positions);
 
-    // Fill in each level's data.
+    // Fill in the data of each level.
     Numbered<MeshVertexNumber, LevelVertexNumber> fittedAt(ownCount + simplification.twins.size());
     Numbered<PyramidVertexNumber, LevelVertexNumber> inPrefix;
     std::size_t indexCount = 0;
@@ -471,7 +475,7 @@ std::uint64_t trianglesOf(std::span<const Mesh> meshes) {
 std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all) {
     const double share =
         static_cast<double>(mesh.triangleCount()) / static_cast<double>(std::max<std::uint64_t>(1, all));
-    // Cached, because hardware_concurrency() makes a system call.
+    // Keep the number of hardware threads, because hardware_concurrency() makes a system call.
     static const unsigned available = std::max(1u, std::thread::hardware_concurrency());
     const auto cores = std::llround(share * available);
     return static_cast<std::size_t>(std::max(1ll, cores) - 1);

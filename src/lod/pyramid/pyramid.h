@@ -1,12 +1,13 @@
 #pragma once
-// Pyramid: a mesh and its simplified levels. Level 0 is the mesh; each further level has about half the triangles of
-// the previous level.
+// Defines the pyramid of a mesh: the mesh and its simplified levels. Level 0 is the mesh; each further level has about
+// half the triangles of the previous level.
 //
 // All levels index one shared vertex buffer, sorted by the coarsest level that uses each vertex. Vertices at the same
 // position are adjacent. Level l therefore uses the prefix [0, vertexCount[l]). Joints, weights, tangents and morph
 // targets are copied from the surviving vertices of the mesh. Positions, normals, colours and texture coordinates are
-// stored per level and fitted to level 0 (level_fit.h). With LevelVertices::surviving they are also copied from the
-// surviving vertices. With LevelVertices::quarters there are three levels, with 100 %, 75 % and 50 % of the vertices.
+// stored per level and fitted to level 0 (level_fit.h). With LevelVertices::surviving, they are copied from the
+// surviving vertices, too. With LevelVertices::quarters, there are three levels, with 100 %, 75 % and 50 % of the
+// vertices.
 
 #include <array>
 #include <cstddef>
@@ -33,13 +34,14 @@ struct IndexRange {
 };
 
 // A cluster is a run of triangles of one level that are close together and face similar directions. The renderer skips
-// all of them if no lens sample sees any (plan/visible/visibility.h). All lengths are in object units, measured at the
-// level's own vertices. The bounds are rounded outwards, so that they hold for the exact planes of the triangles.
+// all of its triangles if no lens sample sees any (plan/visible/visibility.h). All lengths are in object units,
+// measured at the level's own vertices. The bounds are rounded outwards, so that they hold for the exact planes of the
+// triangles.
 struct Cluster {
-    IndexRange indices;       // index range within one primitive
+    IndexRange indices;       // range of indices within one primitive
     glm::vec3 centre{0};      // centre of a bounding sphere of the vertices
     float radius = 0;         // radius of the bounding sphere
-    glm::vec3 axis{0, 0, 1};  // unit axis of the cone that contains the unit normals n of the triangles
+    glm::vec3 axis{0, 0, 1};  // unit axis of a cone that contains the unit normals n of all triangles
     float minCosine = -1;     // min cosine of the angle between a normal n and the axis
     float planes = 0;         // min of n·(p − centre) over the triangles, with p on the triangle's plane
     // Smallest altitude of any triangle. Triangles with coinciding corners are ignored, because they draw nothing.
@@ -52,14 +54,14 @@ inline constexpr std::uint32_t maxClusterTriangles = 64;
 // than the triangles that further levels would save.
 inline constexpr std::size_t minTrianglesPerPrimitive = 4;
 
-// Table of the RMS of a radiance difference after averaging over square patches of growing size. Entry 0: single
-// points, without averaging. Entry i ≥ 1: patches with side 2^(i − 1) · Pyramid::smallestPatch. Values are relative to
-// the mean radiance of the mesh.
+// Number of entries of a BlurTable, which holds the RMS of a radiance difference after averaging over square patches of
+// growing size. Entry 0: single points, without averaging. Entry i ≥ 1: patches with side 2^(i − 1) ·
+// Pyramid::smallestPatch. Values are relative to the mean radiance of the mesh.
 inline constexpr std::size_t blurSizes = 10;
 using BlurTable = std::array<float, blurSizes>;
 
-// Background for measuring the radiance of a mesh. Outlines have a high contrast on black, and a low contrast on a grey
-// of the mesh's mean radiance. A real background is between the two.
+// Background on which the radiance of a mesh is measured. Outlines have a high contrast on black, and a low contrast on
+// a grey of the mesh's mean radiance. A real background is between the two.
 enum class Surround { black, grey };
 inline constexpr std::array surrounds = {Surround::black, Surround::grey};
 using BlurTables = std::array<BlurTable, surrounds.size()>;  // one table per background (Surround)
@@ -71,8 +73,8 @@ struct PyramidLevel {
     std::vector<Cluster> clusters;  // sorted by index range; together they contain all triangles of the level
     // Vertex attributes of the level, fitted to level 0. Level 0 and levels of LevelVertices::surviving have the mesh's
     // own attributes. Fitted positions lie inside the bounds of level 0. Vertices at the same position stay at the same
-    // position. Fitted normals have length ≤ 1. A shorter normal stands for normals of level 0 that diverge more, so
-    // that a matt surface reflects less light.
+    // position. Fitted normals have length ≤ 1. A shorter normal stands for normals of level 0 that diverge more; a
+    // matt surface with such normals reflects less light.
     std::vector<glm::vec3> positions;  // vertexCount entries
     std::vector<glm::vec3> normals;    // vertexCount entries
     std::vector<glm::vec4> colors;     // vertexCount entries; empty without colours; may lie outside [0, 1]
@@ -80,25 +82,25 @@ struct PyramidLevel {
 
     // Mean edge length over all faces, in object units; an edge counts once per face. The value is raised where needed:
     // it grows by at least 5 % per level and is at least 2·error. Reason for the second bound: a level with a large
-    // error is no finer than that error, however short its edges are.
+    // error is not finer than its error, however short its edges are.
     double meanEdge = 0;
-    double longestEdge = 0;  // object units
+    double longestEdge = 0;  // length of the longest edge, object units
 
     // Distance between the surfaces of the level and of level 0, in object units: the larger of the 99th percentiles
     // over the area in both directions. The percentile is estimated conservatively from 256 to 1,024 points per
-    // direction (surface_distance.h). The value is raised where needed so that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of
-    // the bounding box's diagonal; e[0] = 0. If components were removed from the level, the error is at least their
-    // size and at least the distance from any of their points to the level. The error never exceeds the diagonal of the
-    // bounding box.
+    // direction (surface_distance.h). With e[l] for the error of level l: e[0] = 0, and errors are raised where needed
+    // so that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding box's diagonal. If components were removed from the
+    // level, the error is at least their size and at least the distance from any of their points to the level. The
+    // error never exceeds the diagonal of the bounding box.
     double error = 0;
 
     BlurTables blurredError{};  // errors after blurring (blurred_error.h); 0 for level 0
 };
 
 struct Pyramid {
-    // The vertices of level 0, sorted by the coarsest level that uses them; identical vertices are merged. `normals`
-    // are the normals of level 0. A few vertices are stored twice, for coarser levels that need two normals at one
-    // position.
+    // The vertices of level 0, sorted by the coarsest level that uses each vertex; identical vertices are merged.
+    // `normals` are the normals of level 0. A few vertices are stored twice, for coarser levels that need two normals
+    // at one position.
     Vertices vertices;
     std::vector<std::uint32_t> source;   // index of each vertex in Mesh::vertices, used for morph targets
     std::vector<std::uint32_t> indices;  // indices of all levels, level by level
@@ -107,33 +109,33 @@ struct Pyramid {
     // For each joint, the bounding box of the vertices that it moves at any level, in object units; empty without
     // joints.
     std::vector<Bounds> jointBounds;
-    // For each morph target, the bounding box of its displacements, extended to the origin, in object units.
+    // For each morph target, the bounding box of its displacements and of the origin, in object units.
     std::vector<Bounds> morphBounds;
-    double smallestPatch = 0;  // smallest patch side, in object units; 0 if there is only level 0
-    // Standard deviation of level 0's radiance within patches; see blurred_error.h.
+    double smallestPatch = 0;  // side of the smallest patches (BlurTable), object units; 0 if there is only level 0
+    // Standard deviation V of level 0's radiance within patches of each size; see blurred_error.h.
     BlurTables contrast{};
-    // Number of faces that had to be repaired to build a manifold for collapses (manifold.h); 0 if no collapse was
+    // Number of faces that were repaired to build a manifold for collapses (manifold.h); 0 if no collapse was
     // attempted.
     std::uint32_t repairedFaces = 0;
     PyramidEnd end = PyramidEnd::maxLevels;
 };
 
 struct PyramidOptions {
-    // Levels stop at this number of triangles; the last collapse may remove one triangle more.
+    // Min triangle count at which levels stop; the last collapse may remove one triangle more.
     std::uint32_t minTriangles = 64;
     int maxLevels = 24;  // max number of levels, including level 0
     LevelVertices vertices = LevelVertices::fitted;
     const Finishes* finishes = nullptr;  // materials of the scene that owns the meshes; null: white and matt
-    std::uint64_t memoryLimit = 0;       // max bytes of the process while pyramids are built; 0: no limit
+    std::uint64_t memoryLimit = 0;       // max memory of the process in bytes during the build; 0: no limit
 };
 
-const char* levelVerticesName(LevelVertices vertices);  // name on the command line
+const char* levelVerticesName(LevelVertices vertices);  // Returns the name used on the command line.
 
-// Builds a mesh's pyramid. Deterministic: equal meshes give bit-identical pyramids. Level 0 keeps every triangle of the
-// mesh. The pyramid ends where a further level would save less than a quarter of the triangles. Throws Error if an
-// index is out of range or the memory limit is too low (build_memory.h). `helpers` is the number of threads that fit
-// and measure levels while the calling thread collapses edges. `step` receives the completed fraction of the work, in
-// [0, 1], in steps of about 0.01. It is called on the calling thread.
+// Builds a mesh's pyramid of levels. Deterministic: equal meshes give bit-identical pyramids. Level 0 keeps every
+// triangle of the mesh. The pyramid ends where a further level would save less than a quarter of the triangles. Throws
+// Error if an index is out of range or the memory limit is too low (build_memory.h). `helpers` is the number of threads
+// that fit and measure levels while the calling thread collapses edges. `step` receives the completed fraction of the
+// work, in [0, 1], in steps of about 0.01; it is called on the calling thread.
 Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options = {}, std::size_t helpers = 0,
                      const std::function<void(double)>& step = {});
 
@@ -142,7 +144,7 @@ class PyramidProgress {
 public:
     // Keeps references to both arguments, which must outlive this object.
     PyramidProgress(const std::vector<Mesh>& meshes, const Progress& progress);
-    // Records that a fraction `share`, in [0, 1], of the pyramid of mesh `mesh` is built.
+    // Records that the fraction `share`, in [0, 1], of mesh `mesh`'s pyramid is built.
     void reached(std::size_t mesh, double share);
 
 private:
@@ -152,14 +154,14 @@ private:
     std::vector<double> shares_;
     std::size_t finished_ = 0;
     double total_ = 0;    // number of triangles of all meshes, plus one per mesh
-    double reached_ = 0;  // finished part of `total_`
+    double reached_ = 0;  // finished fraction of the work, scaled to `total_`
 };
 
 // Returns the total number of triangles of the meshes.
 std::uint64_t trianglesOf(std::span<const Mesh> meshes);
 
-// Returns the number of helper threads for one of several pyramids that are built in parallel. The number is
-// proportional to the mesh's triangle count. `all` is the total triangle count of all meshes.
+// Returns the number of helper threads for the pyramid of `mesh`, if several pyramids are built in parallel. The number
+// is proportional to the mesh's triangle count. `all` is the total triangle count of all meshes.
 std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all);
 
 // Builds one pyramid per mesh, in the order of buildLargestFirst (build_memory.h).

@@ -1,6 +1,7 @@
-// Sources: Cignoni, Rocchini and Scopigno 1998, Metro: Measuring Error on Simplified Surfaces; Roberts 2018, The
-// Unreasonable Effectiveness of Quasirandom Sequences (R2 sequence); Lauterbach et al. 2009, Fast BVH Construction on
-// GPUs (Morton order).
+// Measures distances between surfaces (Cignoni, Rocchini and Scopigno 1998, Metro: Measuring Error on Simplified
+// Surfaces), with sample points from the R2 sequence (Roberts 2018, The Unreasonable Effectiveness of Quasirandom
+// Sequences). The bounding volume hierarchy uses the Morton order of triangles (Lauterbach et al. 2009, Fast BVH
+// Construction on GPUs).
 
 #include "lod/pyramid/surface_distance.h"
 
@@ -22,11 +23,11 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t maxTrianglesPerLeaf = 4;
-constexpr std::size_t arity = 4;  // children per node
-// Rounding error of a single-precision difference of coordinates, relative to the largest coordinate of the surface and
-// the point.
+constexpr std::size_t arity = 4;  // children per node of the bounding volume hierarchy
+// Bound on the rounding error of a difference of coordinates in single precision, relative to the largest coordinate of
+// the surface and the point.
 constexpr float rounding = 2.5e-7f;
-constexpr double mortonCells = 1023;  // max cell index per axis: 10 bits
+constexpr double mortonCells = 1023;  // max index of a grid cell per axis in a Morton code: 10 bits
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // Steps of the R2 sequence: 1/g and 1/g², where g³ = g + 1.
 constexpr double stepU = 0.7548776662466927;
@@ -60,8 +61,8 @@ std::uint32_t spread(std::uint32_t bits) {
     return (bits | bits << 2) & 0x09249249u;
 }
 
-// Sorts the keys by the Morton code in the upper 32 bits (radix sort). The triangle numbers in the lower 32 bits are
-// already sorted.
+// Sorts the keys by the Morton code in their upper 32 bits (radix sort). The triangle numbers in the lower 32 bits are
+// already in ascending order.
 void sortByCode(LargeVector<std::uint64_t>& keys) {
     constexpr std::uint64_t digits = 1024;
     LargeVector<std::uint64_t> sorted(keys.size());
@@ -75,7 +76,8 @@ void sortByCode(LargeVector<std::uint64_t>& keys) {
     }
 }
 
-// Returns the triangles with finite corners and positive area, in Morton order. `count` is the number of all triangles.
+// Returns the triangles with finite corners and positive area, in Morton order. `count` is the number of triangles
+// before invalid ones are removed.
 template <typename TriangleAt>
 LargeVector<Triangle> inMortonOrder(std::size_t count, const TriangleAt& triangle) {
     LargeVector<std::uint64_t> keys;  // Morton code in the upper 32 bits, triangle number in the lower 32 bits
@@ -104,7 +106,7 @@ LargeVector<Triangle> inMortonOrder(std::size_t count, const TriangleAt& triangl
     return sorted;
 }
 
-// Returns the first triangle of a leaf. For the index after the last leaf, returns the triangle count.
+// Returns the number of the first triangle of a leaf. For the index after the last leaf, returns the triangle count.
 std::size_t leafStart(const Surface& surface, std::size_t leaf) {
     return leaf * surface.triangles.size() >> surface.leafBits;
 }
@@ -135,8 +137,8 @@ void buildNodes(Surface& surface) {
     surface.extent = std::max({extent.x, extent.y, extent.z});
 }
 
-// Returns lower bounds of the squared distances from `p` to the node's four boxes. `slack` is the max rounding error of
-// a coordinate difference.
+// Returns lower bounds of the squared distances from `p` to the node's four bounding boxes. `slack` is the max rounding
+// error of a coordinate difference.
 Four squaredDistances(const BoxNode& node, const glm::vec3& p, float slack) {
     const Four zero{};
     Four sums{};
@@ -173,7 +175,8 @@ Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t
     if (!std::isfinite(nearest.squaredDistance)) nearest.squaredDistance = infinity;
     const glm::vec3 place(p);
     const float slack = rounding * std::max({surface.extent, std::abs(place.x), std::abs(place.y), std::abs(place.z)});
-    // Returns the smallest distance so far, slightly enlarged because the boxes' squared distances are rounded as well.
+    // Returns the smallest squared distance so far, slightly enlarged because the boxes' squared distances are rounded,
+    // too.
     const auto bound = [&] { return static_cast<float>(nearest.squaredDistance * (1 + 1e-6)); };
     float max = bound();
     stack[size++] = {0, 0};
@@ -190,7 +193,7 @@ Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t
             max = bound();
             continue;
         }
-        // Push the children in order of decreasing distance, so that the nearest is on top.
+        // Push the child nodes in order of decreasing distance, so that the nearest child is on top of the stack.
         const Four squared = squaredDistances(surface.nodes[entry.node], place, slack);
         const std::size_t first = size;
         for (std::size_t k = 0; k < arity; ++k) {
@@ -209,7 +212,7 @@ glm::dvec3 pointOf(const Triangle& t, double u, double v) {
     return (1 - root) * glm::dvec3(t[0]) + root * (1 - v) * glm::dvec3(t[1]) + root * v * glm::dvec3(t[2]);
 }
 
-// Calls visit(point) for each sample point that sampleDistances uses.
+// Calls visit(point) for each of the points at which sampleDistances measures.
 template <typename Visit>
 void forEachSample(const Surface& surface, std::size_t count, const Visit& visit) {
     std::size_t triangle = 0;
@@ -284,7 +287,7 @@ std::vector<double> sampleDistances(const Surface& from, const Surface& to, std:
 double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double min) {
     if (from.empty() || rank == 0 || count < rank) return min;
     if (to.empty()) return infinity;
-    std::vector<double> largest(rank, min * min);  // squared distances as a min-heap
+    std::vector<double> largest(rank, min * min);  // squared distances, as a heap with the smallest on top
     std::size_t nearest = 0;                       // nearest triangle of the previous point, used as a first guess
     forEachSample(from, count, [&](const glm::dvec3& point) {
         const Nearest found = nearestTriangle(to, point, nearest, largest.front());

@@ -1,7 +1,7 @@
 #pragma once
 // Measures the distance between two triangle surfaces (Cignoni, Rocchini and Scopigno 1998, Metro: Measuring Error on
-// Simplified Surfaces). Points are distributed evenly over the area of one surface. The closest point of the other
-// surface is found with a bounding volume hierarchy.
+// Simplified Surfaces). Sample points are distributed evenly over the area of one surface. The closest point of the
+// other surface is found with a bounding volume hierarchy.
 //
 // Lengths are in object units. Triangles without area and triangles with NaN or infinite corners are ignored. An empty
 // surface has no sample points, and every distance to it is infinite. Deterministic. Scaling both surfaces by a power
@@ -20,9 +20,9 @@
 
 namespace defocus::engine {
 
-// The bounding boxes of the four children of a node.
+// Bounding boxes of the four children of a node of the bounding volume hierarchy.
 struct BoxNode {
-    Four minimum[3];  // x, y, z
+    Four minimum[3];  // one vector of four values each for x, y and z
     Four maximum[3];
 };
 
@@ -30,18 +30,18 @@ struct BoxNode {
 // threads.
 struct Surface {
     LargeVector<std::array<glm::vec3, 3>> triangles;  // in Morton order: neighbours in memory are close in space
-    LargeVector<double> areas;                        // cumulative areas; each entry includes its own triangle
+    LargeVector<double> areas;                        // area of each triangle plus the areas of all triangles before it
     // Complete 4-ary tree: the root is node 0, and the children of node i are 4i + 1 … 4i + 4. Child indices beyond the
-    // last node denote leaves. The leaves divide the triangles evenly in their order, with up to 4 triangles each.
+    // last node denote leaves. The leaves split the triangle list into nearly equal runs of up to 4 triangles.
     LargeVector<BoxNode> nodes;
     int leafBits = 0;  // log2 of the number of leaves
-    float extent = 0;  // largest absolute coordinate
+    float extent = 0;  // largest absolute coordinate of the surface
 
     [[nodiscard]] bool empty() const { return triangles.empty(); }
 };
 
-// Builds the hierarchy. Three indices form a triangle; one or two remaining indices are ignored. All indices must be
-// below positions.size().
+// Builds the bounding volume hierarchy of a surface. Three indices form a triangle; one or two remaining indices are
+// ignored. All indices must be below positions.size().
 Surface prepareSurface(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
 template <typename Vertex>
 Surface prepareSurface(std::span<const glm::vec3> positions, const TriangleSet<Vertex>& triangles);
@@ -49,14 +49,14 @@ Surface prepareSurface(std::span<const glm::vec3> positions, const TriangleSet<V
 // Returns the distance from `point` (finite) to the closest point of the surface; infinity for an empty surface.
 double distanceTo(const Surface& surface, const glm::dvec3& point);
 
-// Returns the distances from `count` points of `from` to the surface `to`. Each point represents an equal part of the
-// area of `from`: the area is divided into strata, with one point each. The R2 sequence places the point within its
-// triangle. Returns an empty vector if `from` is empty.
+// Returns the distances from `count` points of `from` to the surface `to`. The area of `from` is divided into `count`
+// equal strata, with one point each. The R2 sequence places each point within its triangle. Returns an empty vector if
+// `from` is empty.
 std::vector<double> sampleDistances(const Surface& from, const Surface& to, std::size_t count);
 
-// Returns the `rank`-th largest (from 1) distance of sampleDistances, but at least `min`. Returns `min` if there are
-// fewer than `rank` distances. Faster than sampleDistances, because the search for a closest point stops as soon as it
-// cannot affect the result.
+// Returns the `rank`-th largest (from 1) of the distances that sampleDistances returns, but at least `min`. Returns
+// `min` if there are fewer than `rank` distances. Faster than sampleDistances, because the search for a closest point
+// stops as soon as it cannot affect the result.
 double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double min);
 
 struct Distances {
@@ -68,11 +68,12 @@ struct Distances {
 struct SurfaceDistance {
     Distances forward;   // distances from the first surface to the second
     Distances backward;  // distances from the second surface to the first
-    Distances both;      // each value is the larger of both directions, like the two-sided Hausdorff distance
+    Distances both;      // each value is the larger of `forward` and `backward`, like the two-sided Hausdorff distance
 };
 
-// Measures the distance from `count` points on each surface. The error of the mean falls approximately as 1 / count.
-// The maximum covers only these points, so that it is a lower bound of the Hausdorff distance.
+// Measures the distances from `count` points on each surface to the other surface. The error of the mean falls
+// approximately as 1 / count. The maximum covers only these points, so that it is a lower bound of the Hausdorff
+// distance.
 SurfaceDistance surfaceDistance(const Surface& first, const Surface& second, std::size_t count);
 
 }  // namespace defocus::engine

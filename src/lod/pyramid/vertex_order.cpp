@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double maxSpread = 2;  // max mean index difference of the vertices, in units of √(vertex count)
+constexpr double maxSpread = 2;  // max mean difference of vertex indices, in units of √(vertex count)
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void sortSpatially(WeldedVertices& unique, const std::vector<glm::vec3>& positio
 
 void sortSpatially(TriangleSet<MeshVertexNumber>& triangles) {
     std::size_t first = 0;
-    std::vector<std::array<MeshVertexNumber, 4>> sorted;  // sort key, followed by the triangle's corners
+    std::vector<std::array<MeshVertexNumber, 4>> sorted;  // smallest vertex index of a triangle, then its corners
     for (const std::uint32_t count : triangles.primitiveIndexCounts) {
         MeshVertexNumber* const indices = triangles.indices.data() + first;
         sorted.clear();
@@ -60,7 +60,7 @@ void sortSpatially(TriangleSet<MeshVertexNumber>& triangles) {
 
 SurvivalOrder sortBySurvival(const std::vector<TriangleSet<MeshVertexNumber>>& levels,
                              const WeldedPositions& positions) {
-    // One linked list of the used vertices per position; `head` holds the first vertex of each list.
+    // Per position, a linked list of the used vertices; `head` holds the first vertex of each list.
     const std::size_t vertexCount = positions.id.size();
     Numbered<MeshVertexNumber, std::uint8_t> used(vertexCount, 0);
     for (const TriangleSet<MeshVertexNumber>& level : levels)
@@ -73,7 +73,7 @@ SurvivalOrder sortBySurvival(const std::vector<TriangleSet<MeshVertexNumber>>& l
         head[positions.id[v]] = v;
     }
 
-    // From the coarsest level to the finest, append the positions that no coarser level uses.
+    // From the coarsest level to the finest, append the vertices at positions that no coarser level uses.
     SurvivalOrder order;
     order.vertexCounts.resize(levels.size());
     order.numbers.resize(vertexCount);

@@ -1,6 +1,7 @@
 #pragma once
 // Sorts vertices and triangles in memory. Before simplification, vertices that are close in space are placed close in
-// memory. Afterwards, vertices are sorted by the coarsest level that uses them, so that each level uses a prefix.
+// memory. Afterwards, vertices are sorted by the coarsest level that uses them, so that each level uses a prefix of the
+// vertex buffer.
 
 #include <cstdint>
 #include <vector>
@@ -11,7 +12,8 @@
 namespace defocus::engine {
 
 // Returns whether the vertices of one triangle and of consecutive triangles are so far apart in memory that caches help
-// little. For comparison, neighbours in a grid of n vertices stored in rows are √n apart.
+// little. The limit for their mean distance is 2√n. In a grid of n vertices stored row by row, neighbours are up to √n
+// apart.
 bool isScattered(const TriangleSet<MeshVertexNumber>& triangles, std::size_t vertexCount);
 // Renumbers vertices so that vertices that are close in space are close in memory. `positions` are the positions of the
 // file's vertices.
@@ -22,11 +24,11 @@ void sortSpatially(TriangleSet<MeshVertexNumber>& triangles);
 struct SurvivalOrder {
     Numbered<PyramidVertexNumber, MeshVertexNumber> vertices;  // vertices that at least one level uses
     Numbered<MeshVertexNumber, PyramidVertexNumber> numbers;   // inverse of `vertices`; invalid for unused vertices
-    std::vector<std::uint32_t> vertexCounts;                   // for each level, the length of the prefix that it uses
+    std::vector<std::uint32_t> vertexCounts;                   // number of vertices in each level's prefix
 };
 
 // Sorts vertices by the coarsest level that uses their position, then by first use in that level. Vertices at the same
-// position stay adjacent. `levels` starts with the finest.
+// position stay adjacent. `levels` starts with the finest level.
 SurvivalOrder sortBySurvival(const std::vector<TriangleSet<MeshVertexNumber>>& levels,
                              const WeldedPositions& positions);
 

@@ -1,5 +1,6 @@
 #pragma once
-// Attribute quadrics of all wedges (wedges.h), in a dense and in a sparse representation with the same interface.
+// Stores the attribute quadrics (quadric.h) of all wedges (the vertices at face corners, see wedges.h). The dense and
+// the sparse representation have the same interface.
 
 #include <array>
 #include <cstddef>
@@ -24,10 +25,10 @@ public:
 
     [[nodiscard]] const AttributeQuadric<n>& operator[](WedgeNumber w) const { return all_[w.value]; }
     [[nodiscard]] float costInPlace(WedgeNumber w) const { return all_[w.value].squares.c; }
-    // Adds a face's quadric to the quadric of the wedge `w`.
+    // Adds a face's quadric to the quadric of wedge `w`.
     void addFace(WedgeNumber w, const AttributeQuadric<n>& face) { all_[w.value].addFaces(face); }
-    // Moves the quadric of wedge `from` into the quadric of wedge `to`. `step` and `change` are the differences in
-    // position and attributes from `from` to `to`.
+    // Moves the quadric of wedge `from` into the quadric of wedge `to`, when a collapse replaces `from` by `to`. `step`
+    // and `change` are the differences in position and attributes from `from` to `to`.
     void move(WedgeNumber from, WedgeNumber to, const glm::vec3& step, const AttributeRow<n>& change) {
         all_[to.value].add(all_[from.value], step, change);
         all_[from.value] = {};
@@ -49,7 +50,8 @@ private:
 };
 
 // Attribute quadrics for meshes whose attributes are mostly constant over each face, such as flat-shaded meshes. The
-// quadric of such a face does not depend on position. Such quadrics and their sums need a quarter of the memory.
+// quadric of a face with constant attributes does not depend on position. It takes a quarter of a general quadric's
+// memory, and so does a sum of such quadrics.
 template <std::size_t n>
 class SparseQuadrics {
 public:
@@ -115,7 +117,7 @@ public:
 private:
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-    struct Even {  // Part of a quadric that does not depend on position.
+    struct Even {  // Terms of a quadric that do not depend on position.
         float c = 0;
         float weight = 0;
         AttributeRow<n> offset{};
@@ -131,7 +133,7 @@ private:
     }
 
     LargeVector<Even> even_;
-    LargeVector<std::uint32_t> changesOf_;  // index into changes_; `none`: the varying part is zero
+    LargeVector<std::uint32_t> changesOf_;  // index into changes_ per wedge; `none`: independent of position
     LargeVector<Changes> changes_;
 };
 

@@ -1,4 +1,5 @@
-// Evaluates the effects of collapses on faces, wedges and quadrics; performs collapses and removes deleted elements.
+// Evaluates the effects of collapses on faces, wedges (vertices at face corners) and quadrics; performs collapses and
+// removes deleted elements.
 
 #include "lod/simplify/collapse.h"
 
@@ -17,7 +18,8 @@ namespace {
 constexpr double minTurnCosine = 0.2588;  // cosine of 75°, the max rotation of a face's normal
 constexpr double sliverQuality = 0.02;    // twice the area / sum of squared edges; 0.29 for an equilateral triangle
 
-// Classifies the change of a face with corners a, b and c when corner a moves to `target`.
+// Returns the class (good, poor or bad) of a collapse that moves corner a of the face with corners a, b and c to
+// `target`.
 Fit judgeMovedFace(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& target) {
     const glm::dvec3 before = glm::cross(b - a, c - a);
     const glm::dvec3 after = glm::cross(b - target, c - target);
@@ -29,18 +31,20 @@ Fit judgeMovedFace(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     const auto edges = [&](const glm::dvec3& p) {
         return glm::dot(b - p, b - p) + glm::dot(c - p, c - p) + glm::dot(c - b, c - b);
     };
-    // Quality is area divided by squared edges. Compare squares to avoid square roots.
+    // The quality of a triangle is its area divided by the sum of squared edges. Compare squares of qualities to avoid
+    // square roots.
     const double edgesAfter = edges(target);
     if (!(squareAfter < sliverQuality * sliverQuality * edgesAfter * edgesAfter)) return Fit::good;
     const double edgesBefore = edges(a);
     return squareAfter * edgesBefore * edgesBefore < squareBefore * edgesAfter * edgesAfter ? Fit::poor : Fit::good;
 }
 
-// A change of texture coordinates along an edge crosses a seam if it exceeds this multiple of the change expected from
-// the edge's length and the mesh's average texture scale.
+// Texture coordinates that change along an edge cross a seam if the change exceeds this multiple of the change expected
+// from the edge's length and the mesh's average texture scale.
 constexpr double longestUvStep = 4;
 
-// One side of the collapsing edge: its face (if any), and the wedges of the removed and of the surviving vertex.
+// One side of the collapsing edge: its face (if any), and the wedges (attributes) of the removed and of the surviving
+// vertex in this face.
 struct EdgeSide {
     FaceHandle face = FaceHandle();
     WedgeNumber from;
@@ -70,8 +74,8 @@ Sides sidesOf(const SurfaceMesh& mesh, HalfedgeHandle along) {
     return sides;
 }
 
-// Returns the surviving vertex's wedge that is most similar to `wedge`, among the wedges for which admitted(face,
-// wedge) is true. Returns an invalid number if there is none.
+// Returns the surviving vertex's wedge that is most similar to `wedge`, among those for which admitted(face, wedge) is
+// true. Returns an invalid number if there is none.
 template <typename Admitted>
 WedgeNumber nearestWedge(const Sides& sides, WedgeNumber wedge, const Admitted& admitted) {
     WedgeNumber nearest;
@@ -97,11 +101,11 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
     const WedgeTable& wedges = sides.mesh.wedges;
     const auto inPrimitive = [&](FaceHandle face, WedgeNumber) { return sides.mesh.primitive(face) == primitive; };
 
-    // Wedge of the surviving vertex beside the collapsing edge, on the same side of each seam as the corner.
+    // The surviving vertex's wedge in a face beside the collapsing edge, on the same side of each seam as the corner.
     WedgeNumber across;
     WedgeNumber exact;     // wedge like `across`, but also on the same side of every crease
-    bool torn = false;     // a seam crosses the edge at the surviving vertex
-    bool creased = false;  // a crease crosses the edge at the surviving vertex
+    bool torn = false;     // a seam crosses the collapsing edge at the surviving vertex
+    bool creased = false;  // a crease crosses the collapsing edge at the surviving vertex
     for (const EdgeSide& side : sides.both) {
         if (!side.face.is_valid() || sides.mesh.primitive(side.face) != primitive) continue;
         if (!wedges.sameChart(side.from, wedge)) continue;
@@ -120,7 +124,7 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
     }
 
     // A seam ends at the surviving vertex or starts at the removed vertex. Use the most similar wedge. The collapse is
-    // poor if this wedge is far away in texture space.
+    // poor if this wedge is far from the corner's wedge in texture space.
     const WedgeNumber nearest = nearestWedge(sides, wedge, inPrimitive);
     if (nearest.isValid()) {
         bool leaves = sides.jumps(wedge, nearest);
@@ -135,13 +139,14 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
 // this term, which favours well-shaped triangles.
 constexpr float edgeWeight = 1e-4f;
 
-// Max number of half-edges at a vertex of the edge's faces. OpenMesh's collapse searches for borders around all four
-// vertices of these faces. For the hub of a fan of triangles, this would take time quadratic in the number of faces.
+// Max number of half-edges at any vertex of the faces beside a collapsing edge. OpenMesh's collapse searches for
+// borders around all four vertices of these faces. For the hub of a fan of triangles, this would take time quadratic in
+// the number of faces.
 constexpr std::size_t maxSpokes = 8192;
 
-// Returns whether the half-edge borders a triangular hole. OpenMesh allows a collapse along it if a second edge joins
-// two corners of the hole. The collapse would close the hole and leave a half-edge without a wedge, or a face with two
-// corners.
+// Returns whether the half-edge borders a triangular hole. OpenMesh allows the half-edge to collapse if a second edge
+// joins two corners of the hole. The collapse would close the hole and leave a half-edge without a wedge, or a face
+// with two corners.
 bool isAtHoleOfThree(const SurfaceMesh& surface, HalfedgeHandle e) {
     const HalfedgeHandle second = surface.next_halfedge_handle(e);
     return surface.is_boundary(e) && surface.next_halfedge_handle(surface.next_halfedge_handle(second)) == e;
@@ -192,7 +197,7 @@ bool ShapeModule::keepsTopology(HalfedgeHandle along) {
         if (surface.to_vertex_handle(spoke) == to) ++edgesBetween;
     });
     if (edgesBetween != 1) return false;
-    // Reject the collapse between two interior vertices of three faces each, which would leave two faces back to back.
+    // Reject a collapse between two interior vertices with three faces each, which would leave two faces back to back.
     const bool inside = !surface.is_boundary(from) && !surface.is_boundary(to);
     return !(inside && valence == 3 && surface.valence(to) == 3);
 }
@@ -208,7 +213,7 @@ Fit ShapeModule::judge(HalfedgeHandle along) {
     const glm::dvec3 target = surface.place(surface.to_vertex_handle(along));
     forEachSpoke(surface, from, [&](HalfedgeHandle spoke) {
         const FaceHandle face = surface.face_handle(spoke);
-        __builtin_prefetch(&surface.data(surface.to_vertex_handle(spoke)));  // the vertex's candidate is updated next
+        __builtin_prefetch(&surface.data(surface.to_vertex_handle(spoke)));  // this vertex's collapse is updated next
         if (worst == Fit::bad || !face.is_valid()) return;
         if (face == surface.face_handle(along) || face == surface.face_handle(back)) return;
         const glm::dvec3 b = surface.place(surface.to_vertex_handle(spoke));
@@ -256,7 +261,7 @@ Fit WedgeModule::judge(HalfedgeHandle along) {
     const Sides sides = sidesOf(surface, along);
     for (const EdgeSide& side : sides.both) {
         if (!side.face.is_valid()) continue;
-        surface.wedges.prefetch(side.from);  // needed by moveQuadric() if the collapse is performed
+        surface.wedges.prefetch(side.from);  // moveQuadric() needs this wedge if the collapse is performed
         surface.wedges.prefetch(side.to);
     }
     Fit worst = Fit::good;
@@ -301,7 +306,7 @@ float QuadricModule::cost(HalfedgeHandle along, float max) {
     float sum = own.at(step) + surface.data(to).quadric.c + own.weight * edgeWeight * glm::dot(step, step);
     if (!(sum < max)) return sum;
 
-    // Add the attribute costs on both sides of the edge; if both sides have the same pair of wedges, add the cost once.
+    // Add the attribute costs on both sides of the edge; if both sides have the same two wedges, add the cost once.
     WedgeNumber leftFrom, leftTo;
     if (!surface.is_boundary(along)) {
         leftFrom = surface.wedge(along);
@@ -316,7 +321,7 @@ float QuadricModule::cost(HalfedgeHandle along, float max) {
 }
 
 Candidate QuadricModule::cheapest(VertexHandle v) {
-    // Prefetch the data of all neighbours first, because successive collapses are scattered over the mesh.
+    // Prefetch the data of all neighbours first: the memory of successive collapses is scattered over the mesh.
     const SurfaceMesh& surface = mesh();
     spokes_.clear();
     forEachSpoke(surface, v, [&](HalfedgeHandle spoke) {

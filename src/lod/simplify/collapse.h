@@ -1,6 +1,6 @@
 #pragma once
-// Evaluates a half-edge collapse: its effect on the surface, its effect on the wedges (wedges.h), and its cost. Each of
-// the three is computed by a module of OpenMesh's decimater.
+// Evaluates a half-edge collapse: its effect on the faces, its effect on the wedges (vertices at face corners,
+// wedges.h), and its cost. Each of the three is computed by a module of OpenMesh's decimater.
 
 #include <span>
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace defocus::engine {
 
-// Decides whether the surface allows a collapse, and classifies the effect on surrounding faces. The link condition is
+// Decides whether the topology allows a collapse, and classifies the effect on surrounding faces. The link condition is
 // OpenMesh's is_collapse_ok (Dey, Edelsbrunner, Guha and Nekhayev 1999, Topology Preserving Edge Contraction). As a
-// decimater module, it accepts good and poor collapses (simplify.h).
+// decimater module, it accepts the collapses that simplify.h defines as good or poor.
 class ShapeModule final : public CollapseModule {
 public:
     explicit ShapeModule(SurfaceMesh& surface);
@@ -23,9 +23,10 @@ public:
     // Returns whether the collapse preserves the topology: OpenMesh's conditions hold, only one edge joins the two
     // vertices, and no two faces end up back to back.
     [[nodiscard]] bool keepsTopology(HalfedgeHandle along);
-    // Classifies the effect of the collapse on the remaining faces, ignoring the topology. Poor: the collapse makes a
-    // sliver, or pulls the surface away from its border. Bad: the collapse rotates a face's normal by more than 75° or
-    // makes a face degenerate. Impossible: a vertex of the edge's faces has more than 8,192 outgoing half-edges.
+    // Returns the class of the collapse by its effect on the remaining faces, ignoring the topology. Poor: the collapse
+    // makes a sliver, or pulls the surface away from its border. Bad: the collapse rotates a face's normal by more than
+    // 75° or makes a face degenerate. Impossible: a vertex of the faces beside the edge has more than 8,192 outgoing
+    // half-edges.
     [[nodiscard]] Fit judge(HalfedgeHandle along);
 
 private:
@@ -34,33 +35,34 @@ private:
     std::vector<VertexHandle> hubs_;  // vertices with more than 8,192 half-edges; no edge of their faces may collapse
 };
 
-// A corner of a remaining face, and the wedge of the surviving vertex that the corner receives.
+// A corner of a remaining face, and the surviving vertex's wedge (attributes) that this corner receives.
 struct Handover {
     HalfedgeHandle corner;
     WedgeNumber wedge;
 };
 
-// Transfers wedges in a half-edge collapse (Hoppe 1998, Efficient Implementation of Progressive Meshes). Each remaining
-// corner of the removed vertex receives a wedge of the surviving vertex. As a decimater module, it accepts good and
-// poor collapses (simplify.h).
+// Transfers wedges (vertices at face corners) in a half-edge collapse, as in Hoppe 1998, Efficient Implementation of
+// Progressive Meshes. Each remaining corner of the removed vertex receives a wedge of the surviving vertex. As a
+// decimater module, it accepts the collapses that simplify.h defines as good or poor.
 class WedgeModule final : public CollapseModule {
 public:
     explicit WedgeModule(SurfaceMesh& surface) : CollapseModule(surface, true) {}
 
     [[nodiscard]] const std::string& name() const override;
     float collapse_priority(const CollapseInfo& collapse) override;
-    // Assigns each corner its new wedge, and adds the quadrics of the old wedges to the quadrics of the new wedges.
+    // Assigns each corner of the removed vertex its new wedge, and adds the quadrics of the old wedges to the quadrics
+    // of the new wedges.
     void preprocess_collapse(const CollapseInfo& collapse) override;
-    // Copies a wedge after the collapse, because OpenMesh replaces a half-edge beside the removed face by a half-edge
-    // of that face.
+    // Copies a wedge to another half-edge after the collapse: OpenMesh replaces a half-edge beside the removed face by
+    // a half-edge of that face.
     void postprocess_collapse(const CollapseInfo& collapse) override;
 
-    // Selects a wedge of the surviving vertex for each remaining corner of the removed vertex, and classifies the
-    // result. The first choice is the wedge at the other end of the collapsed edge, on the same side of a seam. The
-    // second choice is the most similar wedge of the same primitive. Poor: the texture would be stretched across a
+    // Selects a wedge of the surviving vertex for each remaining corner of the removed vertex, and returns the class of
+    // the collapse. The first choice is the wedge at the other end of the collapsed edge, on the same side of a seam.
+    // The second choice is the most similar wedge of the same primitive. Poor: the texture would be stretched across a
     // seam. Bad: the wedge belongs to another primitive.
     Fit judge(HalfedgeHandle along);
-    // Returns the wedges selected by the last judge(); empty after the collapse.
+    // Returns the corners and wedges that the last call of judge() selected; empty after the collapse.
     [[nodiscard]] std::span<const Handover> handovers() const { return handovers_; }
 
 private:
@@ -81,17 +83,17 @@ public:
     // for attribute quadrics.
     void postprocess_collapse(const CollapseInfo& collapse) override;
 
-    // Returns the cost of collapsing a half-edge, ≥ 0. If the cost is at least `max`, any value from `max` to the cost
-    // may be returned.
+    // Returns the cost of collapsing a half-edge, ≥ 0. If the cost is at least `max`, the returned value may be
+    // anything between `max` and the cost.
     [[nodiscard]] float cost(HalfedgeHandle along, float max);
-    // Returns the vertex's cheapest collapse, whether it is allowed or not; the first in case of a tie.
+    // Returns the vertex's cheapest collapse, whether it is allowed or not; the first collapse in case of a tie.
     [[nodiscard]] Candidate cheapest(VertexHandle v);
 
 private:
     std::vector<HalfedgeHandle> spokes_;  // half-edges of the vertex, used by cheapest()
 };
 
-// The modules that evaluate each collapse of a surface and its cost, and update the surface's wedges and quadrics.
+// The modules that evaluate each collapse and its cost, and that update wedges and quadrics after the collapse.
 struct CollapseModules {
     explicit CollapseModules(SurfaceMesh& mesh) : shape(mesh), wedges(mesh), quadrics(mesh) {}
 

@@ -1,7 +1,7 @@
 #pragma once
-// Priority queue of the vertices to collapse: bad collapses last, then by cost, then by vertex number. The queue is a
-// 4-ary heap with updates, in which every vertex occurs at most once (Johnson 1975, Priority Queues with Update and
-// Finding Minimum Spanning Trees).
+// Implements the priority queue of the vertices to collapse, ordered by cost. Vertices whose collapse is bad
+// (simplify.h) come last; equal costs are ordered by vertex number. The queue is a 4-ary heap with updates, in which
+// every vertex occurs at most once (Johnson 1975, Priority Queues with Update and Finding Minimum Spanning Trees).
 
 #include <algorithm>
 #include <bit>
@@ -96,7 +96,8 @@ private:
         set(place, key);
     }
 
-    // Each entry is a sort key: bad (1 bit), cost as float bits (31, which sort like the cost), vertex number (32).
+    // Each entry is a 64-bit sort key: 1 bit for a bad collapse, 31 bits of the cost, 32 bits of the vertex number.
+    // Float bits of costs ≥ 0 sort like the costs.
     std::vector<std::uint64_t> heap_;
     std::vector<std::uint32_t> places_;  // position of each vertex in the heap
 };

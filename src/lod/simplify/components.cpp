@@ -1,7 +1,7 @@
-// Components of a mesh that share no vertex position with the rest, such as stones of a heap or leaves of a tree.
-// Collapses cannot simplify a component beyond a tetrahedron or a triangle. Complete components are then removed, the
-// smallest first. Their neighbours grow to preserve the visible area (Cook, Halstead, Planck and Ryu 2007, Stochastic
-// Simplification of Aggregate Detail).
+// Removes small components of a mesh that collapses cannot simplify further. A component shares no vertex position with
+// the rest, like a stone of a heap or a leaf of a tree. Collapses reduce it at best to a tetrahedron or a triangle.
+// Then complete components are removed, the smallest first. Their neighbours grow to preserve the visible area (Cook,
+// Halstead, Planck and Ryu 2007, Stochastic Simplification of Aggregate Detail).
 
 #include <algorithm>
 #include <array>
@@ -19,10 +19,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double largestRatio = 1.2;  // max size ratio of components that are removed in random order
-constexpr double maxEnlargement =
-    4;                              // max size of the neighbour that replaces a component, relative to the component
-constexpr double manyShare = 0.25;  // manyAreSmallest() is true above this fraction of faces
+constexpr double largestRatio = 1.2;  // max size ratio among components that are removed in random order
+// Max size of the neighbour that grows to replace a removed component, relative to that component.
+constexpr double maxEnlargement = 4;
+constexpr double manyShare = 0.25;        // fraction of faces above which manyAreSmallest() is true
 constexpr std::uint32_t fewestFaces = 4;  // min faces of a component after collapses: a tetrahedron
 
 // Disjoint sets of vertices (union-find).
@@ -61,11 +61,11 @@ Forest joinedByFaces(const SurfaceMesh& mesh) {
     return forest;
 }
 
-// Joins vertices that are connected by a face, by a collapse or by an equal position.
+// Returns the sets of vertices that are connected by faces, by collapses or by equal positions.
 Forest joinedVertices(const Simplifier& s) {
     Forest forest = joinedByFaces(*s.mesh);
     for (const VertexHandle v : s.survivors.numbers()) forest.join(v, s.survivors[v]);
-    // Join vertices at the same position. Such vertices result from cutting non-manifold edges.
+    // Join vertices at the same position. Cutting non-manifold edges has separated such vertices.
     const Numbered<SurfaceVertexNumber, PositionNumber>& places = s.origin->places;
     const std::size_t placeCount = places.empty() ? 0 : 1 + indexOf(*std::max_element(places.begin(), places.end()));
     Numbered<PositionNumber, VertexHandle> seen(placeCount);
@@ -83,7 +83,8 @@ double areaOf(const Vertices& vertices, std::span<const MeshVertexNumber, 3> cor
     return std::isfinite(area) ? area : 0;
 }
 
-// Measures the bounding sphere and the area of each component in the original mesh, before any collapse.
+// Measures the bounding sphere and the area of each component (connected part) in the original mesh, before any
+// collapse.
 void measureComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangles) {
     const Vertices& vertices = s.origin->vertices;
     const Numbered<MeshVertexNumber, SurfaceVertexNumber>& firstVertex = s.origin->firstVertex;
@@ -119,15 +120,15 @@ void countComponents(Simplifier& s) {
     });
 }
 
-// A component that may be removed.
+// A component (connected part of the mesh) that may be removed.
 struct Removable {
     ComponentNumber component;
     std::size_t size = 0;  // rank by size, ascending; equal for components of similar size
     std::vector<FaceHandle> faces;
 };
 
-// Returns the removable components, smallest first. The largest component and components that edge collapses can still
-// simplify are not removable.
+// Returns the components that may be removed, smallest first. The largest component and components that edge collapses
+// can still simplify must stay.
 std::vector<Removable> removableComponents(const Simplifier& s) {
     const SurfaceMesh& mesh = *s.mesh;
     Numbered<ComponentNumber, Removable> all(s.components.size());
@@ -165,7 +166,7 @@ std::vector<Removable> removableComponents(const Simplifier& s) {
     return removable;
 }
 
-// Returns the vertex opposite to the half-edge in the adjacent face; invalid at a border.
+// Returns the third vertex of the face on the other side of the half-edge; invalid at a border.
 VertexHandle vertexBeyond(const SurfaceMesh& mesh, HalfedgeHandle halfedge) {
     return mesh.opposite_he_opposite_vh(halfedge);
 }
@@ -198,7 +199,7 @@ void removeComponent(Simplifier& s, const Removable& removable) {
     component.removed = true;
 }
 
-// k-d tree of component centres that finds the nearest component with a given property. For 50,000 centres, nanoflann
+// k-d tree of component centres that finds the nearest component which meets a condition. For 50,000 centres, nanoflann
 // takes two thirds of the time of a simple median-split tree.
 class CentreTree {
 public:
@@ -208,8 +209,9 @@ public:
     CentreTree(const CentreTree&) = delete;
     CentreTree& operator=(const CentreTree&) = delete;
 
-    // Returns the nearest component for which counts(component) is true, or an invalid number. `point` is in object
-    // units. The search ends after maxVisits components, so that it may miss one if many others fail the condition.
+    // Returns the component with the nearest centre for which counts(component) is true, or an invalid number. `point`
+    // is in object units. The search ends after maxVisits components, so that it may find none if too many others fail
+    // the condition.
     template <typename Counts>
     [[nodiscard]] ComponentNumber nearest(const glm::dvec3& point, const Counts& counts) const {
         Search<Counts> search(centres_.numbers, counts);
@@ -220,7 +222,7 @@ public:
 private:
     static constexpr std::uint32_t maxVisits = 4096;
 
-    // Adapter that gives nanoflann access to the points.
+    // Adapter that gives nanoflann access to the component centres.
     struct Centres {
         const Numbered<ComponentNumber, Component>& components;
         std::vector<ComponentNumber> numbers;
@@ -252,7 +254,7 @@ private:
             : numbers(numbered), counts(counted) {}
         [[nodiscard]] double worstDist() const { return minSquared; }
         [[nodiscard]] bool full() const { return best.isValid(); }
-        // Returns false to end the search.
+        // Notes the point if it is the best so far; returns false to end the search.
         bool addPoint(double squared, std::size_t i) {
             if (squared < minSquared && counts(numbers[i])) {
                 minSquared = squared;
@@ -290,7 +292,7 @@ void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangle
     if (!s.components.empty()) return;
     SurfaceMesh& mesh = *s.mesh;
     Forest forest = joinedVertices(s);
-    // Component of the root vertex of each tree in `forest`.
+    // For the root vertex of each tree in `forest`, the component's number.
     Numbered<VertexHandle, ComponentNumber> numbers(mesh.n_vertices());
     forEachFace(mesh, [&](FaceHandle face) {
         ComponentNumber& number = numbers[forest.root(firstVertexOf(mesh, face))];
@@ -328,8 +330,9 @@ void removeComponents(Simplifier& s, std::size_t target) {
     std::vector<Removable> rest = removableComponents(s);
     const CentreTree tree(s.components);
 
-    // Process components of similar size together, the smallest first. A component that has replaced another is kept
-    // until all components of similar size have been considered. Removals are therefore spread evenly.
+    // Remove components of similar size together, the smallest first. A component that has grown in place of another
+    // component is kept until all components of similar size have been considered. Removals are therefore spread
+    // evenly.
     for (std::size_t begin = 0; begin < rest.size() && s.liveFaces > target;) {
         std::size_t end = begin;
         while (end < rest.size() && rest[end].size == rest[begin].size) ++end;

@@ -11,10 +11,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double gridMargin = 1.04;  // grid side relative to the bounding box's diagonal; levels may protrude slightly
+constexpr double gridMargin = 1.04;  // grid side / diagonal of the bounding box, for levels that protrude slightly
 
-// Returns the index of the first cell whose centre is at or after `place`, at most `end`. Cell i has its centre at i.
-// Returns 0 for NaN.
+// Returns the index of the first grid cell whose centre is at or after the coordinate `place`, at most `end`. Cell i
+// has its centre at i. Returns 0 for NaN.
 template <typename T>
 int firstAt(T place, int end) {
     const T bounded = std::min(std::max(T{0}, place), static_cast<T>(end));
@@ -35,7 +35,8 @@ std::int64_t fixedPoint(double value) {
     return static_cast<std::int64_t>(std::clamp(value, -farthest, farthest) * static_cast<double>(almostOne + 1));
 }
 
-// Intersections of a triangle side with rows. Both triangles at an edge compute exactly the same intersections.
+// Intersections of one side of a triangle with rows of the grid. The two triangles at an edge compute exactly the same
+// intersections.
 struct Side {
     float x, y, slope;
 
@@ -75,7 +76,7 @@ double CoverGrid::area() const {
 
 void CoverGrid::add(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
     if (resolution_ == 0) return;
-    std::vector<glm::vec2> cells;  // positions in cells; cell centres lie at 0, 1, …
+    std::vector<glm::vec2> cells;  // positions in units of cells; cell centres lie at 0, 1, …
     cells.reserve(positions.size());
     for (const glm::vec3& position : positions) cells.emplace_back(cellsOf(position) - 0.5);
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
@@ -95,8 +96,8 @@ void CoverGrid::mark(int row, int first, int end) {
     }
 }
 
-// Returns whether all cells in rows [firstRow, endRow) and columns [first, end) are marked. Also returns false if the
-// columns span more than one word.
+// Returns whether all cells in rows [firstRow, endRow) and columns [first, end) are marked as covered. Returns false,
+// too, if the columns span more than one 64-bit word.
 bool CoverGrid::isMarked(int firstRow, int endRow, int first, int end) {
     const int word = first / wordBits;
     if ((end - 1) / wordBits != word) return false;
@@ -107,7 +108,8 @@ bool CoverGrid::isMarked(int firstRow, int endRow, int first, int end) {
 }
 
 void CoverGrid::cover(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
-    // Skip most triangles of a fine mesh: those that contain no cell centre, or only cells that are already covered.
+    // Skip triangles that contain no cell centre, or only cells that are already covered: most triangles of a fine
+    // mesh.
     const int firstRow = firstAt(std::min(std::min(a.y, b.y), c.y), resolution_);
     const int endRow = firstAt(std::max(std::max(a.y, b.y), c.y), resolution_);
     if (firstRow >= endRow) return;
@@ -150,7 +152,7 @@ void EdgeFill::add(const glm::dvec2& from, const glm::dvec2& to, int triangles) 
     if (first >= end) return;
     firstRow_ = std::min(firstRow_, first);
     endRow_ = std::max(endRow_, end);
-    // x is a fixed-point number, so that repeated addition of the same step causes no drift.
+    // x is a fixed-point number, so that adding the step for each row causes no drift.
     const double slope = (high.x - low.x) / (high.y - low.y);
     std::int64_t x = fixedPoint(low.x + (first + 0.5 - low.y) * slope - 0.5);
     const std::int64_t step = end - first > 1 ? fixedPoint(slope) : 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Rasterizes the area that a surface covers in a parallel projection along one direction.
+// Rasterizes the area that a surface covers in parallel projection along a given direction.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace defocus::engine {
 
-inline constexpr int wordBits = 64;  // grid cells per word
+inline constexpr int wordBits = 64;  // grid cells per 64-bit word of the bit mask
 
 // Coverage of a surface on a square grid perpendicular to a direction. Coordinates are in cells; coverage is tested at
 // cell centres.
@@ -24,14 +24,14 @@ public:
     // Marks the cells that triangles cover, regardless of orientation. Three indices form a triangle. Projected
     // positions are rounded to single precision.
     void add(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
-    // Marks the cells [first, end) of a row.
+    // Marks the cells [first, end) of row `row` as covered.
     void mark(int row, int first, int end);
 
     // Returns an empty grid with the same direction, cell size and resolution.
     [[nodiscard]] CoverGrid emptied() const;
 
     [[nodiscard]] glm::dvec2 cellsOf(const glm::vec3& position) const;
-    // Returns whether the cell at this position (in cells) is covered; false outside the grid.
+    // Returns whether the cell at the position `cells` (in cells) is covered; false outside the grid.
     [[nodiscard]] bool covers(const glm::dvec2& cells) const {
         if (!(cells.x >= 0 && cells.y >= 0 && cells.x < resolution_ && cells.y < resolution_)) return false;
         const auto column = static_cast<std::size_t>(cells.x);
@@ -39,7 +39,7 @@ public:
         return (cells_[row + column / wordBits] >> column % wordBits & 1) != 0;
     }
     [[nodiscard]] double area() const;                   // covered area, object units squared
-    [[nodiscard]] double cell() const { return cell_; }  // cell side, object units; 0 for an empty box
+    [[nodiscard]] double cell() const { return cell_; }  // side of a cell, object units; 0 for an empty box
     [[nodiscard]] int resolution() const { return resolution_; }
     // Converts a vector in the plane of the grid to a vector of the same length in object space.
     [[nodiscard]] glm::dvec3 inSpace(const glm::dvec2& along) const { return along.x * across_ + along.y * up_; }
@@ -62,8 +62,8 @@ class EdgeFill {
 public:
     explicit EdgeFill(int resolution);
 
-    // Adds an edge between two positions in cells. `triangles` is the number of triangles to the left of the edge, seen
-    // from `from` to `to`, minus the number of triangles to the right.
+    // Adds an edge between two positions in cells. `triangles` is the number of triangles to the left of the edge,
+    // looking from `from` to `to`, minus the number of triangles to its right.
     void add(const glm::dvec2& from, const glm::dvec2& to, int triangles);
     // Marks the covered cells in `grid`, removes all edges, and returns the number of covered cells.
     std::size_t fill(CoverGrid& grid);
@@ -72,9 +72,9 @@ private:
     std::size_t fillRow(CoverGrid& grid, int row);
 
     int resolution_;
-    std::vector<std::int32_t> steps_;   // change of the number of covering triangles from the previous cell
-    std::vector<std::uint64_t> edges_;  // one bit per cell, row by row; set where `steps_` has an entry
-    int firstRow_, endRow_;             // range of rows with edges
+    std::vector<std::int32_t> steps_;   // per cell, change of the number of covering triangles from the previous cell
+    std::vector<std::uint64_t> edges_;  // one bit per cell, row by row; 1 if the cell's entry of `steps_` is used
+    int firstRow_, endRow_;             // range [firstRow_, endRow_) of rows with edges
 };
 
 }  // namespace defocus::engine

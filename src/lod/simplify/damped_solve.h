@@ -1,5 +1,5 @@
 #pragma once
-// Solver for damped linear systems with a few dozen unknowns.
+// Solves damped linear systems with a few dozen unknowns.
 
 #include <span>
 #include <vector>

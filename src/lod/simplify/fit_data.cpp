@@ -12,11 +12,12 @@ namespace defocus::engine {
 
 namespace {
 
-// Bounds of a vertex's area, relative to the mean area. They keep the equations well-conditioned.
+// Lower and upper bound of the area that a vertex represents, relative to the mean area. They keep the equations
+// well-conditioned.
 constexpr double minArea = 1e-3;
 constexpr double largestArea = 1e3;
 
-// Groups the vertices 0 … `count` − 1 with equal keys and equal values. Keys are below `keyCount`.
+// Groups the vertices 0 … `count` − 1 that have equal keys and equal values. Keys are below `keyCount`.
 template <typename Key, typename KeyOf, typename ValuesOf>
 VertexGroups equalGroups(std::size_t count, std::size_t keyCount, const KeyOf& keyOf, const ValuesOf& valuesOf) {
     struct Member {
@@ -46,7 +47,7 @@ VertexGroups equalGroups(std::size_t count, std::size_t keyCount, const KeyOf& k
     return groups;
 }
 
-// Splits the groups of vertices that share a normal, so that each group has one colour.
+// Splits groups of vertices that share a normal, so that the vertices in each group also share a colour.
 VertexGroups colorGroups(const VertexGroups& smoothing, const std::vector<glm::vec4>& colors) {
     if (colors.empty()) return {};
     return equalGroups<MeshVertexNumber>(
@@ -97,10 +98,11 @@ Numbered<MeshVertexNumber, float> vertexAreas(const std::vector<glm::vec3>& posi
     return relative;
 }
 
-// Min fraction of a vertex's area that counts, even if the vertex normal is perpendicular to the normal of the level's
-// triangle.
+// Min fraction of the area around a vertex that counts in a fit, even if the vertex normal is perpendicular to the
+// normal of the level's triangle.
 constexpr float minForeshortening = 0.02f;
-// Vertices with a common anchor are on different sides of an edge if their normals differ by more than 60°.
+// Two vertices with a common anchor (point on the level) are on different sides of a sharp edge if their normals differ
+// by more than 60°.
 constexpr float minSharedCosine = 0.5f;
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
-// Data shared by the fits of a level: the area and normal per anchor (point on the level, see level_fit.h), and the
-// least-squares equations for groups of vertices with a common value. Private to level_fit.cpp and texture_fit.cpp.
+// Computes the data that the fits of a level's attributes share. An anchor (level_fit.h) is the point of the level that
+// represents vertices of level 0; the data include its area and normal. The least-squares equations have one unknown
+// per group of vertices with a common value. Private to level_fit.cpp and texture_fit.cpp.
 
 #include <array>
 #include <cstddef>
@@ -15,7 +16,7 @@
 
 namespace defocus::engine {
 
-// Both sets of texture coordinates; zero for a set that the mesh lacks.
+// Coordinates of a vertex in both UV sets; zero for a set that the mesh lacks.
 struct Coordinates {
     glm::vec2 uv0{0};
     glm::vec2 uv1{0};
@@ -23,36 +24,37 @@ struct Coordinates {
 
 Coordinates coordinatesOf(const Vertices& vertices, MeshVertexNumber v);
 
-// Sums over the mesh vertices that one anchor (a point on the level) represents.
+// Total area and mean normal of the mesh vertices that one anchor (a point on the level) represents.
 struct Anchored {
     float area = 0;
-    glm::vec3 normal{0};  // area-weighted mean
+    glm::vec3 normal{0};  // area-weighted mean of the vertices' normals
 };
 
-// Values per mesh vertex; undefined for vertices that use the anchor of another vertex.
+// Areas, normals and colours that the anchor of each mesh vertex represents; undefined for vertices that use the anchor
+// of another vertex.
 struct AnchoredValues {
     Numbered<MeshVertexNumber, Anchored> values;
-    Numbered<MeshVertexNumber, glm::vec4> colors;  // area-weighted means; empty without colours
+    Numbered<MeshVertexNumber, glm::vec4> colors;  // area-weighted mean colours; empty without colours
 };
 
 AnchoredValues anchoredValues(const FitSource& source, const Numbered<MeshVertexNumber, Anchor>& anchors);
 
-// Returns the unit normals of a level's triangles. `positions` are the positions of level 0's vertices. The normal of a
-// triangle without area is zero.
+// Returns the unit normals of a level's triangles before the fit. `positions` are the positions of level 0's vertices.
+// The normal of a triangle without area is zero.
 Numbered<TriangleNumber, glm::vec3> unitNormals(const std::vector<glm::vec3>& positions, const LevelMesh& level);
 
 // Returns the effective area of an anchor (a point on the level): the projection of `area` onto the anchor's triangle,
-// but at least 2 % of `area`. `normal` is the normal of the area; `face` is the unit normal of the triangle. Returns
-// the full area if the anchor lies at a corner or the triangle has no area.
+// but at least 2 % of `area`. `normal` is the normal of the surface with this area; `face` is the unit normal of the
+// triangle. Returns the full area if the anchor lies at a corner or the triangle has no area.
 float foreshortened(float area, const Anchor& anchor, const glm::vec3& face, const glm::vec3& normal);
 
-// Groups of the level's vertices that share one value.
+// Groups of the level's vertices; the vertices in one group share one value.
 struct Grouping {
     Numbered<LevelVertexNumber, UnknownNumber> of;
     Numbered<UnknownNumber, MeshVertexNumber> sources;  // mesh vertex that provides each group's initial value
     [[nodiscard]] std::size_t count() const { return sources.size(); }
 
-    // Returns for each group the sum of value(vertex), starting from `zero`.
+    // Returns for each group the sum of value(vertex) over its vertices, starting from `zero`.
     template <typename T, typename Value>
     [[nodiscard]] Numbered<UnknownNumber, T> summed(const T& zero, const Value& value) const {
         Numbered<UnknownNumber, T> sums(count(), zero);
@@ -69,7 +71,8 @@ private:
 };
 
 // Groups the level's vertices by leaderOf(mesh vertex), the vertex that represents a group. `count` is the number of
-// mesh vertices. With `sidesApart`, vertices on the back of a thin sheet (LevelMesh::apart) form separate groups.
+// mesh vertices. With `sidesApart`, vertices on the back of a thin plate, such as a fin, form separate groups
+// (LevelMesh::apart).
 template <typename LeaderOf>
 Grouping grouped(const LevelMesh& level, std::size_t count, const LeaderOf& leaderOf, bool sidesApart) {
     Numbered<MeshVertexNumber, UnknownNumber> numbers(count);
@@ -87,8 +90,9 @@ Grouping grouped(const LevelMesh& level, std::size_t count, const LeaderOf& lead
     return groups;
 }
 
-// Returns least-squares equations with one unknown per group; the solution is initialised to zero. weight(v) and
-// value(v) return the sums of weights and of weighted targets at vertex v of the level.
+// Returns least-squares equations with one unknown per group of vertices; the solution is initialised to zero. For
+// vertex v of the level, weight(v) is the sum of the weights of its target points, and value(v) is the sum of the
+// weighted targets.
 template <std::size_t channels, typename Weight, typename Value>
 LeastSquares equations(const LevelMesh& level, std::span<const TriangleSums> triangles, const Grouping& groups,
                        const Weight& weight, const Value& value) {
@@ -107,8 +111,8 @@ LeastSquares equations(const LevelMesh& level, std::span<const TriangleSums> tri
     return result;
 }
 
-// Initialises each unknown to the weighted mean of its targets, or to own(group, channel) if the unknown has no
-// targets.
+// Initialises the unknown of each group of vertices to the weighted mean of its targets, or to own(group, channel) if
+// the unknown has no targets.
 template <std::size_t channels, typename Own>
 void startFromMeans(LeastSquares& fit, const Own& own) {
     for (const UnknownNumber g : fit.weights.numbers())

@@ -1,5 +1,5 @@
 #pragma once
-// Least-squares fit of values at triangle corners to targets at points on the triangles. Minimises
+// Fits values at triangle corners by least squares to targets at points on the triangles. Minimises
 //   Σ share·|Σ weight·x − target|² + pull·Σ weightOf·|x − prior|²
 // by conjugate gradients with Jacobi preconditioner (Hestenes and Stiefel 1952). share is the weight of a point, and
 // weight is the barycentric weight of a corner with the value x. weightOf is the sum of share·weight at a corner. The
@@ -20,7 +20,8 @@ namespace defocus::engine {
 
 using UnknownNumber = Number<struct UnknownKind>;
 
-// Σ share·weightᵢ·weightⱼ over the points of one triangle, for (i, j) = 00, 11, 22, 01, 12, 20.
+// Sums of share·weightᵢ·weightⱼ over the target points of one triangle, for (i, j) = 00, 11, 22, 01, 12, 20. share is
+// the weight of a point; weightᵢ is its barycentric weight for corner i.
 using TriangleSums = std::array<float, 6>;
 
 struct LeastSquares {
@@ -31,17 +32,17 @@ struct LeastSquares {
 
     std::span<const TriangleSums> triangles;
     Numbered<TriangleCorner, UnknownNumber> corners;
-    Numbered<UnknownNumber, float> weights;      // sums of the weights; 0: the unknown keeps its initial value
-    Rows sums;                                   // sums of the weighted targets
+    Numbered<UnknownNumber, float> weights;      // sum of point weights; 0: the unknown keeps its initial value
+    Rows sums;                                   // per unknown, sum of the weighted target values
     Rows solution;                               // input: initial value and prior; output: solution
     Numbered<UnknownNumber, std::uint8_t> held;  // 1: the unknown keeps its initial value; may be empty
 
     static constexpr int iterations = 4;  // number of iterations; more cause no visible change
-    // Strength of the pull towards the prior, relative to an unknown's weight. It prevents overshoot of unknowns with
-    // few points.
+    // Strength of the pull towards the prior (the initial value), relative to an unknown's weight. It prevents
+    // overshoot of unknowns with few target points.
     static constexpr float pull = 0.01f;
 
-    // Solves the system; overwrites `sums`.
+    // Solves the normal equations and stores the result in `solution`; overwrites `sums`.
     void solve() {
         inverseDiagonal_.resize(weights.size());
         for (const UnknownNumber g : weights.numbers()) inverseDiagonal_[g] = pull * weights[g];

@@ -15,17 +15,18 @@ namespace defocus::engine {
 
 namespace {
 
-// Lower bound of the mean cosine between normals. Below this value, the mean normal is meaningless.
+// Lower bound of the length of a mean normal and of the mean cosine between normals. Below this value, the mean normal
+// is meaningless.
 constexpr float minAgreement = 0.125f;
 
-// Sums over the anchors (points on the level) at each level vertex: share · weight, and share · weight · value, in the
-// notation of least_squares.h.
+// Sums for the least-squares fits, at each level vertex over the anchors (points that represent vertices of level 0) on
+// its triangles. The terms are share · weight and share · weight · value, in the notation of least_squares.h.
 struct AnchorSums {
     using Three = std::array<double, 3>;
     Numbered<LevelVertexNumber, double> weights;
-    Numbered<LevelVertexNumber, Three> gaps;  // offsets from the anchor to the original vertex
+    Numbered<LevelVertexNumber, Three> gaps;  // offsets from the anchors to the vertices of level 0
     Numbered<LevelVertexNumber, Three> normals;
-    Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // empty without colours
+    Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // sums for colours; empty without colours
     Numbered<TriangleNumber, TriangleSums> triangles;
 
     template <std::size_t channels>
@@ -58,8 +59,8 @@ AnchorSums sumAnchors(const FitSource& source, const LevelMesh& level,
         const Anchored& value = anchored.values[v];
         const float share = foreshortened(value.area, anchor, normals[anchor.triangle], value.normal);
 
-        // Fit displacements instead of positions. Displacements are small, so that single precision suffices far from
-        // the origin.
+        // Fit displacements instead of positions, because displacements are small. Single precision then suffices far
+        // from the origin.
         glm::dvec3 onLevel(0);
         for (std::size_t k = 0; k < 3; ++k)
             onLevel += double{w[k]} * glm::dvec3(vertices.positions[level.sources[corner[k]].value]);
@@ -82,7 +83,7 @@ AnchorSums sumAnchors(const FitSource& source, const LevelMesh& level,
     return sums;
 }
 
-// Returns fitted positions; clears AnchorSums::gaps of `sums`.
+// Returns fitted positions; clears AnchorSums::gaps of `sums` to free memory.
 Numbered<LevelVertexNumber, glm::vec3> fitPositions(const FitSource& source, const LevelMesh& level, AnchorSums& sums) {
     const auto leaderOf = [&](MeshVertexNumber v) { return source.positions.first[source.positions.id[v]]; };
     const Grouping groups = grouped(level, source.vertices.count(), leaderOf, false);
@@ -109,7 +110,8 @@ Numbered<LevelVertexNumber, glm::vec3> fitPositions(const FitSource& source, con
     return positions;
 }
 
-// Returns the area-weighted sum of triangle normals around each group; zero if there are no triangles.
+// Returns for each group of vertices that share a normal the sum of the normals of all triangles around it, weighted by
+// area. The sum is zero if there are no triangles.
 Numbered<UnknownNumber, glm::dvec3> faceNormals(const Numbered<LevelVertexNumber, glm::vec3>& positions,
                                                 const LevelMesh& level, const Grouping& groups) {
     Numbered<UnknownNumber, glm::dvec3> sums(groups.count(), glm::dvec3(0));
@@ -121,8 +123,9 @@ Numbered<UnknownNumber, glm::dvec3> faceNormals(const Numbered<LevelVertexNumber
     return sums;
 }
 
-// Returns for each group the mean cosine between the normals of the mesh and the interpolated `normals`. Detail that
-// the level has lost lowers this mean; curvature that the level preserves does not lower it.
+// Returns for each group of vertices that share a normal the mean cosine between the normals of level 0 and the
+// interpolated `normals`. Detail that the level has lost lowers this mean; curvature that the level preserves does not
+// lower it.
 Numbered<UnknownNumber, float> agreements(const FitSource& source, const LevelMesh& level,
                                           const Numbered<MeshVertexNumber, Anchor>& anchors, const Grouping& groups,
                                           const Numbered<UnknownNumber, glm::vec3>& normals) {
@@ -148,13 +151,14 @@ Numbered<UnknownNumber, float> agreements(const FitSource& source, const LevelMe
     }
     Numbered<UnknownNumber, float> result(groups.count(), 1);
     for (const UnknownNumber g : result.numbers()) {
-        const double mean = cosines[g] / weights[g];  // NaN for groups without weight
+        const double mean = cosines[g] / weights[g];  // NaN for a group of vertices with weight 0
         if (std::isfinite(mean)) result[g] = std::clamp(static_cast<float>(mean), minAgreement, 1.0f);
     }
     return result;
 }
 
-// Fits normals as vectors, so that the results are shorter than 1 where normals diverge. Clears the normals in `sums`.
+// Fits normals as vectors, so that they are shorter than 1 where the normals of level 0 diverge. Clears
+// AnchorSums::normals of `sums` to free memory.
 LeastSquares::Rows meanNormals(const FitSource& source, const LevelMesh& level, const Grouping& groups,
                                AnchorSums& sums) {
     const std::vector<glm::vec3>& own = source.vertices.normals;
@@ -166,8 +170,8 @@ LeastSquares::Rows meanNormals(const FitSource& source, const LevelMesh& level, 
     return std::move(fit.solution);
 }
 
-// Fits normals. `positions` are the fitted vertex positions. A fitted normal that is very short or points to the back
-// of the surrounding triangles is replaced by their mean unit normal.
+// Returns fitted normals. `positions` are the fitted vertex positions. A fitted normal that is very short or points to
+// the back of the surrounding triangles is replaced by the mean normal of these triangles.
 Numbered<LevelVertexNumber, glm::vec3> fitNormals(const FitSource& source, const LevelMesh& level,
                                                   const Numbered<MeshVertexNumber, Anchor>& anchors, AnchorSums& sums,
                                                   const Numbered<LevelVertexNumber, glm::vec3>& positions) {
@@ -218,12 +222,12 @@ Numbered<LevelVertexNumber, glm::vec4> fitColors(const FitSource& source, const 
     return fitted;
 }
 
-// Area and bounding box of a component of a level, and the scaling that enlarges it.
+// Area and bounding box of a level's component (connected part), and the scaling that enlarges it.
 struct Grown {
     double area = 0;
     Bounds box;
     double factor = 1;
-    glm::dvec3 shift{0};  // moves the component back into level 0's bounding box
+    glm::dvec3 shift{0};  // translation of the component back into level 0's bounding box
 
     [[nodiscard]] glm::dvec3 place(const glm::dvec3& p, const glm::dvec3& centre) const {
         return centre + factor * (p - centre) + shift;
@@ -241,7 +245,8 @@ void chooseGrowth(Grown& grown, const Growth& growth, const Bounds& limits) {
                   glm::min(glm::dvec3(0), limits.maximum - grown.place(grown.box.maximum, growth.centre));
 }
 
-// Enlarges the components whose area is below their area in LevelMesh::growths. The result stays inside `limits`.
+// Enlarges the components (connected parts) whose area is below Growth::area in LevelMesh::growths. The result stays
+// inside `limits`.
 void growComponents(Numbered<LevelVertexNumber, glm::vec3>& positions, const LevelMesh& level, const Bounds& limits) {
     if (level.growthsOf.empty()) return;
     Numbered<ComponentNumber, Grown> grown(level.growths.size());
@@ -262,11 +267,11 @@ void growComponents(Numbered<LevelVertexNumber, glm::vec3>& positions, const Lev
     }
 }
 
-// Max triangle count of levels whose reflected light is corrected. Finer levels match the reflected light of level 0
-// without correction.
+// Max triangle count of levels whose reflected radiance is corrected. Finer levels match the reflected radiance of
+// level 0 without correction.
 constexpr std::size_t maxLitTriangles = 16'384;
 // Max triangle count of levels whose outline is corrected. Even level 1 may need the correction, because thin parts
-// lose area; levels with more triangles would take too long.
+// lose area. For levels with more triangles, the correction would take too long.
 constexpr std::size_t maxOutlinedTriangles = 131'072;
 
 void conserveOutline(const FitSource& source, const LevelMesh& level, LevelFit& fit) {

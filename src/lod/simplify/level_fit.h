@@ -1,9 +1,10 @@
 #pragma once
-// Fits positions, normals, colours and texture coordinates of a coarser level. Copies of the remaining vertices'
-// attributes would alias: single spots of a pattern or single bumps of a relief would cover large areas. A level with
-// its vertices on a convex surface would also be too small. Therefore, the linear interpolation over the level is
-// fitted to all vertices of level 0 by least squares. Hoppe et al. 1993, Mesh Optimization, fit positions in this way.
-// The solver is the Jacobi-preconditioned conjugate gradient method (Hestenes and Stiefel 1952).
+// Fits positions, normals, colours and texture coordinates of a coarser level to level 0, the full mesh. Copies of the
+// remaining vertices' attributes would alias: single spots of a pattern or single bumps of a relief would cover large
+// areas. If its vertices lay on a convex surface, the level would also be too small. Therefore, the linear
+// interpolation over the level is fitted to all vertices of level 0 by least squares. Hoppe et al. 1993, Mesh
+// Optimization, fit positions in this way. The solver is the Jacobi-preconditioned conjugate gradient method (Hestenes
+// and Stiefel 1952).
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -19,8 +20,8 @@
 
 namespace defocus::engine {
 
-// Data of level 0 to which all levels are fitted: vertices, groups of vertices with common values, and properties to
-// conserve.
+// Data of level 0, the full mesh, to which coarser levels are fitted: its vertices, the groups of vertices that share a
+// value, and the properties that conserve() preserves.
 struct FitSource {
     const Vertices& vertices;
     const WeldedPositions& positions;
@@ -28,55 +29,58 @@ struct FitSource {
     VertexGroups shades;            // vertices in one group share a colour; empty without colours
     // Vertices in one group share texture coordinates; empty without texture coordinates.
     VertexGroups charts;
-    // 1: another vertex at the same position has different texture coordinates; empty without texture coordinates.
+    // 1: the vertex is on a texture seam, since another vertex at its position has different texture coordinates; else
+    // 0. Empty without texture coordinates.
     Numbered<MeshVertexNumber, std::uint8_t> seams;
-    Numbered<MeshVertexNumber, float> areas;  // area of each vertex, relative to the mean over all vertices
+    Numbered<MeshVertexNumber, float> areas;  // surface area around each vertex, relative to the mean
     Bounds bounds;                            // bounding box of level 0's triangles
-    // Properties of level 0 that conserve() preserves.
+    // Mean colour, covered areas and reflected radiance of level 0, which conserve() preserves.
     glm::dvec4 meanColor{0};
     std::vector<CoverGrid> outlines;
     LightMeans light{};
 };
 
-// Prepares the fit of all levels. `triangles` are the triangles of level 0. Keeps references to the other arguments.
+// Collects the data of level 0 for the fit of all levels. `triangles` are the triangles of level 0. Keeps references to
+// the other arguments.
 FitSource prepareFit(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
                      const TriangleSet<MeshVertexNumber>& triangles);
 
-// Position of a level 0 vertex on a coarser level: a point of a triangle, in barycentric coordinates. If all weights
+// Point on a coarser level that represents a vertex of level 0: a triangle and barycentric coordinates. If all weights
 // are 0, the vertex has no point of its own.
 struct Anchor {
     TriangleNumber triangle;
     float weight[3] = {0, 0, 0};
 
     // Returns the anchor of a vertex that has no point of its own. The vertex's area, colour and normal are added to
-    // the anchor of `near`.
+    // those of the anchor of vertex `near`.
     static Anchor sharedWith(MeshVertexNumber near) { return {{near.value}}; }
     [[nodiscard]] bool isUnused() const { return weight[0] == 0 && weight[1] == 0 && weight[2] == 0; }
-    // Returns the vertex whose anchor is shared; invalid if there is none.
+    // Returns the vertex whose anchor this vertex shares; invalid if it shares none.
     [[nodiscard]] MeshVertexNumber shared() const {
         return isUnused() ? MeshVertexNumber{triangle.value} : MeshVertexNumber{};
     }
 };
 
-// Growth of a component after fitting, to replace removed components. The component is scaled about `centre` until it
-// has `area`, the sum of its original area and the areas that it replaces. The scale is in [1, `maxFactor`].
+// Growth of a component (connected part of the mesh) that replaces removed components. After fitting, the component is
+// scaled about `centre` until it has `area`, the sum of its original area and the areas of the removed components. The
+// scale is in [1, `maxFactor`].
 struct Growth {
-    glm::dvec3 centre{0};  // object units
-    double area = 0;       // object units squared
+    glm::dvec3 centre{0};  // centre of the scaling, object units
+    double area = 0;       // area after scaling, object units squared
     double maxFactor = 1;
 };
 
 struct LevelMesh {
     TriangleSet<LevelVertexNumber> triangles;
-    Numbered<LevelVertexNumber, MeshVertexNumber> sources;  // mesh vertex with the original attributes; never a twin
-    // 1: the vertex belongs to the back of a thin sheet, where the other vertices at its position belong to the front.
-    // A back vertex shares its normal and colour only with other back vertices.
+    Numbered<LevelVertexNumber, MeshVertexNumber> sources;  // mesh vertex with the original attributes; never a copy
+    // 1: the vertex is on the back of a thin plate, such as a fin, and the other vertices at its position are on the
+    // front; else 0. A back vertex shares its normal and colour only with other back vertices.
     Numbered<LevelVertexNumber, std::uint8_t> apart;
     Numbered<ComponentNumber, Growth> growths;
     Numbered<LevelVertexNumber, ComponentNumber> growthsOf;  // component of each vertex; empty if no component grows
 };
 
-// Fitted attributes of each vertex of a LevelMesh.
+// Fitted attributes of all vertices of a LevelMesh.
 struct LevelFit {
     Numbered<LevelVertexNumber, glm::vec3> positions;
     Numbered<LevelVertexNumber, glm::vec3> normals;   // length ≤ 1; shorter where the normals of level 0 diverge more
@@ -84,16 +88,17 @@ struct LevelFit {
     Numbered<LevelVertexNumber, glm::vec2> uv0, uv1;  // empty without texture coordinates
 };
 
-// Fits a level. Each mesh vertex is weighted by its area, foreshortened on its anchor's triangle. Level vertices
-// without any anchor on their triangles keep their original values. No triangle rotates by more than 60°, and all stay
-// inside level 0's bounding box. Vertices at the same position stay together. To prevent gaps and visible seams,
-// vertices whose normals agree within one degree share a normal; if their colours are equal, they also share a colour.
+// Fits the attributes of a level to level 0. Each mesh vertex is weighted by its area, projected onto the triangle that
+// contains its anchor. Level vertices without any anchor on their triangles keep their original values. No triangle
+// rotates by more than 60°, and all stay inside level 0's bounding box. Vertices at the same position stay together. To
+// prevent gaps and visible seams, vertices whose normals agree within one degree share a normal; if their colours are
+// equal, they also share a colour.
 LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<MeshVertexNumber, Anchor> anchors);
 
 // Corrects a fitted level so that it preserves the properties of level 0 that remain visible after a wide blur:
 // - the covered area, if the level is coarse: vertices at outlines are moved (outline.h);
 // - the mean colour over the area, including alpha: all colours are shifted by the same amount;
-// - the light that a matt surface reflects in each light direction: normals are rotated slightly (light.h).
+// - the radiance that a matt surface reflects, for each light direction: normals are rotated slightly (light.h).
 // The guarantees of fitLevel still hold, except that a triangle may rotate by up to 60° more.
 void conserve(const FitSource& source, const LevelMesh& level, LevelFit& fit);
 

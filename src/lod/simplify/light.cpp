@@ -16,7 +16,7 @@ namespace {
 
 using LightRow = std::array<float, lightCount>;
 
-// Directions of the lights, one array per coordinate, so that compilers vectorise loops over them.
+// Directions to the lights, one array per coordinate, so that compilers vectorise loops over them.
 struct Lights {
     LightRow x, y, z;
 };
@@ -33,15 +33,15 @@ Lights lights() {
 }
 
 struct LitPoint {
-    glm::vec3 weights{0};  // barycentric
-    glm::vec3 normal{0};   // unit length, or zero
+    glm::vec3 weights{0};  // barycentric coordinates of the point
+    glm::vec3 normal{0};   // unit normal, or zero if undefined
     float agreement = 1;
     float area = 0;
-    float light = 0;  // area times the mean of the colour channels
+    float light = 0;  // area times the mean of the three colour channels
 };
 
-// Calls visit(corners, point) for sample points, with the vertex indices of the point's triangle. Returns the surface
-// area.
+// Calls visit(corners, point) for sample points of the surface; `corners` are the vertex indices of the point's
+// triangle. Returns the surface area.
 template <typename Visit>
 double forEachLitPoint(const LitSurface& surface, std::size_t minPoints, const Visit& visit) {
     const std::size_t triangles = surface.indices.size() / 3;
@@ -88,10 +88,10 @@ struct LightSlopes {
 };
 
 // Derivatives of the mean radiance under each light with respect to the normal of a vertex group, as a sum of two
-// parts. For a light direction d, the first part is odd · d with a symmetric matrix `odd`; it changes sign with d. The
-// second part is the same for opposite lights.
+// terms. For a light direction d, the first term is odd · d with a symmetric matrix `odd`; it changes sign with d. The
+// second term is the same for opposite lights.
 struct GroupSlopes {
-    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // elements of the matrix `odd`
+    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // elements of the symmetric matrix `odd`
     PairRow x{}, y{}, z{};
 
     void add(float weight, const GroupSlopes& other) {
@@ -120,10 +120,10 @@ struct GroupSlopes {
     }
 };
 
-// Returns the derivatives of meanCosine() for a point whose normal rotates. Derivatives along the normal are 0.
-// `values` receives the values of meanCosine().
+// Returns the derivatives of meanCosine() under each light with respect to the point's normal. The derivative in the
+// direction of the normal is 0. `values` receives the values of meanCosine().
 GroupSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& values) {
-    constexpr float minRoot = 0.02f;  // bounds the derivative at grazing light if normals hardly diverge
+    constexpr float minRoot = 0.02f;  // bounds the derivative at grazing incidence if normals hardly diverge
     const glm::vec3& n = point.normal;
     const float half = 0.5f * point.agreement;
     const float spread = normalSpread(point.agreement);
@@ -148,14 +148,14 @@ GroupSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& valu
     return slopes;
 }
 
-// Mean radiance under each light, and its derivatives with respect to the normals of groups.
+// Mean radiance under each light, and its derivatives with respect to the normals of vertex groups.
 struct FollowingMeans {
     LightMeans means{};
-    std::vector<float> areas;  // area of each group, as a fraction of the surface
+    std::vector<float> areas;  // area of each vertex group, as a fraction of the surface's area
     LargeVector<GroupSlopes> slopes;
 };
 
-// Computes the mean radiance under each light and its derivatives. Reuses the memory of `result`.
+// Computes the mean radiance of the surface under each light and its derivatives. Reuses the memory of `result`.
 void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, std::size_t minPoints,
             FollowingMeans& result) {
     const Lights from = lights();
@@ -182,9 +182,9 @@ void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, st
     }
 }
 
-// Returns the smallest change of the groups' normals that changes the mean radiance under each light by approximately
-// `wanted`. `damping` is relative to the mean diagonal of the equations; a larger value gives a smaller change. Damping
-// is needed because only about nine of the lights are independent.
+// Returns the smallest change of the vertex groups' normals that changes the mean radiance under each light by
+// approximately `wanted`. `damping` is relative to the mean diagonal of the equations; a larger value gives a smaller
+// change. Damping is needed because only about nine of the 26 lights are independent.
 std::vector<glm::vec3> smallestChange(const FollowingMeans& at, const LightMeans& wanted, double damping) {
     const Lights from = lights();
     std::vector<double> matrix(lightCount * lightCount, 0);
@@ -209,7 +209,7 @@ std::vector<glm::vec3> smallestChange(const FollowingMeans& at, const LightMeans
     return change;
 }
 
-// Adds `change` to the normals of each group and restores the lengths of the normals.
+// Adds `change` to the normals of each vertex group and restores the lengths of the normals.
 void turn(std::span<const glm::vec3> before, std::span<const std::uint32_t> groups, std::span<const glm::vec3> change,
           std::span<glm::vec3> after) {
     for (std::size_t v = 0; v < before.size(); ++v) {
@@ -268,8 +268,8 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
               std::span<glm::vec3> normals) {
     constexpr int maxRounds = 8;
     constexpr double enough = 5e-4;
-    // Rotating normals changes the shading at each point, which remains visible under a narrow blur. The RMS change of
-    // the normals is therefore limited to this multiple of the improvement of the mean radiance.
+    // Rotating normals changes the shading at each point, and this change remains visible under a narrow blur. The RMS
+    // change of the normals is therefore limited to this multiple of the improvement of the mean radiance.
     constexpr double maxTurn = 16;
     const std::vector<glm::vec3> original(normals.begin(), normals.end());
     std::vector<glm::vec3> best = original;
@@ -303,7 +303,7 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
             followNormals();
             damping *= 10;
         } else {
-            return;  // The misfit is NaN.
+            return;  // The difference from `target` is NaN.
         }
         turn(best, groups, smallestChange(at, wanted, damping), normals);
     }

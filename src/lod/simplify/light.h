@@ -1,6 +1,6 @@
 #pragma once
-// Measures the light that a matt surface reflects, and fits the normals of a coarse level so that it reflects as much
-// light as level 0. A wide blur reduces shading to its mean over the surface.
+// Measures the mean radiance that a matt surface reflects, and fits the normals of a coarse level so that its mean
+// radiance equals that of level 0. A wide blur reduces shading to this mean over the surface.
 
 #include <algorithm>
 #include <array>
@@ -13,18 +13,19 @@
 
 namespace defocus::engine {
 
-// Light directions: unit vectors to the 26 neighbours in a 3 × 3 × 3 cube. The second half is opposite to the first.
+// Directions to the lights: unit vectors to the 26 neighbours in a 3 × 3 × 3 cube. The second half is opposite to the
+// first.
 inline constexpr std::size_t lightCount = 26;
 std::array<glm::dvec3, lightCount> directionsToLights();
 
-// Mean radiance under a light of illuminance π, for each light direction. Shadows are ignored. Colours are averaged
-// over their three channels.
+// For each light direction, the mean radiance that a surface reflects under a light of illuminance π. Shadows are
+// ignored. Colours are averaged over their three channels.
 using LightMeans = std::array<double, lightCount>;
 
-// normalSpread() and meanCosine() compute the light that a distribution of normals reflects. They match the functions
-// in shaders/include/shading.glsl. `agreement`, in [0, 1], is the length of the mean of the unit normals. `mean` is
-// agreement · cosine if the distribution is symmetric about the mean normal. The average of meanCosine() over all light
-// directions is then 1/4.
+// Return the spread of a distribution of normals, and the mean clamped cosine between its normals and a light
+// direction, as the functions in shaders/include/shading.glsl do. `agreement`, in [0, 1], is the length of the mean of
+// the unit normals. `cosine` is the cosine between mean normal and light direction. `mean` is agreement · cosine if the
+// distribution is symmetric about the mean normal. The average of meanCosine() over all light directions is then 1/4.
 inline float normalSpread(float agreement) {
     const float lost = 1 - agreement;
     const float root = std::sqrt(lost);
@@ -34,30 +35,31 @@ inline float meanCosine(float mean, float cosine, float spread) {
     return 0.5f * (mean + std::sqrt(mean * mean + spread * std::max(1 - cosine * cosine, 0.0f)));
 }
 
-// Lower bound of agreements (lengths of mean normals) that are interpolated over a triangle, as in the shaders.
+// Min length of a mean normal that is interpolated over a triangle; the shaders clamp to the same value.
 inline constexpr float minShownAgreement = 0.05f;
 
 // A surface with vertex attributes; three indices form a triangle.
 struct LitSurface {
     std::span<const glm::vec3> positions;
     std::span<const glm::vec3> normals;
-    std::span<const glm::vec4> colors;  // empty: white
+    std::span<const glm::vec4> colors;  // vertex colours; empty: white
     std::span<const std::uint32_t> indices;
     bool coarse = true;  // true: a normal shorter than 1 stands for diverging normals, as in shading.glsl
 };
 
-// Returns the light that a matt surface reflects, averaged over its area. Samples at least three points per triangle
+// Returns the mean radiance that a matt surface reflects under each light. Samples at least three points per triangle
 // and at least `minPoints` points in total.
 LightMeans lightMeans(const LitSurface& surface, std::size_t minPoints);
 
-// Min number of points for which lightMeans() has an error of at most 5e-4.
+// Number of sample points with which lightMeans() has an error of at most 5e-4.
 inline constexpr std::size_t pointsOfLight = 12'000;
 
 // Rotates the normals of a coarse surface until the mean radiance under each light is within 5e-4 of `target`. Uses a
 // few rounds of the Levenberg–Marquardt method (Levenberg 1944, Marquardt 1963), which may end before this accuracy is
-// reached. The change has the smallest RMS over the area. The RMS is at most 16 times the improvement of the mean
-// radiance, because a change is visible at each point. Lengths of normals are preserved, so that roughness does not
-// change. Vertices with equal values in `groups` (below positions.size()) share a normal before and after.
+// reached. Of all rotations with this effect, the one with the smallest RMS change over the area is used. Rotated
+// normals are visible at each point under a narrow blur. The RMS change is therefore at most 16 times the improvement
+// of the mean radiance. Lengths of normals are preserved, so that roughness does not change. Vertices with equal values
+// in `groups` (below positions.size()) share a normal before and after.
 void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> colors,
               std::span<const std::uint32_t> indices, std::span<const std::uint32_t> groups, const LightMeans& target,
               std::span<glm::vec3> normals);

@@ -1,5 +1,5 @@
-// Source for cutting non-manifold surfaces: Guéziec, Taubin, Lazarus and Horn 2001, Cutting and Stitching: Converting
-// Sets of Polygons to Manifold Surfaces.
+// Converts triangles to a manifold by cutting the surface at non-manifold edges and vertices, as in Guéziec, Taubin,
+// Lazarus and Horn 2001, Cutting and Stitching: Converting Sets of Polygons to Manifold Surfaces.
 
 #include "lod/simplify/manifold.h"
 
@@ -17,15 +17,16 @@ namespace defocus::engine {
 
 namespace {
 
-// Max number of faces at one edge that are paired. At edges with more faces, all faces are separated, in linear time.
+// Max number of faces at one edge that are connected in pairs. At edges with more faces, all faces are separated, in
+// linear time.
 constexpr std::size_t maxFacesToPair = 32;
 
-// Flags for the kinds of repairs of a face.
+// Bit flags that say how a face was repaired.
 constexpr std::uint8_t turnedRepair = 1;
 constexpr std::uint8_t cutRepair = 2;
 constexpr std::uint8_t splitRepair = 4;
 
-// Surface under construction. Its faces are the input triangles that were kept.
+// The surface while half-edges are paired. Its faces are the input triangles that were kept.
 struct PairedSurface {
     const Numbered<PositionNumber, glm::dvec3>& points;
     Numbered<SurfaceCorner, PositionNumber> at;
@@ -37,7 +38,7 @@ struct PairedSurface {
     [[nodiscard]] std::size_t faceCount() const { return primitives.size(); }
     [[nodiscard]] PositionNumber start(SurfaceCorner edge) const { return at[edge]; }
     [[nodiscard]] PositionNumber end(SurfaceCorner edge) const { return at[nextCorner(edge)]; }
-    // Returns true if the edge leads from the lower to the higher position number, in the final orientation of its
+    // Returns true if the half-edge leads from the lower to the higher position number, in the final orientation of its
     // face.
     [[nodiscard]] bool forward(SurfaceCorner edge) const {
         return (start(edge) < end(edge)) != (turned[faceOf(edge)] != 0);
@@ -56,9 +57,10 @@ Numbered<SurfaceFaceNumber, TriangleNumber> properFaces(const TriangleSet<Positi
                                                               return std::min({p[0], p[1], p[2]});
                                                           });
 
-    // Equal faces have the same smallest position number. Only faces that share this number are compared.
+    // Sort key of a face: equal faces have the same smallest position number, so that only faces with this number are
+    // compared.
     struct Key {
-        PositionNumber next, previous;  // the other two corners, in winding order
+        PositionNumber next, previous;  // the other two corners of the face, in winding order
         PrimitiveNumber primitive;
         TriangleNumber triangle;
 
@@ -85,7 +87,8 @@ Numbered<SurfaceFaceNumber, TriangleNumber> properFaces(const TriangleSet<Positi
     return faces;
 }
 
-// Half-edges grouped by the pair of positions that they join. Group g is order[starts[g]] … order[starts[g + 1] − 1].
+// Half-edges grouped by the pair of positions that they join. Group g holds order[starts[g]] … order[starts[g + 1] −
+// 1].
 struct EdgeGroups {
     std::vector<SurfaceCorner> order;
     std::vector<std::uint32_t> starts;
@@ -101,7 +104,7 @@ EdgeGroups groupEdges(const PairedSurface& surface) {
     const auto low = [&](SurfaceCorner e) { return std::min(surface.start(e), surface.end(e)); };
     const auto high = [&](SurfaceCorner e) { return std::max(surface.start(e), surface.end(e)); };
 
-    // Group by the lower position, then sort the few edges of each group by the higher position.
+    // Group half-edges by the lower position, then sort the few half-edges of each group by the higher position.
     Buckets<PositionNumber, SurfaceCorner> byLow(surface.points.size(), edgeCount, low);
     EdgeGroups groups;
     groups.starts.reserve(edgeCount / 2 + edgeCount / 16);
@@ -123,8 +126,8 @@ EdgeGroups groupEdges(const PairedSurface& surface) {
     return groups;
 }
 
-// Reverses the minority of faces in each component, so that faces at edges of two faces are consistently oriented. A
-// Möbius band cannot be oriented consistently; it stays cut at one edge.
+// Makes the orientation of faces consistent across edges of two faces; reverses the minority of faces in each connected
+// component. A Möbius band cannot be oriented consistently; it stays cut at one edge.
 void orient(PairedSurface& surface, const EdgeGroups& groups) {
     Numbered<SurfaceCorner, SurfaceCorner> across(surface.at.size());
     for (std::size_t g = 0; g < groups.count(); ++g) {
@@ -132,7 +135,7 @@ void orient(PairedSurface& surface, const EdgeGroups& groups) {
         const SurfaceCorner a = groups[g][0];
         const SurfaceCorner b = groups[g][1];
         const bool sameFace = surface.at[previousCorner(a)] == surface.at[previousCorner(b)];
-        if (sameFace && surface.forward(a) == surface.forward(b)) continue;  // the same face in two primitives
+        if (sameFace && surface.forward(a) == surface.forward(b)) continue;  // the same face occurs in two primitives
         across[a] = b;
         across[b] = a;
     }
@@ -173,8 +176,8 @@ glm::dvec3 faceNormal(const PairedSurface& surface, SurfaceFaceNumber face) {
     return length > 0 ? normal / length : glm::dvec3(0);
 }
 
-// Pairs the half-edges at one edge. Criteria in this order: same primitive, smallest angle between the normals, input
-// order. A face and its reverse form a two-sided sheet; they are paired only if no other face continues either of them.
+// Pairs the half-edges at one edge. Criteria in this order: same primitive, smallest angle between the face normals,
+// input order. A face and its reverse are paired only if no other face continues either of them.
 void pairEdges(PairedSurface& surface, std::span<const SurfaceCorner> edges) {
     struct Candidate {
         double score;
@@ -217,7 +220,7 @@ void pairAllEdges(PairedSurface& surface, const EdgeGroups& groups) {
     }
 }
 
-// Assigns one vertex to each fan of faces: corners connected by paired edges share a vertex. Uses union-find with the
+// Assigns one vertex to each fan of faces: corners of paired half-edges share a vertex. Uses union-find with the
 // smallest corner as root.
 void numberVertices(PairedSurface& surface, Manifold& manifold) {
     Numbered<SurfaceCorner, SurfaceCorner> parent(surface.at.size());
@@ -286,7 +289,7 @@ TriangleSet<PositionNumber> weldedTriangles(const TriangleSet<MeshVertexNumber>&
 
 Manifold buildManifold(const TriangleSet<PositionNumber>& triangles,
                        const Numbered<PositionNumber, glm::dvec3>& points) {
-    // Keep the faces that can be part of a surface.
+    // Keep the faces that are neither degenerate nor duplicates.
     Manifold manifold;
     const Numbered<TriangleNumber, PrimitiveNumber> primitives = primitivesOf(triangles);
     manifold.faces = properFaces(triangles, primitives, points.size());
@@ -302,7 +305,7 @@ Manifold buildManifold(const TriangleSet<PositionNumber>& triangles,
         surface.primitives.push_back(primitives[triangle]);
     }
 
-    // Orient faces consistently, pair edges, and create one vertex per fan.
+    // Orient faces consistently, pair half-edges, and create one vertex per fan of faces.
     const EdgeGroups groups = groupEdges(surface);
     orient(surface, groups);
     pairAllEdges(surface, groups);

@@ -1,5 +1,5 @@
 #pragma once
-// Strongly typed indices, and arrays that accept only one type of index. Vertices, half-edges and faces of the
+// Defines strongly typed indices, and arrays that accept only one type of index. Vertices, half-edges and faces of the
 // collapsing surface use OpenMesh's handles (surface_mesh.h), which also work as index types.
 
 #include <compare>
@@ -29,8 +29,8 @@ struct Number {
 };
 
 using FileVertexNumber = Number<struct FileVertexKind>;  // index into Mesh::vertices
-// Index of a vertex of the mesh to simplify; equal file vertices share one number. Twins, which are copies of vertices
-// (see Simplification), have the numbers after the mesh's own vertices.
+// Index of a vertex of the mesh to simplify; equal file vertices share one number. Copies of vertices
+// (Simplification::twins) have the numbers after the mesh's own vertices.
 using MeshVertexNumber = Number<struct MeshVertexKind>;
 using PositionNumber = Number<struct PositionKind>;            // a position, which several vertices may share
 using SurfaceVertexNumber = Number<struct SurfaceVertexKind>;  // vertex of the manifold before any collapse
@@ -42,7 +42,7 @@ using TriangleNumber = Number<struct TriangleKind>;            // index into a T
 using LevelVertexNumber = Number<struct LevelVertexKind>;      // vertex of one level, numbered by first use
 using PyramidVertexNumber = Number<struct PyramidVertexKind>;  // index into Pyramid::vertices
 
-// Tag type for corners of faces. Corner 3·f + i is corner i of face f.
+// Tag type for the corners of faces. Corner 3·f + i is corner i of face f.
 template <typename Face>
 struct CornerOf;
 template <typename Face>
@@ -58,7 +58,7 @@ template <typename Face>
 constexpr CornerNumber<Face> cornerAt(Face face, std::uint32_t i) {
     return {3 * face.value + i};
 }
-// Return the next and the previous corner in the same face.
+// Return the corner that follows or precedes the corner in its face.
 template <typename Face>
 constexpr Number<CornerOf<Face>> nextCorner(Number<CornerOf<Face>> corner) {
     return {corner.value % 3 == 2 ? corner.value - 2 : corner.value + 1};
@@ -68,8 +68,8 @@ constexpr Number<CornerOf<Face>> previousCorner(Number<CornerOf<Face>> corner) {
     return {corner.value % 3 == 0 ? corner.value + 2 : corner.value - 1};
 }
 
-// indexOf() converts a number or an OpenMesh handle to an array index; itemAt() converts an array index to a number or
-// handle.
+// indexOf() converts a typed number or an OpenMesh handle to an array index; itemAt() converts an array index to a
+// typed number or a handle.
 template <typename Key>
 constexpr std::size_t indexOf(Key item) {
     if constexpr (requires { item.value; })
@@ -87,7 +87,7 @@ constexpr Key itemAt(std::size_t index) {
         return Key(static_cast<int>(index));
 }
 
-// Returns the range of numbers 0 … count − 1.
+// Returns the range of typed numbers 0 … count − 1.
 template <typename Key>
 auto numbersBelow(std::size_t count) {
     return std::views::iota(std::size_t{0}, count) | std::views::transform(itemAt<Key>);
@@ -151,7 +151,7 @@ public:
     [[nodiscard]] std::span<Item> operator[](Key key) { return std::span(items_).subspan(at(key), count(key)); }
     [[nodiscard]] auto keys() const { return numbersBelow<Key>(first_.size() - 1); }
     [[nodiscard]] std::size_t itemCount() const { return items_.size(); }
-    // Moves the items out, sorted by key.
+    // Moves all items out of this object, sorted by key.
     std::vector<Item> takeItems() { return std::move(items_); }
 
 private:

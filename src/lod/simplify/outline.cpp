@@ -21,34 +21,34 @@ constexpr int minResolution = 128;
 constexpr int maxResolution = 512;
 constexpr double cellsPerEdge = 16;  // approximate grid cells per triangle edge, for evenly sized triangles
 
-constexpr double maxUnseen = 5e-3;   // max relative area difference that needs no correction
-constexpr int localRounds = 2;       // rounds that move each outline edge towards level 0's outline
-constexpr int maxGlobalRounds = 12;  // max rounds that match the covered area in each direction
-// Accepted relative area differences. Levels with many triangles use the looser value, because they are slow to fit and
-// mostly cover enough area.
+constexpr double maxUnseen = 5e-3;   // max relative area difference that is not corrected
+constexpr int localRounds = 2;       // number of rounds that move each outline edge towards level 0's outline
+constexpr int maxGlobalRounds = 12;  // max number of rounds that match the covered area in each direction
+// Relative difference between the covered areas of the level and of level 0 at which the fit ends. Levels with many
+// triangles use the larger value, because they are slow to fit and mostly cover enough area.
 constexpr double goodEnough = 1.5e-3;
 constexpr double passable = 3.5e-3;
 constexpr std::size_t fewTriangles = 2048;
-constexpr int maxVainRounds = 4;  // max consecutive rounds without improvement
-constexpr double maxWay = 48;     // max distance to level 0's outline in cells; farther outlines belong to another part
+constexpr int maxVainRounds = 4;  // max number of consecutive rounds without improvement
+constexpr double maxWay = 48;     // max distance to level 0's outline in cells; farther outlines bound other parts
 constexpr int maxEdgePoints = 24;
 constexpr double stiffness = 0.1;      // damping of displacements, relative to the weight of the outline points
-constexpr double maxMoveShare = 0.25;  // max displacement per round, relative to the vertex's mean edge length
+constexpr double maxMoveShare = 0.25;  // max displacement per round, relative to the mean length of the vertex's edges
 constexpr double constraintSlack = 1e-3;
 
-// An edge with up to two of its faces.
+// An edge between two vertex groups (vertices at one position), with up to two of its faces.
 struct Edge {
-    std::uint32_t a = 0, b = 0;  // vertex groups at the ends, a < b
-    std::uint32_t third = 0;     // vertex group at the first face's third corner
+    std::uint32_t a = 0, b = 0;  // numbers of the vertex groups at the edge's ends, a < b
+    std::uint32_t third = 0;     // vertex group at the third corner of the first face
     std::uint32_t face[2] = {0, 0};
-    // Direction of each face along the edge. 1: from a to b; −1: from b to a; 0: no face.
+    // Direction in which each face runs along the edge. 1: from a to b; −1: from b to a; 0: no face.
     std::int8_t way[2] = {0, 0};
-    bool closed = false;  // the edge has two faces; Edges::more has entries for further faces
+    bool closed = false;  // the edge has two faces; further faces are in Edges::more
 };
 
 struct Edges {
     std::vector<Edge> all;   // one edge per pair of vertex groups
-    std::vector<Edge> more;  // one edge for each face after the first two faces at an edge
+    std::vector<Edge> more;  // entries for further faces if an edge has more than two faces
 };
 
 Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {
@@ -96,12 +96,12 @@ Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {
     return edges;
 }
 
-// A sample point of a level's outline, seen from one direction.
+// A sample point of a level's outline in the projection along one direction.
 struct OutlinePoint {
     std::uint32_t a = 0, b = 0;  // vertex groups at the ends of the edge
-    double share = 0;            // interpolation weight of b
+    double share = 0;            // interpolation weight of b; the weight of a is 1 − share
     double length = 0;           // outline length that the point represents, object units
-    glm::dvec2 start{0};         // position in cells
+    glm::dvec2 start{0};         // position of the point in cells
     glm::dvec2 across{0};        // outward unit normal of the outline
 };
 
@@ -139,7 +139,7 @@ public:
             if (counts[v] > 0) maxMove_[v] *= maxMoveShare / counts[v];
     }
 
-    // Returns the largest relative area difference over all directions.
+    // Returns the largest relative difference between the areas that the level and level 0 cover, over all directions.
     double worstArea() {
         double worst = 0;
         for (std::size_t d = 0; d < outlines_.size(); ++d) {
@@ -174,8 +174,8 @@ public:
         move(moves);
     }
 
-    // Applies the smallest displacements that match the area in each direction to first order. Returns false if all
-    // areas agree within `enough` or recent rounds brought no improvement.
+    // Applies the smallest displacements that match the covered area in each direction to first order. Returns false if
+    // all areas agree within `enough` or recent rounds brought no improvement.
     bool matchAreas(double enough) {
         const std::size_t count = outlines_.size();
         gradients_.assign(count * places_.size(), glm::vec3(0));
@@ -210,14 +210,14 @@ public:
         return true;
     }
 
-    // Returns the current positions, or the best positions if later rounds were worse.
+    // Returns the current positions, or the best earlier positions if the last rounds brought no improvement.
     [[nodiscard]] const std::vector<glm::vec3>& places() const { return vainRounds_ > 0 ? best_ : places_; }
-    // Returns the largest relative area difference at the positions that places() returns.
+    // Returns the largest relative difference from level 0's covered areas at the positions that places() returns.
     [[nodiscard]] double worst() { return vainRounds_ > 0 ? worstOfBest_ : worstArea(); }
 
 private:
-    // Marks the cells that the level covers and returns the area. Stores the projected positions and potential outline
-    // edges.
+    // Marks the cells that the level covers in one direction and returns the covered area. Stores the projected
+    // positions and potential outline edges.
     double cover(CoverGrid& own) {
         cells_.clear();
         for (const glm::vec3& place : places_) cells_.push_back(own.cellsOf(place));
@@ -242,7 +242,7 @@ private:
         return own.cell() * own.cell() * static_cast<double>(fill_.fill(own));
     }
 
-    // Visits sample points of the level's outline. Returns the covered area.
+    // Calls `visit` for each sample point of the level's outline. Returns the covered area.
     template <typename Visit>
     double forEachPoint(const CoverGrid& level0, const Visit& visit) {
         CoverGrid own = level0.emptied();
@@ -266,8 +266,8 @@ private:
         return area;
     }
 
-    // Solves (G Gᵀ) x = b, slightly damped. Row d of G is the gradient of the covered area in direction d. The matrix
-    // is summed over the vertices; zero gradients are skipped, because most vertices lie on few outlines.
+    // Solves (G Gᵀ) x = b for x, slightly damped. Row d of G is the gradient of the covered area in direction d. The
+    // matrix is summed over the vertices; zero gradients are skipped, because most vertices lie on few outlines.
     static std::vector<double> solved(const std::vector<glm::vec3>& gradients, const std::vector<double>& b) {
         const std::size_t n = b.size();
         std::vector<double> matrix(n * n, 0);
@@ -303,18 +303,18 @@ private:
     Edges edges_;
     std::vector<double> maxMove_;  // max displacement of each vertex group per round
     std::span<const CoverGrid> outlines_;
-    std::vector<double> areas_;  // covered areas in `outlines_`, object units squared
+    std::vector<double> areas_;  // covered areas of level 0 in `outlines_`, object units squared
     const Bounds& box_;
-    std::vector<glm::vec3> best_;                                 // positions with the smallest misfit
-    double minMisfit_ = std::numeric_limits<double>::infinity();  // sum of squared relative area differences
+    std::vector<glm::vec3> best_;                                 // positions after the best round
+    double minMisfit_ = std::numeric_limits<double>::infinity();  // min sum of squared relative area differences
     double worstOfBest_ = std::numeric_limits<double>::infinity();
     int vainRounds_ = 0;                // rounds since the last improvement
-    std::vector<glm::vec3> gradients_;  // gradients of the covered area: for each vertex group, one per direction
+    std::vector<glm::vec3> gradients_;  // gradients of the covered area: one per vertex group and direction
     // Temporary data of cover(), for one direction.
     EdgeFill fill_;
     std::vector<glm::dvec2> cells_;   // projected position of each vertex group
     std::vector<std::int8_t> turns_;  // per face: 1 counterclockwise, −1 clockwise, 0 edge-on
-    std::vector<const Edge*> rim_;    // potential outline: all edges except those between two faces with equal turns_
+    std::vector<const Edge*> rim_;    // potential outline edges: all except those between two faces with equal turns_
 };
 
 }  // namespace

@@ -19,11 +19,11 @@ namespace defocus::engine {
 inline constexpr std::size_t outlineDirections = 13;
 std::array<glm::dvec3, outlineDirections> directionsOfOutlines();
 
-// Returns the coverage grids of level 0, one per direction.
+// Returns the grids of cells that level 0 covers, one grid per direction.
 std::vector<CoverGrid> outlinesOf(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices,
                                   const Bounds& box);
 
-// Moves vertices along the outlines of a level until it covers approximately the area that level 0 covers in
+// Moves vertices along the outlines of a level until the level covers approximately the area that level 0 covers in
 // `outlines`. Does nothing if the areas already agree within 0.5 % in every direction. Displacements are as small as
 // possible and stay within `box`. Vertices with equal values in `places` (below positions.size()) have the same
 // position before and after. No triangle rotates by more than 60°.

@@ -1,5 +1,5 @@
 #pragma once
-// The reason why a pyramid has no further level.
+// Lists the reasons why a pyramid (a mesh and its coarser levels of detail) has no further level.
 
 #include <cstdint>
 
@@ -9,7 +9,7 @@ enum class PyramidEnd : std::uint32_t {
     minTriangles,  // the last level has reached the minimum triangle count
     smallSaving,   // even the coarsest possible level would save less than a quarter of the triangles
     topology,      // no collapse preserves the topology any more: handles, cuts and borders need all triangles
-    largestParts,  // only components with a large part of the area could be simplified further
+    largestParts,  // only components with a large fraction of the area could be simplified further
     noSurface,     // all triangles are degenerate
     maxLevels,     // the maximum number of levels is reached
 };

@@ -1,13 +1,14 @@
 #pragma once
-// Position quadrics: the weighted sum of squared distances to a set of planes, dᵀAd + 2bᵀd + c. Source: Garland and
-// Heckbert 1997, Surface Simplification Using Quadric Error Metrics.
-// d is the offset from the vertex that owns the quadric. Quadrics are evaluated only near their vertex, so that single
-// precision suffices.
+// Defines quadrics, which measure the error of a collapse.
 //
-// Attribute quadrics: the squared difference between the attributes of a vertex and the linear interpolation of the
-// faces' attributes at the same position, weighted by face area. Source: Hoppe 1999, New Quadric Metric for Simplifying
-// Meshes with Appearance Attributes. Attributes are relative to the attributes of the vertex that owns the quadric. `n`
-// is the number of attributes, so that memory is used only for attributes that the mesh has.
+// A position quadric is the weighted sum of squared distances to a set of planes, dᵀAd + 2bᵀd + c (Garland and Heckbert
+// 1997, Surface Simplification Using Quadric Error Metrics). d is the offset from the vertex that owns the quadric.
+// Quadrics are evaluated only near their vertex, so that single precision suffices.
+//
+// An attribute quadric is the squared difference between the attributes of a vertex and the linear interpolation of the
+// faces' attributes at the same position, weighted by face area (Hoppe 1999, New Quadric Metric for Simplifying Meshes
+// with Appearance Attributes). Attributes are relative to the attributes of the vertex that owns the quadric. `n` is
+// the number of attributes, so that memory is used only for attributes that the mesh has.
 
 #include <algorithm>
 #include <array>
@@ -19,7 +20,7 @@
 namespace defocus::engine {
 
 struct Quadric {
-    float c = 0;       // value of the sum at the vertex itself
+    float c = 0;       // value of the quadric at the vertex itself
     float weight = 0;  // total weight of the planes
     glm::vec3 b{0};
     float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // elements of the symmetric matrix A
@@ -30,7 +31,7 @@ struct Quadric {
         weight += planeWeight;
     }
 
-    // Adds squareWeight · (gᵀd)² to the sum; `weight` is unchanged.
+    // Adds squareWeight · (gᵀd)² to the quadric; `weight` is unchanged.
     void addSquare(const glm::vec3& g, float squareWeight) {
         const glm::vec3 weighted = squareWeight * g;
         xx += weighted.x * g.x;
@@ -58,7 +59,7 @@ struct Quadric {
         return {xx * d.x + xy * d.y + xz * d.z, xy * d.x + yy * d.y + yz * d.z, xz * d.x + yz * d.y + zz * d.z};
     }
 
-    // Returns the sum at offset d; never negative.
+    // Returns the weighted sum of squared distances at offset d; never negative.
     [[nodiscard]] float at(const glm::vec3& d) const { return std::max(0.0f, glm::dot(timesA(d) + 2.0f * b, d) + c); }
 };
 
@@ -102,7 +103,7 @@ struct AttributeQuadric {
     AttributeGradients<n> gradients{};
     AttributeRow<n> offset{};
 
-    // Adds a face at the vertex. The face has the vertex's own attributes at this corner, so that `offset` is
+    // Adds a face at the vertex. The face has the vertex's own attributes at its corner there, so that `offset` is
     // unchanged.
     void addFace(const AttributeGradients<n>& face, float faceWeight) {
         squares.weight += faceWeight;
@@ -114,7 +115,7 @@ struct AttributeQuadric {
         }
     }
 
-    // Adds a quadric of the same vertex to which only faces were added, so that its offset is zero.
+    // Adds another quadric of the same vertex. Only faces were added to the other quadric, so that its offset is zero.
     void addFaces(const AttributeQuadric& other) {
         squares.add(other.squares, glm::vec3(0));
         for (std::size_t j = 0; j < n; ++j) {
@@ -144,7 +145,7 @@ struct AttributeQuadric {
         squares.c = c + cost;
     }
 
-    // Returns the quadric at the position offset `step` and the attribute offset `change`; never negative.
+    // Returns the quadric's value at the position offset `step` and the attribute offset `change`; never negative.
     [[nodiscard]] float at(const glm::vec3& step, const AttributeRow<n>& change) const {
         AttributeRow<std::bit_ceil(n)> terms{};
         for (std::size_t j = 0; j < n; ++j) {

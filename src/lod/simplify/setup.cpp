@@ -1,4 +1,5 @@
-// Builds the surface, scaled to unit size, and its quadrics. Boundary constraints follow Garland and Heckbert 1997.
+// Builds the surface to simplify, scaled to unit size, and its quadrics. Boundary constraints follow Garland and
+// Heckbert 1997.
 
 #include <algorithm>
 #include <array>
@@ -13,11 +14,11 @@ namespace defocus::engine {
 
 namespace {
 
-// Weights of constraint planes through an edge, perpendicular to the edge's face. The weight is multiplied by the
-// squared edge length. (The plane of a face is weighted by the face's area.)
-constexpr double borderWeight = 10;  // open borders and material borders
-constexpr double seamWeight = 0.5;   // discontinuities of uv or colour
-constexpr double rimWeight = 1;      // edges that bend by more than 60°; scaled by the bend
+// Weights of constraint planes, which contain an edge and are perpendicular to the edge's face. The weight is
+// multiplied by the squared edge length. (The plane of a face is weighted by the face's area.)
+constexpr double borderWeight = 10;  // weight at open borders and material borders
+constexpr double seamWeight = 0.5;   // weight at discontinuities of uv or colour
+constexpr double rimWeight = 1;      // weight at edges that bend by more than 60°; scaled by the bend
 
 glm::dvec3 faceCross(const SurfaceMesh& mesh, FaceHandle face) {
     const FaceCorners corner = cornersOf(mesh, face);
@@ -26,22 +27,23 @@ glm::dvec3 faceCross(const SurfaceMesh& mesh, FaceHandle face) {
                       mesh.place(mesh.from_vertex_handle(corner.at[2])) - a);
 }
 
-// Normal of each face with the length of twice its area.
+// Face normals whose length is twice the face's area.
 using Crosses = LargeVector<glm::dvec3>;
 
 const glm::dvec3& crossOf(const Crosses& crosses, FaceHandle face) {
     return crosses[indexOf(face)];
 }
 
-// Returns whether the surface ends at a half-edge. `beyond` is the face on the other side; a face without area counts
-// as missing.
+// Returns whether the surface ends at an edge. `beyond` is the face on the other side of the edge; a face without area
+// counts as missing.
 bool endsAt(const Crosses& crosses, FaceHandle beyond) {
     if (!beyond.is_valid()) return true;
     const glm::dvec3& cross = crossOf(crosses, beyond);
     return !(glm::dot(cross, cross) > 0);
 }
 
-// Returns the weight that a seam or border adds at half-edge `e`, on the side of the half-edge's face.
+// Returns the weight of the constraint at half-edge `e`, on the side of the half-edge's face, if the edge is a seam or
+// border; else 0.
 double seamConstraint(const SurfaceMesh& mesh, HalfedgeHandle e) {
     const HalfedgeHandle twin = mesh.opposite_halfedge_handle(e);
     if (mesh.is_boundary(twin) || mesh.primitive(mesh.face_handle(e)) != mesh.primitive(mesh.face_handle(twin)))
@@ -55,7 +57,7 @@ double seamConstraint(const SurfaceMesh& mesh, HalfedgeHandle e) {
 }
 
 // Returns the weight of the constraint at an edge where the surface bends by more than 60°. Without this constraint,
-// the rim of a thin sheet could be cut back at no cost, because the faces of the rim have almost no area.
+// the rim of a thin plate such as a fin could be cut back at no cost, because the faces of the rim have almost no area.
 double rimConstraint(const Crosses& crosses, FaceHandle face, FaceHandle beyond) {
     const glm::dvec3& mine = crossOf(crosses, face);
     const glm::dvec3& theirs = crossOf(crosses, beyond);
@@ -110,7 +112,7 @@ void buildQuadrics(SurfaceMesh& mesh) {
             const double length = glm::length(upright);
             if (!(length > 0)) continue;
             // A short border edge of a long face, such as the end of a strip, is weighted by the face's area. If only
-            // its length counted, shortening the strip would be cheaper than removing vertices in its interior.
+            // the edge's length counted, shortening the strip would be cheaper than removing vertices in its interior.
             const double area = border ? std::max(length * length, doubleArea) : length * length;
             const glm::vec3 constraint(upright / length);
             mesh.data(a).quadric.addPlane(constraint, static_cast<float>(weight * area));
@@ -130,7 +132,7 @@ Frame frameOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& tri
     return longest > 0 ? Frame{bounds.centre(), 1 / longest} : Frame{};
 }
 
-// Returns the factor from texture coordinates to lengths on the mesh of unit size. It preserves the total area.
+// Returns the factor from texture coordinates to lengths on the mesh scaled to unit size. It preserves the total area.
 float uvScaleOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& triangles, const Frame& frame) {
     double area = 0;
     double uvArea = 0;
@@ -192,7 +194,7 @@ void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPosi
         mesh.set_point(itemAt<VertexHandle>(indexOf(v)), {p.x, p.y, p.z});
     }
 
-    // Add wedges and quadrics.
+    // Add wedges (attributes at face corners) and quadrics.
     mesh.wedges.assign(vertices, uvScaleOf(vertices, triangles, origin->frame));
     rememberCorners(*origin, mesh);
     buildQuadrics(mesh);

@@ -1,7 +1,7 @@
-// Source: Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics. Each vertex has a candidate:
-// its cheapest collapse. A candidate is checked against the rules only just before its collapse is performed. Meshes
-// with many faces are swept in memory order, with an increasing limit for the cost of collapses. With fewer faces, a
-// priority queue orders the collapses. Deleted elements are removed at each level.
+// Simplifies a mesh by edge collapses (Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics).
+// Each vertex has a candidate: its cheapest collapse. A candidate is checked against the rules only just before its
+// collapse is performed. Meshes with many faces are swept in memory order, with an increasing limit for the cost of
+// collapses. With fewer faces, a priority queue orders the collapses. Deleted elements are removed at each level.
 
 #include "lod/simplify/simplify.h"
 
@@ -16,25 +16,26 @@ namespace defocus::engine {
 
 namespace {
 
-// Factor on the cost of poor collapses.
+// Factor by which the cost of poor collapses (simplify.h) is multiplied.
 constexpr float poorPenalty = 10;
 constexpr std::size_t minFacesToReport = 1000;  // meshes with fewer faces report no progress
-// Up to this number of faces, the costs of all candidates (planned collapses) are always up to date, because errors are
+// Number of faces up to which the costs of all candidates (planned collapses) are always up to date, because errors are
 // most visible at coarse levels.
 constexpr std::size_t maxFacesToFollow = 8192;
-// Levels with at least this number of faces are made in sweeps over all vertices.
+// Min number of faces of levels that are made in sweeps over all vertices.
 constexpr std::size_t minFacesToSweep = 16'384;
-constexpr std::size_t sweepsPerLevel = 8;   // a sweep makes about 1/8 of the collapses that a level still needs
-constexpr std::size_t minSweepShare = 128;  // a sweep makes at least one collapse per 128 faces, if possible
+constexpr std::size_t sweepsPerLevel = 8;   // one sweep makes about 1/8 of the collapses that a level still needs
+constexpr std::size_t minSweepShare = 128;  // one sweep makes at least one collapse per 128 faces, if possible
 constexpr std::size_t costSample = 8192;    // number of vertices sampled to estimate the distribution of costs
-// Max ratio of the triangle counts of a level and the next finer level: each level must save a quarter of the
+// Max ratio between the triangle counts of a level and of the next finer level: each level must save a quarter of the
 // triangles.
 constexpr double largestShare = 0.75;
-// Min fraction of the reducible faces that a level keeps. If many components are already as small as possible, halving
-// the total would otherwise take too many faces from the few large components.
+// Min fraction that each level keeps of the faces in components which collapses can still simplify. If many components
+// are already as small as possible, halving the total would otherwise take too many faces from the few large
+// components.
 constexpr double minShareOfMovable = 0.25;
-// Fraction that reducible components keep of their even share of the faces (evenShare). `keptShare` is preferred;
-// `minKeptShare` applies if components would otherwise have to be removed.
+// Fraction that components which collapses can still simplify keep of their even share of the faces (evenShare).
+// `keptShare` is preferred; `minKeptShare` applies if components would otherwise have to be removed.
 constexpr double keptShare = 0.5;
 constexpr double minKeptShare = 0.25;
 
@@ -50,7 +51,7 @@ void setCandidate(Simplifier& s, VertexHandle v, const Candidate& candidate) {
         spend(s, v);
 }
 
-// Sets the candidate of a vertex, and updates the queue if the queue is in use.
+// Sets the candidate (planned collapse) of a vertex, and updates the queue if the queue is in use.
 void enqueue(Simplifier& s, VertexHandle v, const Candidate& candidate) {
     setCandidate(s, v, candidate);
     if (!s.queued) return;
@@ -60,12 +61,12 @@ void enqueue(Simplifier& s, VertexHandle v, const Candidate& candidate) {
         s.queue.take(v);
 }
 
-// Sets the vertex's candidate to its cheapest collapse, without testing whether the collapse is allowed.
+// Sets the vertex's candidate (planned collapse) to its cheapest collapse, without testing whether it is allowed.
 void enqueueCheapest(Simplifier& s, VertexHandle v) {
     enqueue(s, v, s.modules->quadrics.cheapest(v));
 }
 
-// Sets the vertex's candidate to its best allowed collapse; invalid if no collapse is possible.
+// Sets the vertex's candidate (planned collapse) to its best allowed collapse; invalid if none is possible.
 void enqueueBest(Simplifier& s, VertexHandle v) {
     Candidate best;
     best.fit = Fit::impossible;
@@ -87,7 +88,7 @@ void fillQueue(Simplifier& s) {
     forEachVertex(*s.mesh, [&](VertexHandle v) { enqueueCheapest(s, v); });
 }
 
-// Fills the queue with the current candidates of all vertices.
+// Fills the queue with the candidates (planned collapses) of all vertices.
 void startQueue(Simplifier& s) {
     s.queued = true;
     s.queue.reset(s.mesh->n_vertices());
@@ -96,8 +97,8 @@ void startQueue(Simplifier& s) {
 
 // After a collapse, updates the candidates (planned collapses) of the surviving vertex and of affected neighbours. A
 // neighbour is affected if its candidate led to the surviving or the removed vertex, or if it had no good candidate.
-// With many faces, candidates are only marked as outdated. Their costs have mostly risen, except for the few vertices
-// that are closer to the surviving vertex than to the removed vertex.
+// With many faces, candidates are only marked as outdated. Their costs have mostly risen; exceptions are the few
+// vertices that are closer to the surviving vertex than to the removed vertex.
 void requeueAround(Simplifier& s, VertexHandle survivor) {
     SurfaceMesh& mesh = *s.mesh;
     const bool atOnce = s.liveFaces <= maxFacesToFollow;
@@ -112,7 +113,7 @@ void requeueAround(Simplifier& s, VertexHandle survivor) {
     forEachSpoke(mesh, survivor, [&](HalfedgeHandle spoke) {
         const VertexHandle v = mesh.to_vertex_handle(spoke);
         const Candidate& candidate = mesh.data(v).candidate;
-        // Half-edges that led to the removed vertex lead to the surviving vertex after the collapse.
+        // Half-edges that led to the removed vertex now lead to the surviving vertex.
         const bool known =
             candidate.possible() && candidate.fit == Fit::good && mesh.to_vertex_handle(candidate.along) != survivor;
         if (!known) return outdate(v);
@@ -137,7 +138,7 @@ void loseFace(Simplifier& s, VertexHandle v) {
     if (component.spent) --s.spentFaces;
 }
 
-// Performs the collapse of `along`, which must be the collapse that was evaluated last.
+// Performs the collapse of half-edge `along`, which must be the collapse that was evaluated last.
 void collapse(Simplifier& s, HalfedgeHandle along) {
     const SurfaceMesh& mesh = *s.mesh;
     const VertexHandle from = mesh.from_vertex_handle(along);
@@ -149,14 +150,14 @@ void collapse(Simplifier& s, HalfedgeHandle along) {
     requeueAround(s, to);
 }
 
-// Performs collapses in order of cost, bad ones last, until `floor` faces are left or no collapse is possible. See
-// isKept for `target` and `share`.
+// Performs collapses in order of cost, with bad collapses (simplify.h) last, until `floor` faces are left or no
+// collapse is possible. See isKept for `target` and `share`.
 void collapseTo(Simplifier& s, std::size_t floor, std::size_t target, double share) {
     bool collapsed = true;
     while (s.liveFaces > floor) {
         if (s.queue.empty()) {
-            // A collapse can make another collapse possible two edges away, where candidates are not updated. Retry all
-            // vertices once.
+            // A collapse can make another collapse possible two edges away, where candidates (planned collapses) are
+            // not updated. Retry all vertices once.
             if (!collapsed) return;
             collapsed = false;
             fillQueue(s);
@@ -179,7 +180,7 @@ void collapseTo(Simplifier& s, std::size_t floor, std::size_t target, double sha
     }
 }
 
-// Returns the approximate cost of the `rank`-th cheapest good or poor collapse.
+// Returns the approximate cost of the `rank`-th cheapest good or poor collapse (simplify.h).
 float costAtRank(const SurfaceMesh& mesh, std::size_t rank) {
     std::vector<float> costs;
     const std::size_t stride = 1 + mesh.n_vertices() / costSample;
@@ -192,15 +193,15 @@ float costAtRank(const SurfaceMesh& mesh, std::size_t rank) {
     return *place;
 }
 
-// Performs good and poor collapses with a cost of at most `max`, in vertex order, until `target` faces are left.
-// Returns true if any collapse was performed.
+// Performs good and poor collapses (simplify.h) with a cost of at most `max`, in vertex order, until `target` faces are
+// left. Returns true if any collapse was performed.
 bool sweep(Simplifier& s, std::size_t target, float max) {
     if (s.mesh->n_vertices() == 0) return false;
     bool collapsed = false;
     const auto* const vertices = &s.mesh->data(VertexHandle(0));
     const auto count = static_cast<int>(s.mesh->n_vertices());
     for (int i = 0; i < count && s.liveFaces > target; ++i) {
-        // Skip the many candidates that are too expensive.
+        // Skip all vertices whose candidates (planned collapses) are too expensive.
         while (i < count && !(vertices[i].candidate.cost <= max)) ++i;
         if (i == count) break;
         const VertexHandle v(i);
@@ -221,8 +222,8 @@ bool sweep(Simplifier& s, std::size_t target, float max) {
     return collapsed;
 }
 
-// Like collapseTo, but for many faces: sweeps visit the vertices in memory order, with an increasing cost limit.
-// Returns false if no further collapse is possible.
+// Performs collapses until `target` faces are left, as collapseTo does, but faster for many faces: sweeps visit the
+// vertices in memory order, with an increasing cost limit. Returns false if no further collapse is possible.
 bool sweepTo(Simplifier& s, std::size_t target) {
     while (s.liveFaces > target) {
         const std::size_t wanted = (s.liveFaces - target) / 2;
@@ -244,11 +245,11 @@ std::size_t nextTarget(const Simplifier& s, std::size_t minTriangles) {
     return half <= minTriangles || isJustAbove(half, minTriangles) ? minTriangles : half;
 }
 
-// Returns the min number of faces that collapses should leave for a level with `target` faces. See isKept for `share`.
+// Returns the number of faces that collapses must leave for a level with `target` faces. See isKept for `share`.
 std::size_t collapseFloor(const Simplifier& s, std::size_t target, double share) {
     const SurfaceMesh& mesh = *s.mesh;
     std::size_t stuck = 0;  // faces without a collapsible vertex, such as faces of tetrahedra or isolated triangles
-    Numbered<ComponentNumber, std::uint8_t> movable(s.components.size(), 0);  // 1: a face has a collapsible vertex
+    Numbered<ComponentNumber, std::uint8_t> movable(s.components.size(), 0);  // 1: the component can be simplified
     forEachFace(mesh, [&](FaceHandle face) {
         const FaceCorners corners = cornersOf(mesh, face);
         const bool canGo = std::any_of(corners.begin(), corners.end(), [&](HalfedgeHandle corner) {
@@ -269,8 +270,8 @@ std::size_t collapseFloor(const Simplifier& s, std::size_t target, double share)
     return std::max(target, stuck + static_cast<std::size_t>(kept));
 }
 
-// Collapses until `target` faces are left. Stops earlier, at `enough` faces or fewer, if `target` would take too many
-// faces from the components that can still be simplified.
+// Collapses edges until `target` faces are left. Stops earlier, at `enough` faces or fewer, if reaching `target` would
+// take too many faces from the components that can still be simplified.
 void collapseToLevel(Simplifier& s, std::size_t target, std::size_t enough) {
     const std::size_t floor = collapseFloor(s, target, keptShare);
     s.queued = false;
@@ -283,7 +284,7 @@ void collapseToLevel(Simplifier& s, std::size_t target, std::size_t enough) {
     collapseTo(s, enough, target, minKeptShare);
 }
 
-// Returns the reason why no further level is made from this number of faces.
+// Returns the reason why no further level is made from a mesh with this number of faces.
 PyramidEnd endAt(std::size_t faces, const TriangleSet<MeshVertexNumber>& mesh, const SimplifyOptions& options) {
     if (faces == 0 && !mesh.indices.empty()) return PyramidEnd::noSurface;
     return faces <= options.minTriangles ? PyramidEnd::minTriangles : PyramidEnd::smallSaving;
@@ -295,8 +296,8 @@ std::size_t vertexCount(const SurfaceMesh& mesh) {
     return count;
 }
 
-// Collapses until `wanted` vertices are left or no collapse is possible. A collapse removes one vertex and one or two
-// faces.
+// Collapses edges until `wanted` vertices are left or no collapse is possible. A collapse removes one vertex and one or
+// two faces.
 void collapseToVertices(Simplifier& s, std::size_t wanted) {
     while (true) {
         const std::size_t vertices = vertexCount(*s.mesh);
@@ -355,7 +356,7 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
         return result;
     }
 
-    // Collapse, and copy the level whenever half of the triangles are removed.
+    // Collapse edges, and copy the level whenever half of the triangles are removed.
     while (result.levelCount < static_cast<std::uint32_t>(std::max(0, options.maxLevels))) {
         const std::size_t target = nextTarget(s, options.minTriangles);
         const auto max = static_cast<std::size_t>(largestShare * static_cast<double>(s.liveFaces));
@@ -364,8 +365,8 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
             break;
         }
 
-        // Components of minimum size may leave too few faces for the other components. In that case, remove complete
-        // components before collapsing.
+        // If many components (connected parts) are already as small as possible, too few faces may be left for the
+        // other components. In that case, remove complete components before collapsing.
         if (s.liveFaces <= maxFacesToFollow && !isConnected(s)) findComponents(s, triangles);
         if (collapseFloor(s, target, minKeptShare) > max) {
             findComponents(s, triangles);
@@ -374,7 +375,8 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
         }
         if (collapseFloor(s, target, minKeptShare) <= max) collapseToLevel(s, target, max);
 
-        // If collapses did not reach the target, remove complete components; if this does not suffice, end the pyramid.
+        // If collapses did not reach the target, remove complete components; if removals do not suffice, end the
+        // pyramid.
         const bool tooMany = s.liveFaces > max || isJustAbove(s.liveFaces, options.minTriangles);
         if (tooMany || manyAreSmallest(s)) {
             findComponents(s, triangles);

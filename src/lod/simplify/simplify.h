@@ -7,12 +7,13 @@
 //   good:  neither poor nor bad;
 //   poor:  it pulls the surface away from a seam or an open border, or makes a sliver; its cost is multiplied by ten;
 //   bad:   it rotates a face's normal by more than 75° or assigns a vertex of another primitive to a face.
-// A bad collapse is made only when no good or poor collapse is left in the mesh.
-// The cost of a collapse is the sum of two quadric errors. The position error (Garland and Heckbert 1997) includes
-// constraints along borders, seams and the rims of thin sheets. The attribute error follows Hoppe 1999.
+// A bad collapse is made only when no good or poor collapse is left in the mesh. The cost of a collapse is the sum of
+// two quadric errors. The position error (Garland and Heckbert 1997) includes constraints along borders, seams and the
+// rims of thin plates such as fins. The attribute error follows Hoppe 1999.
 //
-// The topology never changes (link condition). A closed surface is closed at every level, and a component without
-// handles can shrink to a tetrahedron. A component with many handles keeps far more triangles.
+// The topology never changes (link condition). A closed surface is closed at every level. A component is a connected
+// part of the mesh. A component without handles can shrink to a tetrahedron; a component with many handles keeps far
+// more triangles.
 //
 // A component is spent when it has no good or poor collapse left. A component's even share of the faces is proportional
 // to its area. If spent components own most of the faces, the other components keep a fraction of their even share. No
@@ -36,15 +37,16 @@ namespace defocus::engine {
 constexpr std::size_t fewestToGiveBack = 16'384;
 
 struct SimplifyOptions {
-    std::uint32_t minTriangles = 64;  // halving ends at this number of triangles
+    std::uint32_t minTriangles = 64;  // halving ends at about this number of triangles
     int maxLevels = 23;               // max number of levels, excluding level 0
-    // true: anchors are computed for the levels. A level without anchors cannot be fitted.
+    // true: computes the anchors of each level (points that represent the mesh's vertices). Levels without anchors
+    // cannot be fitted (level_fit.h).
     bool anchors = true;
-    // If not empty, replaces halving: the fraction of the mesh's positions that each level keeps, in decreasing order.
-    // Vertices at the same position count once.
+    // If not empty, levels are not made by halving the triangles: each entry is the fraction of the mesh's vertex
+    // positions that one level keeps, in decreasing order. Vertices at the same position count once.
     std::vector<double> vertexShares = {};
-    // Called repeatedly on the calling thread with the fraction of the triangles removed so far, in [0, 1]. May be
-    // empty.
+    // Called repeatedly on the calling thread of simplify() with the fraction of the triangles removed so far, in [0,
+    // 1]. May be empty.
     std::function<void(double)> lost = {};
 };
 
@@ -55,14 +57,16 @@ struct Ball {
 
 struct SimplifiedLevel {
     LevelMesh mesh;
-    // For each vertex of `mesh`, its number in the original mesh, or vertexCount + i for twin i (see Simplification).
+    // For each vertex of `mesh`, its number in the original mesh. vertexCount + i stands for copy i
+    // (Simplification::twins).
     Numbered<LevelVertexNumber, MeshVertexNumber> numbers;
     Numbered<MeshVertexNumber, Anchor> anchors;
     std::vector<Ball> removed;  // bounding sphere of each component that was removed from the level
 };
 
 struct Simplification {
-    // Twin i is a copy of mesh vertex twins[i]. It belongs to the other side of a thin sheet whose rim has collapsed.
+    // Copies of vertices: twin i is a copy of mesh vertex twins[i]. It is used on the other side of a thin plate, such
+    // as a fin, whose rim has collapsed.
     std::vector<MeshVertexNumber> twins;
     std::uint32_t levelCount = 0;  // number of simplified levels, excluding the mesh itself; may be 0
     std::uint32_t repairedFaces = 0;
@@ -71,8 +75,8 @@ struct Simplification {
 
 // Makes levels with half the triangles each, or with the fractions of vertices in `options.vertexShares`. Ends where
 // the next level would save less than a quarter of the triangles. Calls take(l, level) once for each level l = 0 …
-// levelCount − 1, on the thread of `tasks` that computed the level's anchors. The last calls may come after the
-// function returns: the caller must call tasks.wait(). Until then, `smoothing` and `vertices` must stay alive.
+// levelCount − 1, on the thread of `tasks` that computed the level's anchors. The last calls may come after simplify()
+// returns: the caller must call tasks.wait(). Until then, `smoothing` and `vertices` must stay alive.
 Simplification simplify(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
                         const TriangleSet<MeshVertexNumber>& triangles, const SimplifyOptions& options, Tasks& tasks,
                         const std::function<void(std::uint32_t, SimplifiedLevel)>& take);

@@ -1,5 +1,5 @@
-// Copies a level between collapses: the mesh vertices at its corners, and the position of each mesh vertex on the level
-// (anchor).
+// Copies a level between collapses: the mesh vertices at its corners, and for each mesh vertex the closest point of the
+// level (anchor).
 
 #include <algorithm>
 #include <array>
@@ -17,20 +17,22 @@ namespace defocus::engine {
 
 namespace {
 
-// ---- creases
+// ---- split the two sides of thin plates
 
-// When the rim of a thin sheet has collapsed, its two sides meet at one wedge. A single normal would point sideways and
-// darken both sides. Such a wedge is split, as Hoppe 1998 allows at any corner. At a texture seam, each side may
-// already have its own wedge. The wedges of one smoothing group are therefore examined together.
+// When the rim of a thin plate such as a fin has collapsed, its two sides meet at one wedge (vertex at face corners). A
+// single normal would point sideways and darken both sides. Such a wedge is split, as Hoppe 1998 allows at any corner.
+// At a texture seam, each side may already have its own wedge. The wedges of all vertices that share a normal are
+// therefore examined together.
 
-// Min length of the mean of the unit normals around a wedge, weighted by corner angle. A wedge with a shorter mean is
-// split. The tip of a cone of 60° is not split.
+// Min length of the mean of the unit face normals around a wedge, weighted by corner angle. A wedge with a shorter mean
+// is split. The tip of a cone of 60° is not split.
 constexpr double minResultant = 0.5;
-constexpr int rounds = 3;  // iterations of k-means with two clusters
+constexpr int rounds = 3;  // iterations of k-means with two clusters of face normals
 
 struct CornerNormal {
     TriangleCorner corner;
-    // Face normal in mesh winding. Its length is twice the face's area at first, and later the angle at the corner.
+    // Normal of the corner's face, in the mesh's winding. Its length is at first twice the face's area, and later the
+    // angle at the corner.
     glm::dvec3 normal;
 };
 
@@ -38,7 +40,7 @@ double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// Returns true if all face normals are within 60° of the first normal. Their mean is then long enough to keep the
+// Returns true if all face normals are within 60° of the first face normal. Their mean is then long enough to keep the
 // wedge, for any weights by corner angle.
 bool surelyAgree(std::span<const CornerNormal> corners) {
     const glm::dvec3& first = corners[0].normal;
@@ -70,8 +72,9 @@ void weighByAngle(const CornerPlaces& at, CornerNormal& c) {
     c.normal *= length > 0 ? angleBetween(at.next - at.own, at.previous - at.own) / length : 0;
 }
 
-// Moves the corners of the back side to the end of `corners` and returns the index of the first moved corner. Returns
-// the number of corners if no split is needed. `own` is the vertex's normal.
+// Divides corners at one vertex into two sides of a thin plate, moves those of the back side to the end of `corners`,
+// and returns the index of the first moved corner. Returns the number of corners if no split is needed. `own` is the
+// vertex's normal.
 std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
     glm::dvec3 sum(0);
     double angles = 0;
@@ -81,8 +84,8 @@ std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
     }
     if (glm::length(sum) >= minResultant * angles) return corners.size();
 
-    // k-means with two clusters, started from the corner with the largest angle and the corner that faces away from it
-    // most.
+    // Divide the face normals by k-means with two clusters. Start from the normal with the largest corner angle and
+    // from the normal that differs most from it.
     const auto longer = [](const CornerNormal& a, const CornerNormal& b) {
         return glm::dot(a.normal, a.normal) < glm::dot(b.normal, b.normal);
     };
@@ -101,13 +104,13 @@ std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
         front = nextFront;
         back = nextBack;
     }
-    // The side that agrees better with the vertex's normal becomes the front.
+    // The side whose normal is closer to the vertex's normal becomes the front.
     if (glm::dot(front, own) * glm::length(back) < glm::dot(back, own) * glm::length(front)) std::swap(front, back);
     const auto border = std::stable_partition(corners.begin(), corners.end(), isFront);
     return static_cast<std::size_t>(border - corners.begin());
 }
 
-// Corners grouped by the smoothing group of their wedge's vertex; groups are numbered by first use.
+// Groups of face corners whose vertices share a normal; groups are numbered by first use.
 using NormalGroup = Number<struct NormalGroupKind>;
 using CornersByNormal = Buckets<NormalGroup, TriangleCorner>;
 
@@ -125,8 +128,8 @@ CornersByNormal groupCorners(const Simplifier& s, const Corners& corners) {
     return {count, corners.size(), [&](TriangleCorner corner) { return groupOf[s.mesh->wedge(corners[corner])]; }};
 }
 
-// The mesh vertex at each corner. If faces that share a vertex normal face in opposite directions, one side is chosen
-// as the back. A mesh vertex that belongs to both sides is split.
+// The mesh vertex at each face corner. If faces that share a vertex normal face in opposite directions, one side is
+// chosen as the back. A mesh vertex that belongs to both sides is split.
 struct Creases {
     Numbered<TriangleCorner, MeshVertexNumber> drawn;
     std::vector<MeshVertexNumber> behind;  // vertices of `drawn` whose corners are all on the back; sorted
@@ -169,24 +172,25 @@ Creases creases(Simplifier& s, const Corners& corners) {
     return result;
 }
 
-// ---- anchors
+// ---- find the point of the level for each mesh vertex
 
-// Finds the positions of the mesh's vertices on the simplified surface. The search for the closest face starts at the
-// vertex onto which a removed vertex has collapsed.
+// Finds for each vertex of the mesh the closest point (anchor) of the simplified surface. The search for the closest
+// face starts at the vertex onto which a removed vertex has collapsed.
 
 constexpr std::size_t maxSteps = 12;          // max number of vertices visited on the way to the closest face
-constexpr std::size_t maxFacesAround = 1024;  // the search skips vertices with more faces
-constexpr double noDistance = 1e-24;          // squared; smaller distances are rounding errors in a mesh of size 1
-// A point lies above a face if the squared cosine between the face's normal and the offset to the point exceeds this.
+constexpr std::size_t maxFacesAround = 1024;  // the search skips vertices with more faces around them
+constexpr double noDistance = 1e-24;          // squared distance below which a mesh of size 1 has only rounding errors
+// A point lies perpendicularly above a face if the squared cosine between the face's normal and the offset to the point
+// exceeds this value.
 constexpr double minUpright = 0.99;
-// Min number of closest points searched per remaining vertex. If many mesh vertices collapsed onto a vertex, the search
-// is made only for every second, fourth, … of them.
+// Min number of mesh vertices per remaining vertex whose closest point on the level is searched. If many mesh vertices
+// collapsed onto a vertex, the search is made only for every second, fourth, … of them.
 constexpr std::uint32_t enoughAnchors = 16;
 
-// The level's faces, and the corners at each vertex.
+// The level's faces, and the face corners around each vertex.
 struct FaceRings {
     const Snapshot& level;
-    Numbered<VertexHandle, glm::dvec3> points;     // positions in units of the frame
+    Numbered<VertexHandle, glm::dvec3> points;     // positions on the mesh scaled to unit size
     Numbered<TriangleNumber, glm::dvec3> normals;  // face normals with twice the area as length
     Buckets<VertexHandle, TriangleCorner> around;
 
@@ -214,8 +218,8 @@ struct Closest {
     glm::dvec2 along{0};    // coordinates of the closest point along the edges to the next and the previous corner
 };
 
-// Returns the corner of `face` nearest to `p` that is not in `seen` and has at most maxFacesAround faces; invalid if
-// there is none.
+// Returns the vertex of `face` nearest to `p` that is not in `seen` and has at most maxFacesAround faces around it;
+// invalid if there is none.
 VertexHandle nearestUnseen(const FaceRings& rings, TriangleNumber face, const glm::dvec3& p,
                            std::span<const VertexHandle> seen) {
     VertexHandle nearest;
@@ -233,7 +237,8 @@ VertexHandle nearestUnseen(const FaceRings& rings, TriangleNumber face, const gl
 }
 
 // Returns whether a query point lies perpendicularly above the interior of the face. `along` are the coordinates of the
-// face's closest point; `offset` leads from there to the query point. For slivers, rounding makes `along` unreliable.
+// face point closest to it; `offset` leads from the face point to the query point. For slivers, rounding makes `along`
+// unreliable.
 bool liesBelow(const FaceRings& rings, TriangleNumber face, const glm::dvec2& along, const glm::dvec3& offset) {
     if (!(along.x > 0 && along.y > 0 && along.x + along.y < 1)) return false;
     const glm::dvec3& normal = rings.normals[face];
@@ -280,8 +285,8 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, VertexHandle star
     return result;
 }
 
-// Returns a stride n for each vertex of the level. Of the mesh vertices that collapsed onto it, every n-th gets its own
-// anchor (closest point on the level).
+// Returns a stride n for each vertex of the level. Of the mesh vertices that collapsed onto the level's vertex, every
+// n-th gets its own anchor (closest point on the level).
 Numbered<VertexHandle, std::uint32_t> anchorStrides(const Origin& origin, const Snapshot& level) {
     Numbered<VertexHandle, std::uint32_t> strides(level.positions.size(), 0);
     for (const SurfaceVertexNumber v : origin.firstVertex)
@@ -290,8 +295,8 @@ Numbered<VertexHandle, std::uint32_t> anchorStrides(const Origin& origin, const 
     return strides;
 }
 
-// Returns the anchors of the mesh vertices: their closest points on the level, on faces of the same primitive. Some
-// vertices share the anchor of another vertex or have none.
+// Returns for each mesh vertex its anchor: the closest point on the level's faces of the same primitive. Some vertices
+// share the anchor of another vertex or have none.
 Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot& level) {
     const FaceRings rings = faceRings(level, origin.frame);
     Numbered<MeshVertexNumber, TriangleCorner> cornerOf(origin.firstVertex.size() + level.twins.size());
@@ -333,7 +338,7 @@ Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot&
     return result;
 }
 
-// Records in `level` which components were removed and which grow, if any component grows.
+// Records in `level` which components (connected parts) were removed and which grow, if any component grows.
 void noteComponents(const Simplifier& s, Snapshot& level) {
     if (!s.grows) return;
     level.removed = removedBalls(s);

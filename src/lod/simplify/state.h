@@ -1,5 +1,5 @@
 #pragma once
-// State of simplify() during edge collapses. Private to this folder.
+// Declares the state of simplify() during edge collapses, and the functions that change it. Private to this folder.
 
 #include <cstdint>
 #include <functional>
@@ -17,29 +17,29 @@
 namespace defocus::engine {
 
 // Data of the original surface, before any collapse. Keeps references to `vertices` and `smoothing`, which must outlive
-// it.
+// this struct.
 struct Origin {
     const Vertices& vertices;
     const VertexGroups& smoothing;
     Frame frame;
-    // First surface vertex of each mesh vertex; invalid if no face uses the mesh vertex.
+    // For each mesh vertex, the first surface vertex at which faces use it; invalid if no face uses the mesh vertex.
     Numbered<MeshVertexNumber, SurfaceVertexNumber> firstVertex;
-    Numbered<MeshVertexNumber, PrimitiveNumber> firstPrimitive;  // primitive of the mesh vertex's first face
+    Numbered<MeshVertexNumber, PrimitiveNumber> firstPrimitive;  // primitive of each mesh vertex's first face
     Numbered<SurfaceVertexNumber, PositionNumber> places;
 };
 
-// A part of the mesh that shares no vertex position with other parts; see components.cpp.
+// A connected part of the mesh, which shares no vertex position with the rest; see components.cpp.
 struct Component {
     Ball ball;  // bounding sphere of the component in the original mesh
     // Area in object units squared: the component's area in the original mesh, plus the areas of components that it
     // replaces.
     double area = 0;
     PrimitiveNumber primitive;  // primitive of one of the component's faces
-    std::size_t faces = 0;      // number of remaining faces
-    // Number of vertices with a good or poor collapse (simplify.h), according to the tests made so far.
+    std::size_t faces = 0;      // number of remaining faces of the component
+    // Number of vertices with a good or poor collapse (classes of simplify.h), according to the tests made so far.
     std::size_t harmless = 0;
     bool spent = false;     // true as soon as `harmless` has reached 0
-    bool standsIn = false;  // the component replaces removed components
+    bool standsIn = false;  // the component grows to replace removed components
     bool removed = false;
 };
 
@@ -61,13 +61,13 @@ struct Simplifier {
     std::function<void(double)> lost;
     std::uint32_t repairedFaces = 0;
 
-    std::vector<MeshVertexNumber> twins;  // see Simplification
+    std::vector<MeshVertexNumber> twins;  // copies of vertices, see Simplification::twins
     std::unordered_map<MeshVertexNumber, MeshVertexNumber> twinOf;
 
     Numbered<ComponentNumber, Component>
         components;              // empty until few faces are left or many components have reached their min size
     double area = 0;             // total area of the components, object units squared
-    bool grows = false;          // some components grow to replace removed ones
+    bool grows = false;          // true if some components grow to replace removed ones
     std::size_t spentFaces = 0;  // remaining faces of spent components
     double spentArea = 0;        // area of the remaining spent components, object units squared
 
@@ -76,22 +76,23 @@ struct Simplifier {
     [[nodiscard]] VertexHandle& survivor(VertexHandle v) { return survivors[v]; }
 };
 
-// Builds the manifold of the mesh and its quadrics, without candidates for collapses (setup.cpp). If all triangles are
-// degenerate, Simplifier::mesh stays empty.
+// Builds the manifold of the mesh and its quadrics (setup.cpp); candidates for collapses are set later. If all
+// triangles are degenerate, Simplifier::mesh stays empty.
 void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPositions& positions,
                        const VertexGroups& smoothing, const TriangleSet<MeshVertexNumber>& triangles);
 
 // Classifies the effect of a collapse on the surrounding faces and their wedges; ignores the topology (collapse.cpp).
 Fit judgeFaces(Simplifier& s, HalfedgeHandle along);
-// Like judgeFaces(), but returns Fit::impossible if the topology forbids the collapse. The topology is tested last, and
-// only if the collapse is not worse than `worst`. The test is slow: is_collapse_ok contains assertions, which are
-// active in Debian's OpenMesh.
+// Classifies a collapse like judgeFaces(), but returns Fit::impossible if the topology forbids it. The topology is
+// tested last, and only if the collapse is not worse than `worst`. The test is slow: is_collapse_ok contains
+// assertions, which are active in Debian's OpenMesh.
 Fit judgeCollapse(Simplifier& s, HalfedgeHandle along, Fit worst);
-// Collapses the half-edge and notifies the modules. The topology must allow the collapse.
+// Collapses the half-edge and notifies the collapse modules. The topology must allow the collapse.
 void collapseEdge(Simplifier& s, HalfedgeHandle along);
-// Returns the vertex that finally replaces `v`; `v` itself if not deleted, invalid if its component was removed.
+// Returns the vertex onto which `v` has collapsed directly or indirectly; `v` itself if it is not deleted, invalid if
+// its component was removed.
 VertexHandle survivorOf(Simplifier& s, VertexHandle v);
-// Removes deleted elements from the mesh, renumbers the others in the same order, and frees the memory.
+// Removes deleted elements from the mesh, renumbers the other elements in the same order, and frees the memory.
 void compact(Simplifier& s);
 
 // Returns whether all faces are connected through shared vertices (components.cpp). Separate vertices at the same
@@ -100,22 +101,23 @@ bool isConnected(const Simplifier& s);
 // Returns whether more than a quarter of the faces are isolated triangles or belong to tetrahedra. No collapse can
 // simplify these faces further.
 bool manyAreSmallest(const Simplifier& s);
-// Finds the components of the remaining mesh. Further calls have no effect.
+// Finds the components (connected parts) of the remaining mesh, unless they are already known.
 void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangles);
-// Marks the vertex's component as spent, because no good or poor collapse is left in it (simplify.h).
+// Marks the component of the vertex as spent (simplify.h), because no good or poor collapse is left in it.
 void spend(Simplifier& s, VertexHandle v);
-// Returns the number of faces on `area` if `faces` faces were distributed evenly over the area of the mesh.
+// Returns the number of faces that would lie on `area` if `faces` faces were distributed evenly over the area of the
+// mesh.
 double evenShare(const Simplifier& s, double area, std::size_t faces);
 // Returns whether a collapse of the vertex, of class `fit` (good, poor or bad), must be skipped while simplifying to
-// `target` faces. A bad collapse is skipped if its component would fall below its even share of these faces
-// (evenShare). Other collapses are restricted only if spent components own more than half of these faces. The other
-// components must then keep the fraction `share` of their even share.
+// `target` faces. A bad collapse is skipped if the vertex's component would fall below its even share of `target`
+// (evenShare). Good and poor collapses are restricted only if spent components own more than half of `target`. The
+// other components must then keep the fraction `share` of their even share.
 bool isKept(const Simplifier& s, VertexHandle v, Fit fit, std::size_t target, double share);
-// Removes complete components until `target` faces are left or no further component may be removed.
+// Removes complete components (connected parts) until `target` faces are left or no further component may be removed.
 void removeComponents(Simplifier& s, std::size_t target);
-// Computes SimplifiedLevel::removed.
+// Returns the bounding spheres of the removed components, for SimplifiedLevel::removed.
 std::vector<Ball> removedBalls(const Simplifier& s);
-// Computes LevelMesh::growths.
+// Returns how much each component must grow to replace removed components, for LevelMesh::growths.
 Numbered<ComponentNumber, Growth> growths(const Simplifier& s);
 
 // A copy of a level that other threads measure and fit while collapses continue.
@@ -125,15 +127,15 @@ struct Snapshot {
     Numbered<VertexHandle, glm::vec3> positions;          // positions of the level's surface
     Numbered<SurfaceVertexNumber, VertexHandle> nearest;  // copy of Simplifier::current
     std::vector<MeshVertexNumber> twins;
-    std::vector<MeshVertexNumber> behind;               // vertices of `drawn` on the back of a thin sheet; sorted
-    std::vector<Ball> removed;                          // see SimplifiedLevel::removed
-    Numbered<ComponentNumber, Growth> growths;          // see LevelMesh::growths
-    Numbered<VertexHandle, ComponentNumber> growthsOf;  // LevelMesh::growthsOf; empty if no component grows
+    std::vector<MeshVertexNumber> behind;               // vertices of `drawn` on the back of a thin plate; sorted
+    std::vector<Ball> removed;                          // value of SimplifiedLevel::removed
+    Numbered<ComponentNumber, Growth> growths;          // value of LevelMesh::growths
+    Numbered<VertexHandle, ComponentNumber> growthsOf;  // component of each vertex; empty if no component grows
 };
 
 // Copies the current level (snapshot.cpp). compact() must have been called.
 Snapshot snapshot(Simplifier& s, std::size_t primitiveCount);
-// Makes a level from its copy `picture`. Computes anchors (level_fit.h) only if `withAnchors` is set.
+// Makes a level from its snapshot `picture`. Computes anchors (level_fit.h) only if `withAnchors` is set.
 SimplifiedLevel described(const Origin& origin, const Snapshot& picture, bool withAnchors);
 
 }  // namespace defocus::engine

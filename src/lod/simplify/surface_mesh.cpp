@@ -6,8 +6,9 @@ namespace defocus::engine {
 
 namespace {
 
-// Connects the half-edges without faces to loops along borders. Each border vertex has exactly one outgoing half-edge
-// without a face, because its faces form a single fan. This half-edge becomes the halfedge_handle of the vertex.
+// Connects the half-edges without faces to loops along the borders. Each border vertex has exactly one outgoing
+// half-edge without a face, because its faces form a single fan. This half-edge becomes the halfedge_handle of the
+// vertex.
 void linkBorders(SurfaceMesh& mesh) {
     const auto count = static_cast<int>(mesh.n_halfedges());
     for (int h = 0; h < count; ++h)
@@ -29,7 +30,7 @@ std::size_t number(Numbered<Handle, Handle>& numbers, std::size_t count, const I
     return static_cast<std::size_t>(next);
 }
 
-// Removes the wedges that no remaining corner uses. Returns the new number of each wedge.
+// Removes the wedges (vertices) that no remaining face corner uses. Returns the new number of each wedge.
 Numbered<WedgeNumber, WedgeNumber> keepDrawnWedges(SurfaceMesh& mesh) {
     Numbered<WedgeNumber, WedgeNumber> numbers(mesh.wedges.size());
     forEachFace(mesh, [&](FaceHandle face) {
@@ -128,7 +129,8 @@ std::unique_ptr<SurfaceMesh> livingCopy(SurfaceMesh& mesh, Numbered<VertexHandle
         copy->set_halfedge_handle(faceNumber(face), numberOf(mesh.halfedge_handle(face)));
     });
 
-    // An outdated candidate may refer to a deleted edge. Any other half-edge of the vertex can replace this edge.
+    // A planned collapse that is outdated may refer to a deleted edge. Any other half-edge of the vertex can replace
+    // this edge.
     forEachVertex(*copy, [&](VertexHandle v) {
         HalfedgeHandle& along = copy->data(v).candidate.along;
         if (!along.is_valid()) return;

@@ -1,6 +1,6 @@
 #pragma once
-// The surface during simplification: OpenMesh's half-edge structure with the simplifier's data per vertex, half-edge
-// and face. Only this header includes OpenMesh; other files use the names below.
+// Defines the surface during simplification: OpenMesh's half-edge structure with the simplifier's data per vertex,
+// half-edge and face. Only this header includes OpenMesh; other files use the names defined here.
 //
 // Faces are oriented consistently with their neighbours. A half-edge also represents the corner of its face at the
 // vertex where the half-edge starts. At a border, the half-edges on the outside have no face. The halfedge_handle of a
@@ -31,28 +31,27 @@ using OpenMesh::VertexHandle;
 
 // Maps the mesh to unit size, so that weights are independent of its scale.
 struct Frame {
-    glm::dvec3 centre{0};  // object units
+    glm::dvec3 centre{0};  // centre of the mesh's bounding box, object units
     double inverse = 0;    // 1 / longest side of the mesh's bounding box; 0: the mesh has no extent
 
-    // Converts a position from object units to the frame.
+    // Converts a position from object units to the unit-size mesh.
     [[nodiscard]] glm::dvec3 point(const glm::vec3& position) const {
         return (glm::dvec3(position) - centre) * inverse;
     }
-    // Returns the vector from one position to another, in units of the frame.
+    // Returns the vector from one position to another, scaled to the unit-size mesh.
     [[nodiscard]] glm::dvec3 step(const glm::vec3& from, const glm::vec3& to) const {
         return (glm::dvec3(to) - glm::dvec3(from)) * inverse;
     }
 };
 
-// Class of a collapse. Collapses of a worse class wait until no collapse of a better class is left; simplify.h defines
-// poor and bad.
+// Class of a collapse. A collapse waits until no collapse of a better class is left; simplify.h defines the classes.
 enum class Fit : std::uint8_t { good, poor, bad, impossible };
 
 // The planned collapse of a vertex, which removes the vertex.
 struct Candidate {
     HalfedgeHandle along;  // leads to the surviving vertex; invalid: no collapse is possible
     float cost = std::numeric_limits<float>::infinity();
-    Fit fit = Fit::good;    // worst class found by the tests made so far
+    Fit fit = Fit::good;    // worst class found by the tests of the collapse made so far
     bool outdated = false;  // the cost has changed, or another collapse may be cheaper
 
     [[nodiscard]] bool possible() const { return along.is_valid(); }
@@ -68,7 +67,7 @@ struct SurfaceTraits : OpenMesh::DefaultTraits {
     struct alignas(64) VertexT : Base {  // alignment to a cache line
         Quadric quadric;
         Candidate candidate;
-        ComponentNumber component;  // valid once findComponents() has run
+        ComponentNumber component;  // component (connected part) of the vertex; valid once findComponents() has run
     };
     template <class Base, class Refs>
     struct HalfedgeT : Base {
@@ -93,7 +92,7 @@ public:
     SurfaceMesh(const SurfaceMesh&) = delete;
     SurfaceMesh& operator=(const SurfaceMesh&) = delete;
 
-    // Creates the given numbers of elements (at least one of each). This is the only way to create elements.
+    // Creates the given numbers of elements (at least one of each kind). This is the only way to create elements.
     void resize(std::size_t vertexCount, std::size_t edgeCount, std::size_t faceCount) {
         using Kernel = OpenMesh::TriMesh_ArrayKernelT<SurfaceTraits>;
         Kernel::resize(vertexCount, edgeCount, faceCount);
@@ -103,7 +102,8 @@ public:
         positions_ = points();
     }
 
-    // These accessors are faster than OpenMesh's own, which look up the property array at each access.
+    // These accessors return the simplifier's data. They are faster than OpenMesh's own accessors, which look up the
+    // property array at each access.
     [[nodiscard]] VertexData& data(VertexHandle v) { return vertexData_[v.idx()]; }
     [[nodiscard]] const VertexData& data(VertexHandle v) const { return vertexData_[v.idx()]; }
     [[nodiscard]] HalfedgeData& data(HalfedgeHandle h) { return halfedgeData_[h.idx()]; }
@@ -133,7 +133,7 @@ private:
     const Point* positions_ = nullptr;
 };
 
-// OpenMesh's types of a collapse and of a decimater module.
+// OpenMesh's types for a collapse and for a module of its decimater.
 using CollapseInfo = OpenMesh::Decimater::CollapseInfoT<SurfaceMesh>;
 using CollapseModule = OpenMesh::Decimater::ModBaseT<SurfaceMesh>;
 
@@ -161,7 +161,7 @@ void forEachVertex(const SurfaceMesh& mesh, const Visit& visit) {
         if (mesh.isAlive(VertexHandle(v))) visit(VertexHandle(v));
 }
 
-// The three half-edges of a face, in order.
+// The three half-edges of a face, in the order of the face's corners.
 struct FaceCorners {
     HalfedgeHandle at[3];
 
@@ -174,9 +174,9 @@ inline FaceCorners cornersOf(const SurfaceMesh& mesh, FaceHandle face) {
     return {{first, second, mesh.next_halfedge_handle(second)}};
 }
 
-// Fills the mesh with the faces of the manifold; vertices and faces keep their numbers. Unlike add_face(), it accepts a
-// second edge between two vertices, which may result from cutting non-manifold edges. `triangles` is the input of the
-// manifold. The mesh vertices at its corners become the wedges of the corners.
+// Fills the mesh with the faces of the manifold; vertices and faces keep their numbers. Unlike OpenMesh's add_face(),
+// it accepts a second edge between two vertices, which may result from cutting non-manifold edges. `triangles` are the
+// triangles from which the manifold was built. The mesh vertices at their corners become the wedges of the corners.
 void linkFaces(SurfaceMesh& mesh, const Manifold& manifold, const TriangleSet<MeshVertexNumber>& triangles);
 
 // Copies all elements that are not deleted, renumbered in the same order. garbage_collection() would fill gaps with the

@@ -15,7 +15,7 @@ namespace defocus::engine {
 namespace {
 
 // Max distance in texture space between a mesh vertex and its closest point on the level, relative to the longest side
-// of the level's triangle in texture space. A more distant vertex belongs to another chart.
+// of the level's triangle in texture space. A vertex at a greater distance belongs to another chart.
 constexpr float maxTextureGap = 0.5f;
 
 // Returns whether the displacement `gap` in texture space leads from a triangle with these corners to another chart.
@@ -28,11 +28,12 @@ bool leavesChart(const glm::vec2& gap, const std::array<glm::vec2, 3>& corners) 
     return !(glm::dot(gap, gap) <= maxTextureGap * maxTextureGap * longest);
 }
 
-// Sums for the fit, like AnchorSums, of displacements in texture space from the anchors to the mesh vertices.
+// Sums for the least-squares fit of texture coordinates, over displacements in texture space from the anchors (points
+// on the level) to the mesh vertices.
 struct TextureSums {
     struct Vertex {
         double weight = 0;
-        std::array<double, 4> gap{};  // uv0, then uv1
+        std::array<double, 4> gap{};  // weighted displacement of uv0, then of uv1
     };
     Numbered<LevelVertexNumber, Vertex> vertices;
     Numbered<TriangleNumber, TriangleSums> triangles;
@@ -77,7 +78,8 @@ TextureSums sumTextureGaps(const FitSource& source, const LevelMesh& level,
     return sums;
 }
 
-// Undoes changes that flip a triangle in texture space or change its area there by more than a factor of two.
+// Undoes changes of texture coordinates that flip a triangle in texture space or change its area there by more than a
+// factor of two.
 void keepTextureUpright(Numbered<UnknownNumber, glm::vec2>& fitted, const Numbered<UnknownNumber, glm::vec2>& original,
                         const LeastSquares& fit) {
     const auto areaOf = [&](const Numbered<UnknownNumber, glm::vec2>& uv, TriangleCorner first) {
@@ -101,7 +103,7 @@ void keepTextureUpright(Numbered<UnknownNumber, glm::vec2>& fitted, const Number
     }
 }
 
-// Returns one set of texture coordinates, displaced by the channels `channel` and `channel` + 1 of the solution.
+// Returns the texture coordinates `own`, displaced by the channels `channel` and `channel` + 1 of the solution.
 Numbered<LevelVertexNumber, glm::vec2> movedCoordinates(const std::vector<glm::vec2>& own, const Grouping& groups,
                                                         const LeastSquares& fit, std::size_t channel) {
     if (own.empty()) return {};

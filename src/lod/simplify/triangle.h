@@ -1,6 +1,6 @@
 #pragma once
-// Geometry of single triangles: area, closest point, integration points, and protection of fitted positions against
-// flipped triangles.
+// Computes areas, closest points and integration points of single triangles, and moves fitted vertices back if
+// triangles would flip.
 
 #include <array>
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace defocus::engine {
 
-// Returns the normal of a triangle with the length of twice its area. at(corner) is the corner's position.
+// Returns a triangle's normal, whose length is twice the triangle's area. at(corner) is the corner's position.
 template <typename Corner, typename At>
 glm::dvec3 triangleCross(std::span<const Corner, 3> corners, const At& at) {
     const glm::dvec3 a = at(corners[0]);
@@ -36,7 +36,7 @@ inline glm::dvec2 closestCoordinates(const glm::dvec3& p, const glm::dvec3& a, c
     const double alongAcFromC = glm::dot(ac, p - c);
     if (alongAcFromC >= 0 && alongAbFromC <= alongAcFromC) return {0, 1};
 
-    // 4 · area(abc) · signed area(abp). If this product is ≤ 0, p lies beyond edge ab.
+    // overAb = 4 · area(abc) · signed area(abp). If this product is ≤ 0, p lies beyond edge ab.
     const double overAb = alongAbFromA * alongAcFromB - alongAbFromB * alongAcFromA;
     if (overAb <= 0 && alongAbFromA >= 0 && alongAbFromB <= 0) return {alongAbFromA / (alongAbFromA - alongAbFromB), 0};
     const double overAc = alongAbFromC * alongAcFromA - alongAbFromA * alongAcFromC;
@@ -56,8 +56,8 @@ inline glm::dvec3 closestPoint(const glm::dvec3& p, const glm::dvec3& a, const g
 
 // Calls visit(weights, share) for the integration points of a triangle. The triangle is divided into parts² congruent
 // triangles with three points each, which integrate quadratic functions exactly (Strang and Fix 1973). No point lies on
-// an edge, because the normals on both sides of a sharp rim may cancel there. `weights` are barycentric coordinates;
-// the shares sum to 1.
+// an edge, because the normals on both sides of a sharp rim may cancel there. `weights` are the barycentric coordinates
+// of a point; `share` is its fraction of the area, and all shares sum to 1.
 template <typename Visit>
 void forEachTrianglePoint(int parts, const Visit& visit) {
     const double step = 1.0 / parts;
@@ -75,8 +75,9 @@ void forEachTrianglePoint(int parts, const Visit& visit) {
         }
 }
 
-// Moves corners back to their original positions until no triangle is rotated by more than 60°. In the worst case, all
-// corners move back. cornersOf(t), for t below `triangles`, returns the indices of triangle t's corners in both arrays.
+// Moves fitted corners back to their original positions until no triangle is rotated by more than 60°. In the worst
+// case, all corners move back. cornersOf(t), for t below `triangles`, returns the indices of triangle t's corners in
+// `fitted` and `original`.
 template <typename Points, typename CornersOf>
 void keepFacesUpright(Points& fitted, const Points& original, std::size_t triangles, const CornersOf& cornersOf) {
     constexpr double minTurnCosine = 0.5;

@@ -1,5 +1,6 @@
 #pragma once
-// Triangle lists: three corners per triangle, sorted by primitive. Also computes area-weighted means over triangles.
+// Stores triangle lists with three corners per triangle, sorted by primitive, and computes area-weighted means over
+// their triangles.
 
 #include <cmath>
 #include <cstddef>
@@ -14,7 +15,7 @@
 
 namespace defocus::engine {
 
-// `Vertex` is the type of vertex number stored at the corners.
+// `Vertex` is the type of the vertex numbers stored at the corners.
 template <typename Vertex>
 struct TriangleSet {
     Numbered<TriangleCorner, Vertex> indices;                       // three indices per triangle
@@ -54,7 +55,7 @@ glm::dvec4 areaMean(const TriangleSet<Vertex>& triangles, const At& at, const Va
     return areas > 0 ? sum / areas : glm::dvec4(0);
 }
 
-// Returns the corners as plain integers.
+// Returns the vertex numbers at the corners as plain integers.
 template <typename Vertex>
 std::vector<std::uint32_t> plainCorners(const TriangleSet<Vertex>& triangles) {
     std::vector<std::uint32_t> corners;

@@ -8,10 +8,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr float minBlurRange = 1e-3f;  // min range of blur over the mesh, in mm or as a factor
+constexpr float minBlurRange = 1e-3f;  // min range of blur values over the mesh, in mm or as a factor
 constexpr double minQuality = 1e-3;    // twice the area / sum of squared edges; 0.29 for an equilateral triangle
 
-// Returns the attribute differences between two rows of a table with n attributes.
+// Returns the attribute differences `to` − `from` between two wedges with n attributes each.
 template <std::size_t n>
 AttributeRow<n> changeBetween(std::span<const float> from, std::span<const float> to) {
     AttributeRow<n> result;
@@ -26,7 +26,7 @@ AttributeRow<n> rowOf(std::span<const float> row) {
     return result;
 }
 
-// Returns the squared difference of the weighted attributes [first, last).
+// Returns the sum of the squared differences of the weighted attributes [first, last).
 double squares(std::span<const float> a, std::span<const float> b, std::size_t first, std::size_t last) {
     float sum = 0;
     for (std::size_t j = first; j < last; ++j) sum += (a[j] - b[j]) * (a[j] - b[j]);

@@ -1,7 +1,7 @@
 #pragma once
-// Wedges. The surface is connected by position, but each face corner has its own mesh vertex, called a wedge (Hoppe
-// 1998, Efficient Implementation of Progressive Meshes). UV seams, creases and material borders can therefore exist on
-// a closed surface. The table stores the attributes and the attribute quadric of each wedge.
+// Stores the attributes and attribute quadrics of wedges. The surface is connected by position, but each face corner
+// refers to a mesh vertex with attributes, called a wedge (Hoppe 1998, Efficient Implementation of Progressive Meshes).
+// UV seams, creases and material borders can therefore exist on a closed surface.
 
 #include <algorithm>
 #include <array>
@@ -24,27 +24,28 @@ namespace defocus::engine {
 constexpr float normalWeight = 0.003f;
 constexpr float colorWeight = 0.005f;  // weight for colours in [0, 1]
 constexpr float uvWeight = 0.05f;
-// Weight of per-vertex blur, relative to the mesh's range of blur. It is four times the colour weight, so that blur on
-// a level appears at the same positions as in the file.
+// Weight of per-vertex blur, relative to the mesh's range of blur values. It is four times the colour weight, so that
+// blur on a coarse level appears at the same positions as in the file.
 constexpr float blurWeight = 0.02f;
 
 class WedgeTable {
 public:
-    // Creates one wedge per vertex with the vertex's weighted attributes. `uvScale` converts uv to lengths in the unit
-    // frame.
+    // Creates one wedge per vertex with the vertex's weighted attributes. `uvScale` converts texture coordinates to
+    // lengths on the mesh scaled to unit size.
     void assign(const Vertices& vertices, float uvScale);
-    // Returns whether attributes vary over a face that has these three wedges at its corners.
+    // Returns whether attributes vary over a face with these three wedges at its corners.
     [[nodiscard]] bool changes(const WedgeNumber* corners) const;
     // Gives each wedge an empty quadric. Must precede addFace(). `changing` tells for each wedge whether attributes
-    // vary over any of its faces.
+    // vary over any of the wedge's faces.
     void startQuadrics(const std::vector<bool>& changing);
-    // Keeps only the wedges in `order` (ascending) and renumbers them.
+    // Keeps only the wedges in `order` (ascending), and renumbers them.
     void keep(std::span<const WedgeNumber> order);
 
     [[nodiscard]] std::size_t size() const { return sources_.size(); }
     // Returns the mesh vertex of the wedge.
     [[nodiscard]] MeshVertexNumber source(WedgeNumber w) const { return sources_[w.value]; }
-    // Returns the weighted attributes: normal, colour, blur and uv, without attributes that the mesh lacks.
+    // Returns the weighted attributes of the wedge: normal, colour, blur and uv, without attributes that the mesh
+    // lacks.
     [[nodiscard]] std::span<const float> row(WedgeNumber w) const {
         return {&rows_[w.value * attributeCount_], attributeCount_};
     }
@@ -54,21 +55,22 @@ public:
         const auto first = row(a);
         return std::equal(first.begin() + 3, first.end(), row(b).begin() + 3);
     }
-    // Returns the squared distance between two wedges in texture space, in units of the frame.
+    // Returns the squared distance between two wedges in texture space, scaled to lengths on the unit-size mesh.
     [[nodiscard]] double uvDifference(WedgeNumber a, WedgeNumber b) const;
     // Returns the dissimilarity of two wedges: the sum of the squared differences of normal, colour (times 4), blur
     // (times 4) and texture coordinates.
     [[nodiscard]] double difference(WedgeNumber a, WedgeNumber b) const;
 
-    // Adds a face to the quadrics of its three wedges; `places` are the positions of the corners. Slivers are ignored,
-    // because their gradients are mostly noise.
+    // Adds a face to the quadrics of the wedges at its three corners; `places` are the positions of the corners.
+    // Slivers are ignored, because their gradients are mostly noise.
     void addFace(const WedgeNumber* corners, const glm::dvec3* places);
     // Returns the cost of replacing the wedge `from` by the wedge `to`, whose position differs by `step`; never
     // negative.
     [[nodiscard]] float cost(WedgeNumber from, WedgeNumber to, const glm::vec3& step) const;
-    // Moves the quadric of the wedge `from` into the quadric of the wedge `to`, whose position differs by `step`.
+    // Adds the quadric of the wedge `from` to the quadric of the wedge `to`, whose position differs by `step`, and
+    // clears the quadric of `from`.
     void moveQuadric(WedgeNumber from, WedgeNumber to, const glm::vec3& step);
-    // Prefetch memory: prefetchStart() for the argument `to` of cost(), prefetch() for moveQuadric().
+    // Prefetch the memory of a wedge: prefetchStart() for the argument `to` of cost(), prefetch() for moveQuadric().
     void prefetchStart(WedgeNumber w) const;
     void prefetch(WedgeNumber w) const;
 

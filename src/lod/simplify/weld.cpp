@@ -17,7 +17,7 @@ namespace {
 constexpr float agreeingCosine = 0.99985f;  // cosine of 1°
 
 // Gives equal vertices the same id. Uses a hash table with open addressing and linear probing, at most half full.
-// equal(a, b) compares two vertices with equal hashes.
+// equal(a, b) compares two vertices whose hashes are equal.
 template <typename Vertex, typename Id, typename Equal>
 Welded<Vertex, Id> weld(const std::vector<std::uint64_t>& hashes, const Equal& equal) {
     const std::size_t size = std::bit_ceil(2 * hashes.size() + 1);
@@ -40,7 +40,7 @@ Welded<Vertex, Id> weld(const std::vector<std::uint64_t>& hashes, const Equal& e
     return result;
 }
 
-// The values of one attribute, as bytes, with one entry per vertex.
+// The values of one vertex attribute, as bytes, with one entry per vertex.
 struct Stream {
     const std::byte* data = nullptr;
     std::size_t stride = 0;
@@ -98,8 +98,7 @@ WeldedVertices weldVertices(const Mesh& mesh) {
 }
 
 VertexGroups smoothingGroups(const std::vector<glm::vec3>& normals, const WeldedPositions& positions) {
-    // Only vertices that share their position with others are compared; every other vertex is the only member of its
-    // group.
+    // Compare only vertices that share their position with others; every other vertex is the only member of its group.
     const Numbered<MeshVertexNumber, PositionNumber>& at = positions.id;
     VertexGroups groups(normals.size());
     for (const MeshVertexNumber v : groups.numbers()) groups[v] = v;
@@ -110,7 +109,7 @@ VertexGroups smoothingGroups(const std::vector<glm::vec3>& normals, const Welded
         if (met[at[v]] == 2) order.push_back(v);
     std::stable_sort(order.begin(), order.end(), [&](MeshVertexNumber a, MeshVertexNumber b) { return at[a] < at[b]; });
 
-    std::vector<MeshVertexNumber> leaders;  // first vertex of each group at this position
+    std::vector<MeshVertexNumber> leaders;  // first vertex of each group of similar normals at this position
     for (std::size_t i = 0; i < order.size(); ++i) {
         if (i == 0 || at[order[i]] != at[order[i - 1]]) leaders.clear();
         const glm::vec3& normal = normals[order[i].value];

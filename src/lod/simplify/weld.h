@@ -10,25 +10,25 @@
 
 namespace defocus::engine {
 
-// Ids of vertices: equal vertices get the same id. Ids are assigned in order of first appearance.
+// Ids that are equal for equal vertices. They are assigned in order of first appearance.
 template <typename Vertex, typename Id>
 struct Welded {
     Numbered<Vertex, Id> id;
-    Numbered<Id, Vertex> first;  // first vertex with each id
+    Numbered<Id, Vertex> first;  // first vertex that has each id
 };
 using WeldedPositions = Welded<MeshVertexNumber, PositionNumber>;
 using WeldedVertices = Welded<FileVertexNumber, MeshVertexNumber>;
 
-// Welds exactly equal positions. −0 equals 0; a position with NaN equals no other position.
+// Assigns equal ids to exactly equal positions. −0 equals 0; a position with NaN equals no other position.
 WeldedPositions weldPositions(const std::vector<glm::vec3>& positions);
 
-// Welds vertices whose attributes, including morph targets, are all bit-identical.
+// Assigns equal ids to vertices whose attributes, including morph targets, are all bit-identical.
 WeldedVertices weldVertices(const Mesh& mesh);
 
-// For each vertex, the first vertex of its group.
+// For each vertex, the first vertex of the group that contains it.
 using VertexGroups = Numbered<MeshVertexNumber, MeshVertexNumber>;
 
-// Groups vertices at the same position whose normals differ by at most one degree. A crease separates groups.
+// Groups the vertices at one position whose normals differ by at most one degree. A crease separates groups.
 VertexGroups smoothingGroups(const std::vector<glm::vec3>& normals, const WeldedPositions& positions);
 
 }  // namespace defocus::engine
