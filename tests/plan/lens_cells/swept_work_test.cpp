@@ -38,7 +38,7 @@ double sumOf(const Image& image) {
     return sum;
 }
 
-// Expects the bounds of each of the square's two triangles to cover `side` × `side` px.
+// Expects each of the square's two triangles to have screen bounds of `side` × `side` px.
 void expectSide(const SmallWorld& small, int side) {
     const Image image = sweptOf(small);
     EXPECT_EQ(sumOf(image), 2.0 * side * side);
