@@ -1,4 +1,4 @@
-// Tests of the scene's data on the GPU: how many buffers meshes take, what the buffers hold, and uniform blocks of
+// Tests the scene's data on the GPU: that small meshes share buffers, what the buffers hold, and uniform blocks of
 // materials.
 
 #include <set>
@@ -16,7 +16,7 @@ class GpuSceneTest : public GlTest {
 protected:
     static constexpr int quads = 300;
 
-    // A world of shifted quads and a sphere, which is too large to share buffers.
+    // Makes a world of many quads at different depths and a sphere. The sphere is too large to share buffers.
     GpuSceneTest() {
         for (int i = 0; i < quads; ++i) {
             small_.scene.meshes.push_back(quad(-1));
