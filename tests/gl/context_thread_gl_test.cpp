@@ -1,4 +1,4 @@
-// Tests of threads whose OpenGL contexts share objects, such as textures, with the main context.
+// Tests threads whose OpenGL contexts share objects, such as textures, with the main context.
 
 #include <atomic>
 #include <stdexcept>

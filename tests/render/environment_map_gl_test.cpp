@@ -89,8 +89,8 @@ double shareOfMattPart(Material material, const glm::dmat4& turn) {
     return 1 - static_cast<double>(wallImage(*small).at(16, 12)[0]);
 }
 
-// The diffuse reflection of a matt wall, which is the difference between a white and a black wall, is that of the
-// hemisphere in front of the wall.
+// A matt wall reflects the light of the hemisphere in front of it. The diffuse reflection is measured as the difference
+// between a white and a black wall.
 TEST_F(EnvironmentMaps, aMattWallGathersTheHemisphereBeforeIt) {
     for (const glm::dmat4& turn : turns())
         for (const float lighting : {1.0f, 0.5f}) {

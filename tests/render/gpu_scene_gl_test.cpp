@@ -28,7 +28,7 @@ protected:
 
     static float shift(int mesh) { return static_cast<float>(mesh) / 512; }
 
-    // Returns a plan that draws level 0 of the quads and one level of the sphere.
+    // Returns a plan that draws the quads at level of detail 0 and the sphere at `levelOfSphere`.
     [[nodiscard]] FramePlan planWith(std::size_t levelOfSphere) const {
         FramePlan plan;
         for (std::size_t mesh = 0; mesh < small_.world.pyramids.size(); ++mesh) {

@@ -1,6 +1,6 @@
 #pragma once
-// A wall that fills the frame of a pinhole camera with one sample per pixel, and the expected radiance of each pixel.
-// The equations of glTF 2.0 are evaluated in double precision, with half vectors and angles as in the specification.
+// Makes a wall that fills the frame of a pinhole camera with one sample per pixel, and computes each pixel's expected
+// radiance. The equations of glTF 2.0 are evaluated in double precision, with half vectors and angles as specified.
 
 #include <gtest/gtest.h>
 

@@ -40,7 +40,7 @@ TEST_F(Shadowed, multirateAndPostProcessDrawThemToo) {
         max = std::max(max, std::abs(shares[static_cast<std::size_t>(x)] -
                                      litShareBehindEdge(place, 1, 1, std::tan(glm::radians(10.0)))));
     }
-    EXPECT_LT(max, 0.12);  // noise: each of 4 pinholes uses 16 points on the sun
+    EXPECT_LT(max, 0.12);  // noise: each of 4 pinhole images uses 16 points on the sun
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-// Returns the linear value of an 8-bit sRGB code (IEC 61966-2-1).
+// Returns the linear value of an 8-bit sRGB value (IEC 61966-2-1).
 inline double linearOf(int code) {
     const double encoded = code / 255.0;
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
@@ -62,8 +62,8 @@ inline glm::dvec3 decodingErrors(const Texel& texel) {
     return {decodingError(texel[0]), decodingError(texel[1]), decodingError(texel[2])};
 }
 
-// Calls `check` for each pixel with its texel of a 4 × 4 texture; `placed` maps the pixel's coordinates to the
-// texture's.
+// Calls `check` for each pixel with its texel of a 4 × 4 texture. `placed` maps texture coordinates of the wall to
+// coordinates in [0, 1] inside the texture.
 inline void forTexels(const SmallWorld& small, const std::function<glm::dvec2(const glm::dvec2&)>& placed,
                       const std::function<void(const Image&, const WallPoint&, const Texel&)>& check) {
     const Image image = wallImage(small);

@@ -1,5 +1,5 @@
 #pragma once
-// Functions that render images by the ray tracer, of scenes at full detail.
+// Functions that render images of scenes at full detail with the ray tracer.
 
 #include <cstdint>
 

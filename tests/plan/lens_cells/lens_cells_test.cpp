@@ -140,7 +140,7 @@ TEST(LensCells, edgesAreBlurredAsByADisk) {
 }
 
 // A subset of a planned frame's samples has the same lens cells (regions of the lens) as the entire frame. Samples that
-// are planned separately have different cells, whose blur follows from the number of samples up to their end.
+// are planned separately have different cells, whose blur follows from the frame's number of samples so far.
 TEST(LensCells, belongToWhatIsPlannedTogether) {
     const auto small = muchBlurred();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(192));

@@ -1,5 +1,4 @@
-// Tests of the number of pixels that a triangle's screen bounds cover over all points of the lens, against closed
-// forms.
+// Tests the number of pixels that a triangle's screen bounds cover over all points of the lens, against closed forms.
 
 #include "plan/lens_cells/swept_work.h"
 

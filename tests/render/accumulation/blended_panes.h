@@ -1,5 +1,6 @@
 #pragma once
-// Scenes of alpha-blended panes, and a fixture that compares the coverage layer with the image's alpha.
+// Helpers that make scenes of alpha-blended panes, and a fixture that compares the coverage layer with the image's
+// alpha.
 
 #include <algorithm>
 #include <cmath>

@@ -167,7 +167,7 @@ TEST_F(Positions, doNotSharpenRoughGlass) {
     EXPECT_GT(compareImages(image, drawnBy("accumulation", *small, four)).psnr, 40);
 }
 
-// With four positions per pixel, too, samples are drawn until the estimated error of the image reaches the quality.
+// With four positions per pixel, too, samples are drawn until the estimated error of the image is that of the quality.
 TEST_F(Positions, areDrawnUntilTheQualityIsReached) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = fiveSpheres();

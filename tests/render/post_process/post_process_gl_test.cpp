@@ -97,7 +97,7 @@ TEST_P(PostProcesses, aHighlightKeepsItsEnergyWhereTheBlurIsTheSame) {
     }
     ASSERT_GT(sharpEnergy, 50);
     EXPECT_NEAR(blurredEnergy / sharpEnergy, 1, 0.01);
-    EXPECT_LT(*image.at(48, 32), 0.95 * *sharp.at(48, 32));  // the centre is darker, so the light is blurred
+    EXPECT_LT(*image.at(48, 32), 0.95 * *sharp.at(48, 32));  // the square's centre is darker, so the square is blurred
 }
 
 TEST_P(PostProcesses, aPointOfLightBecomesADiskOfTheCircleOfConfusion) {
@@ -213,8 +213,8 @@ TEST_P(PostProcesses, aTransparentBackgroundKeepsCoverage) {
 
 using CircularNearField = PostProcesses;
 
-// A bright square just in front of the focal plane keeps its narrow blur beside a strongly blurred board. The method
-// multiplies each pixel's colour by a coverage that follows from the pixel's own blur.
+// A bright square just in front of the focal plane keeps its narrow blur beside a strongly blurred board. The default
+// weights each pixel in proportion to its own blur; near-field=coverage does not, and spreads the square.
 TEST_P(CircularNearField, lightsThatAreHardlyBlurredKeepOutOfWideBlurs) {
     const auto small = boards(
         {{0.9, {-0.12, 0}, {0.08, 0.2}, {0, 0, 0, 1}}, {1.8, {0.1, 0}, {0.02, 0.02}, {9, 9, 9, 1}}}, glm::vec3(0));

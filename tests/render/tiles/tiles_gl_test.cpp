@@ -70,7 +70,7 @@ TEST_F(Tiles, haveTheBitsOfOnePieceWhereShadowsFallIntoThem) {
     expectTheBitsOfOnePiece(*small, plan, "shadows");
 }
 
-// An image that is divided into several rasterization cells, each with its own viewport, has no seams. It differs from
+// An image that is drawn in several rasterization cells (parts with separate viewports) has no seams. It differs from
 // an undivided image only because each cell rounds window coordinates differently.
 TEST_F(Tiles, ofSeveralCellsJoinWithoutASeam) {
     const auto small = fiveSpheres();
