@@ -72,7 +72,7 @@ TEST_F(GlBuffer, beyondMemoryIsAnErrorThatSaysHowMuch) {
     }
 }
 
-// Vertex shader in which each vertex draws one pixel. `place`.x is the pixel's column, and the instance is its row.
+// Vertex shader that draws each vertex as one pixel, in column `place`.x and in the row of the instance's index.
 constexpr const char* pixelOfVertex = R"(
 layout(location = 2) in vec2 place;
 layout(location = 5) in float shade;
@@ -85,7 +85,7 @@ void main() {
 }
 )";
 
-// Some of the appended parts are smaller, and others larger, than the memory in which the writer collects bytes.
+// A buffer can be written in parts that are smaller or larger than the writer's staging memory.
 TEST_F(GlBuffer, isWrittenInPartsOfAnySize) {
     std::vector<std::uint32_t> words(400'000);
     std::iota(words.begin(), words.end(), 7u);

@@ -1,4 +1,4 @@
-// Tests of threads whose OpenGL contexts share objects, such as textures, with the main context.
+// Tests threads whose OpenGL contexts share objects, such as textures, with the main context.
 
 #include <atomic>
 #include <stdexcept>
@@ -16,7 +16,7 @@ protected:
     static std::unique_ptr<ContextThread> thread() { return std::make_unique<ContextThread>(createSharedContext()); }
 };
 
-// A texture that another thread's context draws into is read in this context, again and again.
+// Another thread's context draws into a texture repeatedly, and this context reads each result.
 TEST_F(SharedContexts, shareTextures) {
     const auto other = thread();
     Program program;
@@ -44,7 +44,7 @@ TEST_F(SharedContexts, createdContextIsNotCurrent) {
     const Buffer kept(4);
     const std::unique_ptr<GlContext> other = createSharedContext();
     EXPECT_EQ(other->software(), context().software());
-    const VertexArray array;  // a vertex array of this context
+    const VertexArray array;  // belongs to this context, since vertex arrays are not shared
     EXPECT_EQ(glIsBuffer(kept.name()), GL_TRUE);
 }
 

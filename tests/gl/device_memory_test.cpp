@@ -1,4 +1,4 @@
-// Tests of the free device memory, which OpenGL extensions of NVIDIA and AMD report in KiB.
+// Tests the query of free device memory, which OpenGL extensions of NVIDIA and AMD report in KiB.
 
 #include "gl/device_memory.h"
 

@@ -29,7 +29,7 @@ protected:
         std::filesystem::create_directories((folder_ / path).parent_path());
         std::ofstream(folder_ / path) << text;
     }
-    // Returns the program of shaders that are embedded in the library or written by the test.
+    // Links a program from `shaders`: paths of embedded shaders, or of files that the test wrote.
     [[nodiscard]] Program program(std::vector<std::string> shaders, ShaderDefines defines = {}) const {
         return Program({std::move(shaders), std::move(defines), folder_.path()});
     }

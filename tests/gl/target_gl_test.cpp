@@ -65,7 +65,7 @@ TEST_F(GlTarget, depthIsKeptForWhatIsDrawnLater) {
     for (const float value : depths) EXPECT_EQ(value, 0.5f);
 }
 
-// All layers of an array are attached, and gl_Layer alone selects the layer that is drawn.
+// If all layers of an array texture are attached, gl_Layer in the shader selects the layer that is drawn.
 TEST_F(GlTarget, layersArePickedByTheShader) {
     const GlTexture array = textureOf(TextureFormat::rgba32f, 3);
     const Target target({&array});

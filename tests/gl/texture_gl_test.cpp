@@ -12,7 +12,7 @@ namespace {
 
 using GlTextureTest = GlTest;
 
-// Returns the linear value of an 8-bit sRGB code (IEC 61966-2-1).
+// Returns the linear value of an 8-bit sRGB value (IEC 61966-2-1).
 double linearOf(double code) {
     const double encoded = code / 255;
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
@@ -34,8 +34,8 @@ TEST_F(GlTextureTest, bytesAreSharesOf255) {
     for (std::size_t i = 0; i < bytes.size(); ++i) ASSERT_NEAR(image.pixels[i], bytes[i] / 255.0, 1e-6) << i;
 }
 
-// sRGB textures decode colours but not alpha. The tolerance is half a step between codes, since drivers approximate the
-// decoding by polynomials.
+// sRGB textures decode colours but not alpha. The tolerance is half a step between 8-bit values, since drivers
+// approximate the decoding by polynomials.
 TEST_F(GlTextureTest, sRgbCodesAreDecodedAndAlphaIsNot) {
     GlTexture texture({.format = TextureFormat::srgb8Alpha8, .width = 256, .height = 1});
     const std::vector<std::uint8_t> bytes = allCodes();
@@ -117,7 +117,7 @@ TEST_F(GlTextureTest, mipmapsAreMeans) {
     EXPECT_NEAR(last.at(0, 0)[0], sum / (size * size), 1e-4);
 }
 
-// Wrap modes fold coordinates outside [0, 1] back into a texture, here of a red and a green texel.
+// Wrap modes map coordinates outside [0, 1] back into a texture, here of a red and a green texel.
 TEST_F(GlTextureTest, wrapModesFoldTheCoordinates) {
     GlTexture texture({.format = TextureFormat::rgba32f, .width = 2, .height = 1});
     const std::array<float, 8> values = {1, 0, 0, 1, 0, 1, 0, 1};

@@ -8,7 +8,7 @@ namespace {
 
 using Timer = GlTest;
 
-// Records a span of the timer that lasts at least `milliseconds` of wall-clock time, or longer on a slow machine.
+// Records one span of the timer: busy waiting for at least `milliseconds` of wall-clock time.
 void spanOf(GpuTimer& timer, double milliseconds) {
     using Clock = std::chrono::steady_clock;
     timer.begin();
@@ -30,7 +30,7 @@ TEST_F(Timer, sumsItsSpansUntilItIsReset) {
     GpuTimer timer;
     spanOf(timer, 8);
     const double first = timer.milliseconds();
-    EXPECT_GE(first, 4);  // only half of the 8 ms, since the clocks of GPU and CPU differ
+    EXPECT_GE(first, 4);  // half of the 8 ms, since the clocks of GPU and CPU differ
     EXPECT_EQ(timer.milliseconds(), first) << "reading adds no time";
     spanOf(timer, 8);
     spanOf(timer, 8);
@@ -42,7 +42,7 @@ TEST_F(Timer, sumsItsSpansUntilItIsReset) {
     EXPECT_EQ(timer.milliseconds(), 0);
 }
 
-// A timer excludes the time between its spans. Another timer that runs during all of the spans includes that time.
+// A timer excludes the time between its spans. A timer that runs without a break includes that time.
 TEST_F(Timer, leavesOutWhatLiesBetween) {
     GpuTimer all, two, between;
     all.begin();

@@ -73,7 +73,7 @@ TEST_P(ApertureOf, hasTheDensityOfItsDefinition) {
     const std::vector<glm::dvec2> points = mapped(lens);
     const std::vector<double> wanted = expectedShares([&](const glm::dvec2& p) { return lightDensity(lens, p); });
     EXPECT_LT(misplaced(sharesOf(points), wanted), 0.006);
-    // The bound of 0.006 distinguishes shapes: a slightly different shape exceeds twice the bound.
+    // The bound of 0.006 on misplaced light detects wrong shapes: a slightly different shape exceeds twice the bound.
     Lens other = lens;
     other.bladeRotation += 0.1;
     other.bladeCurvature = std::abs(other.bladeCurvature - 0.3);
@@ -122,7 +122,8 @@ TEST_P(ApertureOf, isContinuous) {
             for (const glm::dvec2& move : {glm::dvec2(step, 0), glm::dvec2(0, step)})
                 farthest = std::max(farthest, glm::length(apertureSample(aperture, glm::dvec2(x, y) + move) - here));
         }
-    // tolerance for the steep square root at the rim of a soft disk and at the centre of a ring
+    // The square root in the map is steep at the rim of a soft disk and at the centre of a ring, hence the factor of
+    // 300.
     EXPECT_LT(farthest, 300 * step);
 }
 
@@ -222,7 +223,7 @@ TEST(ApertureImage, thoseThatPassNoLightAreNamed) {
     EXPECT_EQ(message(image), "");
 }
 
-// At every lens point, the light density is the definition's density times the same constant factor.
+// At every lens point, the light density equals the density of the aperture's definition in aperture_shapes.h.
 TEST(Aperture, givesTheLightDensityOfAPoint) {
     for (const ApertureShape& shape : apertureShapes) {
         const Lens lens = shape.lens();

@@ -1,4 +1,4 @@
-// Tests of lenses that are created from a file's camera: they keep the camera's field of view and take its sensor and
+// Tests lenses that are created from a file's camera. They keep the camera's field of view and take its sensor and
 // focal length.
 #include "lens/camera_lens.h"
 

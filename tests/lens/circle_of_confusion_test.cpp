@@ -40,8 +40,8 @@ double random(std::mt19937& source, double min, double max) {
     return std::uniform_real_distribution<double>(min, max)(source);
 }
 
-// If C = a/w + b at depth w, a foreground limit R clamps C at all depths w ≤ −a/(b + R). At larger depths, C is
-// unchanged (Munkberg et al. 2012, Eq. 1 and 2 with inverted signs).
+// If the circle of confusion is C = a/w + b at depth w, a foreground limit R clamps C at all depths w ≤ −a/(b + R). At
+// larger depths, C is unchanged (Munkberg et al. 2012, Eq. 1 and 2 with inverted signs).
 TEST(CircleOfConfusion, foregroundLimitHasItsKinkWhereThePaperSays) {
     Lens lens = lensAt(2);
     const ClipCircleOfConfusion free = clipCircleOfConfusion(lens, 1000, 750);
@@ -66,8 +66,8 @@ TEST(CircleOfConfusion, backgroundLimitHasItsKinkBehindTheFocus) {
     EXPECT_EQ(circleOfConfusion(limited, 1, 1000), circleOfConfusion(free, 1, 1000));
 }
 
-// The blur is zero in the entire focus range. Blur close to the lens is preserved, and so is blur at infinity unless
-// the range refocuses (Munkberg et al. 2012).
+// The blur is zero in the entire focus range. Close to the lens and at infinity, the range leaves the blur unchanged. A
+// range that refocuses changes the blur at infinity (Munkberg et al. 2012).
 TEST(CircleOfConfusion, focusRangeIsSharpAndPreservesNearAndFarBlur) {
     Lens lens = lensAt(2);
     const ClipCircleOfConfusion plain = clipCircleOfConfusion(lens, 1000, 750);
@@ -78,20 +78,20 @@ TEST(CircleOfConfusion, focusRangeIsSharpAndPreservesNearAndFarBlur) {
         lens.focusRangeRefocuses = refocuses;
         const ClipCircleOfConfusion range = clipCircleOfConfusion(lens, 1000, 750);
         for (const double z : {1.5, 1.7, 2.0, 4.0, 5.0}) EXPECT_NEAR(circleOfConfusion(range, z, 1000), 0, 1e-9);
-        // The blur is continuous at both ends of the range.
+        // The blur is continuous at both ends of the focus range.
         EXPECT_NEAR(circleOfConfusion(range, 1.5 * (1 - 1e-9), 1000), 0, 1e-5);
         EXPECT_NEAR(circleOfConfusion(range, 5 * (1 + 1e-9), 1000), 0, 1e-5);
         EXPECT_LT(circleOfConfusion(range, 1.4, 1000), -1);
         EXPECT_GT(circleOfConfusion(range, 5.5, 1000), 1);
-        // Close to the lens, the focus range leaves C unchanged.
+        // Close to the lens, the focus range leaves the circle of confusion unchanged.
         EXPECT_NEAR(circleOfConfusion(range, 1e-6, 1000) / circleOfConfusion(plain, 1e-6, 1000), 1, 1e-5);
-        // At infinity, the focus range leaves C unchanged. If the range refocuses, C equals the C of a lens focused at
-        // 5 m.
+        // At infinity, the focus range leaves the circle of confusion unchanged. A range that refocuses gives the
+        // circle of confusion of a lens focused at 5 m.
         const double far = circleOfConfusion(range, infinity, 1000) / circleOfConfusion(plain, infinity, 1000);
         EXPECT_NEAR(far, refocuses ? 2.0 / 5 : 1, 1e-12);
-        // At depth z = 8 m, C is A·W/(2·tan(θx/2)) times (1/s)·(1 − 5/z), or times (1/5 − 1/z) if the range refocuses.
-        // A is the aperture diameter, W the image width in px, θx the horizontal field of view and s the focus
-        // distance.
+        // At depth z = 8 m, the circle of confusion is A·W/(2·tan(θx/2)) times (1/s)·(1 − 5/z), or times (1/5 − 1/z) if
+        // the range refocuses. A is the aperture diameter, W the image width in px, θx the horizontal field of view and
+        // s the focus distance.
         const double atInfinity = circleOfConfusion(plain, infinity, 1000);
         EXPECT_NEAR(circleOfConfusion(range, 8, 1000),
                     refocuses ? atInfinity * 2 * (1.0 / 5 - 1.0 / 8) : atInfinity * (1 - 5.0 / 8), 1e-9);
@@ -122,7 +122,8 @@ TEST(CircleOfConfusion, curvedFocusSurfaceIsWhereDesignSays) {
     }
 }
 
-// The range of C over a box contains C at every point of the box. Level selection and culling rely on this range.
+// The range of the circle of confusion C over a box contains C at every point of the box. Level selection and culling
+// rely on this range.
 TEST(CircleOfConfusion, rangeOverABoxHoldsEveryPointOfIt) {
     std::mt19937 source(7);
     for (int trial = 0; trial < 400; ++trial) {
@@ -152,8 +153,9 @@ TEST(CircleOfConfusion, rangeOverABoxHoldsEveryPointOfIt) {
     }
 }
 
-// C is interpolated linearly in w along an edge from the near plane, where triangles are clipped, to a vertex whose
-// blur is limited. The interpolated blur |C/w| doesn't exceed the foreground limit (Munkberg et al. 2012, 4.1).
+// The circle of confusion C is interpolated linearly in depth w along an edge from the near plane, where triangles are
+// clipped, to a vertex whose blur is limited. The interpolated blur |C/w| doesn't exceed the foreground limit (Munkberg
+// et al. 2012, 4.1).
 TEST(CircleOfConfusion, limitHoldsUpToTheNearPlane) {
     Lens lens = lensAt(2);
     lens.foregroundLimit = 15;
@@ -174,7 +176,8 @@ TEST(CircleOfConfusion, limitHoldsUpToTheNearPlane) {
     EXPECT_GT(std::abs(uncut / near) * 1000, 15);
 }
 
-// For random edges, C deviates from the value interpolated between an edge's ends by no more than cocDeviation().
+// Along random edges, the circle of confusion deviates from linear interpolation between the edge's ends by no more
+// than cocDeviation().
 TEST(CircleOfConfusion, deviationBoundHoldsForEdgesInTheBox) {
     std::mt19937 source(11);
     const int width = 1000;

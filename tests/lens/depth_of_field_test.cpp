@@ -1,4 +1,4 @@
-// Tests of depth of field against textbook formulas and tables, and against the renderer's blur.
+// Tests depth of field against textbook formulas and tables, and against the renderer's blur.
 #include "lens/depth_of_field.h"
 
 #include <gtest/gtest.h>

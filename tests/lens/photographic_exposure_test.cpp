@@ -1,4 +1,4 @@
-// Tests of exposure against photographers' tables and ISO 12232.
+// Tests exposure against photographers' tables and ISO 12232.
 #include "lens/photographic_exposure.h"
 
 #include <gtest/gtest.h>

@@ -39,14 +39,13 @@ TEST(Sequences, firstPointIsTheMiddle) {
 
 // ---- prefixes and suffixes ------------------------------------------------------------------------------------------
 
-// A region of the unit square.
+// A region of the unit square, with its area and a test for points inside.
 struct Region {
     double area = 0;
     std::function<bool(const glm::dvec2&)> holds;
 };
 
-// Returns half planes of the disk that the square is mapped to: the parts of the lens that a blurred straight edge
-// hides.
+// Returns regions that map to half planes of the lens disk, which are the parts that a blurred straight edge hides.
 std::vector<Region> halfPlanes() {
     std::vector<Region> regions;
     for (int direction = 0; direction < 16; ++direction) {
@@ -59,7 +58,7 @@ std::vector<Region> halfPlanes() {
     return regions;
 }
 
-// Returns boxes at a corner of the unit square. They stand for the parts of a pixel that an object in focus covers.
+// Returns boxes at a corner of the unit square. They stand for the part of a pixel that an object in focus covers.
 std::vector<Region> boxes() {
     std::vector<Region> regions;
     for (int x = 1; x <= 8; ++x)
@@ -120,7 +119,7 @@ TEST(Sequences, everyPrefixAndSuffixCoversThePixel) {
                     << sequenceName(sequence) << ", " << count << " points, seed " << seed;
 }
 
-// The even-numbered points of a sequence exceed the error bounds of complete sequences, and so do independent points.
+// The points with even indices exceed the error bound of complete sequences, and so do independent points.
 TEST(Sequences, boundsFailForParityAndForIndependentPoints) {
     const std::vector<Region> regions = halfPlanes();
     for (const Sequence sequence : {Sequence::halton, Sequence::scrambledHalton, Sequence::sobol}) {
@@ -177,7 +176,7 @@ std::pair<int, int> cellCounts(const std::vector<glm::dvec2>& points, int column
 }
 
 // 2ᵏ Sobol points that start at a multiple of 2ᵏ form a net (Niederreiter 1987): every elementary interval of the lens
-// square, of any side ratio, contains one point. Each of the other coordinates has one point in each of 2ᵏ equal
+// square, of any side ratio, contains one point. Pixel x and y, time and wavelength have one point in each of 2ᵏ equal
 // intervals.
 TEST(Sequences, alignedBlocksOfSobolAreNets) {
     for (const std::uint32_t seed : {0u, 7u})

@@ -37,8 +37,8 @@ TEST(FramePlan, everyObjectDrawsEverySampleOnce) {
         }
 }
 
-// In LodMode::continuous, each lens sample draws one of an object's two levels, except for at most one sample, which
-// draws both levels, each in some of the pixels.
+// In LodMode::continuous, each lens sample draws one of an object's two levels of detail. At most one sample draws both
+// levels, each in some of the pixels.
 TEST(FramePlan, continuousLevelsOverlapByTheBoundarySample) {
     const auto small = fiveSpheres();
     int shared = 0;
@@ -166,8 +166,8 @@ struct DollyStep {
 
 constexpr double dollyRadius = 0.2;  // radius of the sphere, m
 
-// Returns the distance and the level of detail λ of a sphere that moves from 1.2 to 12 m in front of the lens. Each
-// step multiplies the distance by `ratio`.
+// Returns the distances and levels of detail λ of a sphere that moves from 1.2 to 12 m in front of the lens. Each step
+// multiplies the distance by `ratio`.
 std::vector<DollyStep> dolly(const RenderSettings& settings, double ratio) {
     const auto small = fiveSpheres();
     std::vector<DollyStep> steps;
@@ -271,8 +271,8 @@ TEST(FramePlan, aThresholdOfTheirSizeChoosesLevelsBySizeAndNoneTheMeasuredOnes) 
     EXPECT_EQ(metricWith({.size = 2}), LodMetric::error);
 }
 
-// Levels chosen by blur alone or by projected size alone are at most as coarse as levels chosen by both. A pinhole has
-// no blur. Selection by both then equals selection by size, and selection by blur alone gives full detail.
+// Levels of detail chosen by blur alone or by projected size alone are at most as coarse as levels chosen by both. A
+// pinhole has no blur: selection by both then equals selection by size, and selection by blur alone gives full detail.
 TEST(FramePlan, levelsByOneCauseAloneAreFiner) {
     const auto small = fiveSpheres();
     for (const LodMetric metric : {LodMetric::size, LodMetric::error, LodMetric::measured}) {
@@ -323,7 +323,8 @@ TEST(FramePlan, tableNamesObjectsAndReasons) {
     EXPECT_NE(table.find("no lens sample can see it"), std::string::npos);
 }
 
-// A strongly curved focus surface would divide each of 80,000 triangles into thousands. All objects share one bound.
+// A strongly curved focus surface would divide each of 80,000 triangles into thousands of parts. One bound on the
+// number of parts applies to all objects of a frame.
 TEST(PlanFrame, divisionsOfAFrameAreBounded) {
     const auto parts = [](int slices, double curvature) {
         SmallWorld small;

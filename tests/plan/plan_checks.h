@@ -1,5 +1,5 @@
 #pragma once
-// Settings and queries for tests of frame plans.
+// Helpers for tests of frame plans: settings with a number of samples, and a search in a plan's list of omitted items.
 
 #include <algorithm>
 #include <string>

@@ -7,8 +7,8 @@
 namespace defocus::engine {
 namespace {
 
-// The levels of detail that show an object in one lens sample. If there are two, `share` is the fraction of pixels that
-// show the coarser level.
+// The levels of detail that show an object in one lens sample. If there are two levels, `share` is the fraction of
+// pixels that show the coarser level; otherwise it is 0.
 struct Drawn {
     std::vector<std::uint32_t> levels;
     double share = 0;

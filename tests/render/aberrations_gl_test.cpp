@@ -1,4 +1,5 @@
-// Tests of astigmatism and coma: the moments of a point's blur against closed forms, and the sky seen through the lens.
+// Tests astigmatism and coma: the moments of a point's blur against closed forms, and the sky against a mean over lens
+// rays.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -76,14 +77,15 @@ Spot spotAt(const View& view, const glm::dvec2& place, double depth, const char*
 
 constexpr glm::dvec2 middle{80, 60};
 constexpr double perHalfWidth = 80;  // px
-constexpr double inFocus = 2;        // m
-// Variance in px² of the sharp point: 1/3 from its width of two pixels, and 1/12 from the jitter inside a pixel.
+constexpr double inFocus = 2;        // distance of the point, equal to the focus distance, m
+// Variance along an axis, in px², of the point without aberrations: 1/3 from its width of two pixels, and 1/12 from the
+// jitter inside a pixel.
 constexpr double ownVariance = 5.0 / 12;
 
 // Astigmatism A turns a point at the image position m, relative to the image's centre, into a line towards the centre.
 // Lens points l = (u, v) cover the unit disk with u along m. Over the disk E[u²] = 1/4, so the variance is (A·|m|²)²/4
-// along the line and 0 across it. The line's outer half is brighter: there, the point is the image of an area smaller
-// by 3·A·(m·l), which moves the mean by ¾·A²·|m|²·m.
+// along the line and 0 across it. The line's outer half is brighter, because a ray through l enlarges the point by
+// 3·A·(m·l). This moves the mean by ¾·A²·|m|²·m.
 TEST_F(Aberrations, astigmatismMakesLinesToTheCentre) {
     SKIP_ON_SECOND_DRIVER();
     constexpr double share = 0.05;  // astigmatism A as a fraction of half the image's width
@@ -123,8 +125,8 @@ TEST_F(Aberrations, comaMakesComets) {
 }
 
 // Astigmatism widens the blur along one axis only. A blur of c px and a line of L px add up to the variance (c + L)²/16
-// along the line and c²/16 across it. An astigmatic lens has two foci: at the depth where c = −L, a point becomes a
-// line perpendicular to the line of the first focus.
+// along the line and c²/16 across it. An astigmatic lens has two focal distances: where c = −L, a point becomes a line
+// perpendicular to the line at c = 0.
 TEST_F(Aberrations, astigmatismAddsToTheBlurAlongOneAxis) {
     const glm::dvec2 place(134, 60);
     const View plain = viewOf(0, 0);
@@ -141,8 +143,8 @@ TEST_F(Aberrations, astigmatismAddsToTheBlurAlongOneAxis) {
     }
 }
 
-// Through an aberrated lens focused at infinity, a pixel shows the mean radiance of a gradient sky along the rays of
-// the lens samples.
+// Through an aberrated lens focused at infinity, each pixel shows the mean radiance of a gradient sky, averaged over
+// the rays of the lens samples.
 TEST_F(Aberrations, skyIsSeenThroughThem) {
     View view = viewOf(20, 20);
     view.lens.focusDistance = std::numeric_limits<double>::infinity();

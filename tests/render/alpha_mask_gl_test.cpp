@@ -1,5 +1,5 @@
-// Tests of cut-outs (alphaMode MASK): at any image size, the covered fraction of a wall equals the fraction of texels
-// whose alpha reaches the cutoff. The cut-out has the colour of these texels.
+// Tests cut-outs (alphaMode MASK). At any image size, the covered fraction of a wall equals the fraction of texels
+// whose alpha reaches the cutoff, and the cut-out has the colour of these texels.
 
 #include <gtest/gtest.h>
 
@@ -19,12 +19,13 @@ protected:
 constexpr int cutTexels = 160;
 constexpr double shownShare = 0.3;
 
-// Three of ten squares of 8 × 8 texels are opaque green; the others are transparent red.
+// Returns a texel of a pattern of squares of 8 × 8 texels. Three of ten squares are opaque green, the others
+// transparent red.
 Texel cutTexel(int column, int row) {
     return (7 * (column / 8) + 3 * (row / 8)) % 10 < 3 ? Texel{0, 255, 0, 255} : Texel{255, 0, 0, 0};
 }
 
-// Returns an unlit wall of 2 m on a transparent background, at the distance where it is about `pixels` px wide.
+// Returns an unlit, 2 m wide wall on a transparent background, at the distance where it is about `pixels` px wide.
 std::unique_ptr<SmallWorld> cutWall(double pixels) {
     Material material;
     material.unlit = true;
@@ -63,10 +64,10 @@ TEST_F(AlphaMask, keepsItsCoverageAndColorAtEverySize) {
         for (const std::uint32_t samples : {4u, 64u}) {
             const glm::dvec4 sum = channelSums(cutImage(*cutWall(pixels), samples));
             const double places = samples * pixels * pixels;
-            // 3 σ of independent random positions
+            // 3 standard deviations for independent random positions
             const double error = std::max(0.02, 3 * std::sqrt(shownShare / places));
             EXPECT_NEAR(sum.a / (pixels * pixels), shownShare, error) << pixels << " px, " << samples << " samples";
-            // Tolerance for the edges of opaque squares, where the texture filter mixes green with the red of
+            // The tolerance is for the edges of opaque squares, where the texture filter mixes green with the red of
             // transparent texels.
             EXPECT_NEAR(sum.g / sum.a, 1, 0.07) << pixels << " px, " << samples << " samples";
         }

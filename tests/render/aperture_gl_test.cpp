@@ -1,4 +1,4 @@
-// Tests of each aperture's bokeh against an image that is computed from the aperture's definition without the renderer.
+// Tests each aperture's bokeh against an image that is computed from the aperture's definition without the renderer.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ std::unique_ptr<GlContext> ApertureBokeh::context_;
 
 constexpr double square = 5;  // side of the bright square, px
 constexpr double energy = 2500;
-constexpr double depth = 6;  // depth of the square in m, behind the focus, where the bokeh shows the aperture upright
+constexpr double depth = 6;  // depth of the square, m; behind the focal plane, bokeh shows the aperture upright
 
 // Returns a view whose lens blurs the square to about two thirds of the image's height.
 View wideView() {
@@ -74,7 +74,7 @@ TEST_F(ApertureBokeh, showsTheApertureImageUpright) {
     expectBokeh(view, "image");
 }
 
-// The bound on misplaced light distinguishes similar shapes: a rotated or curved triangle exceeds it.
+// The bound on misplaced light detects wrong shapes: a rotated or curved triangle exceeds it.
 TEST_F(ApertureBokeh, differsFromOtherShapes) {
     View view = wideView();
     view.lens.bladeCount = 3;

@@ -1,5 +1,5 @@
 #pragma once
-// Helpers that compare soft shadows of the GPU and of the ray tracer: a matt ball in front of a wall, under one light
+// Fixture that compares soft shadows on the GPU with the ray tracer: a matt ball in front of a wall, under one light
 // and through a wide lens.
 
 #include <gtest/gtest.h>

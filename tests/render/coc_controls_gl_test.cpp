@@ -1,5 +1,5 @@
-// Tests of the controls of the circle of confusion in images. Each control has its documented effect, and large
-// triangles look like small ones.
+// Tests the controls of the circle of confusion, such as a focus range or a blur limit. Each control has its documented
+// effect on images, and large triangles look like small ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -125,7 +125,7 @@ std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end
 }
 
 // A geometry shader cuts triangles where the slope of the circle of confusion jumps. Triangles without such a jump are
-// divided without this shader, and have the same image with it.
+// divided without this shader. With the shader, their image is the same.
 TEST_F(CocControls, dividedTrianglesNeedNoCuts) {
     const auto floor = checkeredFloor(3, 2, 12);
     floor->view.lens.fieldCurvature = 0.5;
@@ -169,9 +169,9 @@ void PrintTo(const Control& control, std::ostream* out) {
 
 class LargeTriangles : public CocControls, public testing::WithParamInterface<Control> {};
 
-// The circle of confusion C is interpolated linearly inside a triangle. A large triangle in which the slope of C jumps
-// would therefore move the focus (Munkberg et al. 2012, Figures 2 and 10). The renderer divides large triangles, so
-// that a floor of two triangles looks like a floor of many small triangles.
+// The circle of confusion C is interpolated linearly inside a triangle. In a large triangle in which the slope of C
+// jumps, the interpolated blur would vanish in the wrong place (Munkberg et al. 2012, Figures 2 and 10). The renderer
+// divides large triangles, so that a floor of two triangles looks like a floor of many small triangles.
 TEST_P(LargeTriangles, lookLikeSmallOnes) {
     const auto large = checkeredFloor(1, GetParam().begin, 12);
     const auto fine = checkeredFloor(200, GetParam().begin, 12);
@@ -181,7 +181,7 @@ TEST_P(LargeTriangles, lookLikeSmallOnes) {
     const Image divided = rendered(*large, 16, 0.1);
     const double error = rootMeanSquare(divided, reference);
     if (GetParam().begin < 0) {  // a surface that reaches the camera is always divided
-        // GPUs clip and round differently from llvmpipe: the error on an H100 is 0.0022.
+        // GPUs clip and round differently from the software rasterizer llvmpipe: the error on an NVIDIA H100 is 0.0022.
         EXPECT_LT(error, currentIsSoftware() ? 0.002 : 0.003);
         return;
     }
@@ -195,8 +195,8 @@ TEST_P(LargeTriangles, meetWithoutGaps) {
     const auto floor = unevenWhiteFloor(5, GetParam().begin, 12);
     GetParam().set(floor->view.lens);
     const Image image = rendered(*floor, 16, 0.2);
-    // Only pixels nearer than 5 m are tested, because the blur of the floor's edges does not reach them. A hole in one
-    // of the 16 samples would darken a pixel by 1/16; smaller differences are rounding.
+    // Only pixels nearer than 5 m are tested, where the blur of the floor's far edge does not reach. A hole in one of
+    // the 16 samples would darken a pixel by 1/16; smaller differences are rounding.
     for (int y = 85; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) ASSERT_GT(image.at(x, y)[1], 0.99) << x << ", " << y;
 }
@@ -280,8 +280,8 @@ TEST_F(CocControls, limitBehindLeavesFocusAndForeground) {
 }
 
 // Between the camera and the focus range, the blur equals that of a lens focused at the near end. Behind the range, the
-// preserved far blur equals that of a lens focused at the far end. Its aperture is scaled by the far end's distance
-// over the focus distance.
+// blur equals that of a lens focused at the far end, with the aperture multiplied by the far end's distance over the
+// focus distance.
 TEST_F(CocControls, focusRangePreservesNearAndFarBlur) {
     const auto small = threePatches();
     small->view.lens.focusRangeFront = 0.5;
@@ -295,8 +295,8 @@ TEST_F(CocControls, focusRangePreservesNearAndFarBlur) {
     EXPECT_LT(rootMeanSquare(part(range, 2), part(rendered(*small, 64), 2)), 1e-4);
 }
 
-// At both ends of a focus range that refocuses, the blur equals that of a lens focused at that end, with the same
-// aperture.
+// If a focus range refocuses, the blur in front of it equals that of a lens focused at its near end, and the blur
+// behind it that of a lens focused at its far end. The aperture is unchanged.
 TEST_F(CocControls, focusRangeRefocusesAtItsEnds) {
     const auto small = threePatches();
     small->view.lens.focusRangeFront = 0.5;
@@ -324,8 +324,8 @@ TEST_F(CocControls, focusRangeIsSharpAsAPinhole) {
     EXPECT_GT(rootMeanSquare(part(blurred, 0), part(pinhole, 0)), 0.02);
 }
 
-// A foreground limit removes the defocus of a moving object in front of the focus, but not its motion blur. The rest of
-// the image stays the same (Munkberg et al. 2012, Figure 4).
+// A foreground limit of zero removes the defocus of a moving object in front of the focal plane, but not its motion
+// blur. The rest of the image stays the same (Munkberg et al. 2012, Figure 4).
 TEST_F(CocControls, limitInFrontLeavesTheMotion) {
     const auto small = threePatches();
     small->world.shutter.poses.assign(2, small->world.pose);
@@ -347,8 +347,8 @@ TEST_F(CocControls, limitInFrontLeavesTheMotion) {
     EXPECT_GT(rootMeanSquare(part(rendered(*small, 64), 0), part(pinhole, 0)), 0.02) << "the patch moves";
 }
 
-// An object whose blur is scaled to zero has the same edges as in a pinhole image under any aperture. The other objects
-// keep their bokeh (Munkberg et al. 2012, Figure 8).
+// With any aperture shape, an object whose blur is scaled to zero has the same edges as in a pinhole image. The other
+// objects keep their bokeh (Munkberg et al. 2012, Figure 8).
 TEST_F(CocControls, scaleOfAnObjectHoldsForPolygonsToo) {
     const auto small = threePatches();
     const Image circular = rendered(*small, 256);
@@ -381,7 +381,7 @@ TEST_F(CocControls, scaleOfAVertexIsThatOfItsObject) {
     small->world.pose.objects[2].cocScale = 0.25;
     const Image expected = rendered(*small, 64);
     small->world.pose.objects[2].cocScale = 1;
-    // The third patch uses a mesh with a blur attribute of 0.25.
+    // The third patch gets a mesh with a blur scale of 0.25 at its vertices.
     Mesh scaled = quad(0);
     scaled.vertices.blurs.assign(4, {0.25f, 0, 0});
     scaled.blurBounds = boundsOf(scaled.vertices.blurs);
@@ -414,7 +414,8 @@ TEST_F(CocControls, tiltedPlaneIsSharpAllAlong) {
     EXPECT_GT(rootMeanSquare(tilted, rendered(*small, 64)), 0.006) << "without the swing the sides are blurred";
 }
 
-// The CoC AOV equals the frame plan's CoC function for any combination of controls.
+// For any combination of controls, the AOV of the circle of confusion equals circleOfConfusion() with the frame plan's
+// parameters.
 TEST_F(CocControls, aovIsTheFunctionOfThePlan) {
     const auto small = checkeredFloor(4, 0.7, 12);
     Lens& lens = small->view.lens;
@@ -442,7 +443,8 @@ TEST_F(CocControls, aovIsTheFunctionOfThePlan) {
         }
 }
 
-// Post-process methods use the same CoC: if the controls limit all blur to zero, these methods give the pinhole image.
+// Post-process methods use the same circle of confusion. If the controls limit all blur to zero, these methods give the
+// pinhole image.
 TEST_F(CocControls, postProcessMethodsFollow) {
     for (const char* method : {"circular", "scheuermann:coc=thin-lens"}) {
         const auto small = threePatches();

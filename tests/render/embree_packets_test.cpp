@@ -1,4 +1,4 @@
-// Tests of the ray tracer's ray packets against its single rays in double precision, and against closed forms (no GPU).
+// Tests ray packets of the ray tracer against its single rays in double precision, and against closed forms (no GPU).
 
 #include <gtest/gtest.h>
 
@@ -117,7 +117,7 @@ TEST(EmbreePacketTiles, imagesThatCutPacketsAreWhole) {
     }
 }
 
-// A ray that hits the back face of a single-sided surface continues to the surface behind it.
+// A ray that meets the back of a single-sided surface continues to the surface behind it.
 TEST(EmbreePacketCulling, raysGoOnBehindBacks) {
     View view = bokehView(32, 32);
     view.lens.dofEnabled = false;

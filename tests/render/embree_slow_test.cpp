@@ -1,4 +1,4 @@
-// Tests of the ray tracer's bokeh, for every aperture that needs a mask, against the aperture's definition.
+// Tests the ray tracer's bokeh against the definition of each aperture that needs a mask.
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@
 namespace defocus::engine {
 namespace {
 
-// The bokeh of an aperture that is sampled by rejection, or given by an image, has the aperture's light density. The
-// tolerance covers the noise of the 18,000 rays that hit the bright square.
+// If lens points of an aperture are chosen by rejection, or the aperture is an image, the bokeh has the aperture's
+// light density. The tolerance covers the noise of the 18,000 rays that hit the bright square.
 TEST(EmbreeBokehShape, MaskedAperturesShowTheirDefinition) {
     View view = bokehView(36, 36);
     view.lens.fStop = 0.03;  // the square with a blur of 28 px just fits the image

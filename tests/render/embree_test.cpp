@@ -1,5 +1,4 @@
-// Tests of the ray tracer, which is the reference of other tests, against closed forms (no GPU, no code of the
-// rasterizer).
+// Tests the ray tracer against closed forms (no GPU, no code of the rasterizer). Other tests use it as their reference.
 
 #include <gtest/gtest.h>
 
@@ -57,7 +56,8 @@ TEST(EmbreeFocus, PlaneOfFocusIsUnchangedByTheAperture) {
     View closed = open;
     closed.lens.dofEnabled = false;
     const Scene scene = rectangleScene(open, {{10.3, 5.1, 31.7, 20.9, open.lens.focusDistance}}, glm::vec3(1));
-    // Both images use the same pixel samples. A hit may differ only where float rounding moves it across the edge.
+    // Images with open and closed aperture use the same pixel samples. A ray's hit may differ only where float rounding
+    // moves it across the edge.
     EXPECT_LE(largestDifference(traced(scene, open, 64), traced(scene, closed, 64)), 1.0 / 64);
 }
 
@@ -86,9 +86,9 @@ TEST(EmbreeFocus, BreathingNarrowsTheViewAsAThinLensDoes) {
     EXPECT_NEAR(lensCamera(view).tanHalfHorizontal, still * 0.05 * (1 / 0.05 - 1), 1e-12);
 }
 
-// With a foreground limit (Munkberg, Toth and Akenine-Möller 2012), a ray passes through the points that the limited C
-// requires: X(z) = z·d − tan(θx/2)·C(z)·(u, v) with the pixel's axis d, the horizontal field of view θx and the lens
-// point (u, v).
+// With a foreground limit on the circle of confusion C (Munkberg, Toth and Akenine-Möller 2012), a ray passes at depth
+// z through X(z) = z·d − tan(θx/2)·C(z)·(u, v). d is the pixel's axis, θx the horizontal field of view and (u, v) the
+// lens point.
 TEST(EmbreeLimitedForeground, raysAreThoseOfTheLimitedBlur) {
     for (const double focus : {1.5, 4.0, std::numeric_limits<double>::infinity()}) {
         View view = bokehView(200, 120);
@@ -103,7 +103,7 @@ TEST(EmbreeLimitedForeground, raysAreThoseOfTheLimitedBlur) {
             const LensRay behind = refractedRay(camera, image, eye);
             const glm::dvec2 axis(image.x * tangent, image.y * tangent * 120 / 200);
             for (const double z : {0.01, 0.1, 0.5, 0.9, 1.2, 3.0, 20.0}) {
-                // blur in px; positive in front of the focus
+                // blur in px; positive in front of the focal plane
                 const double plain = radius / tangent * (1 / z - 1 / focus) * 200;
                 const double shift = tangent * std::min(plain, 7.0) / 200;  // lateral offset per m of depth
                 const LensRay& ray = z < camera.lensDepth ? eye : behind;
@@ -154,8 +154,8 @@ TEST(EmbreeBokehShape, TriangleStandsUprightBehindFocusAndUpsideDownInFront) {
     View view = bokehView(64, 64);
     view.lens.bladeCount = 3;
     view.lens.bladeRotation = std::numbers::pi / 2;  // rotates the polygon so that its first corner points up
-    // Behind the focus, the image of a point moves with the lens point, so the bokeh has a corner at the top. In front
-    // of the focus, the corner is at the bottom.
+    // Behind the focal plane, the image of a point moves with the lens point, so the triangular bokeh has a corner at
+    // the top. In front of the focal plane, the corner is at the bottom.
     for (const double depth : {1.2, 6.0}) {
         const Image image = traced(rectangleScene(view, {quadAt(view, depth)}, glm::vec3(100)), view, 1024);
         const double radius = blurDiameter(view, depth) / 2;
@@ -287,8 +287,8 @@ TEST(EmbreePlanned, SamplePointsAreThoseOfThePlan) {
     const Scene scene = rectangleScene(view, {{30, 20, 33, 23, 6}}, glm::vec3(1));
     const World world = flatWorld(scene, blackBackground());
     FramePlan plan = planOf(view, 1);
-    // If the lens point moves right and up, objects behind the focus move right and up in the image. If the sample's
-    // position in the pixel moves right and up, the image moves left and down.
+    // If the lens point moves right and up, objects behind the focal plane move right and up in the image. If the
+    // sample's position in the pixel moves right and up, the image moves left and down.
     LensSample sample;
     sample.lens = glm::vec2(4 / radius, 6 / radius);
     sample.pixel = glm::vec2(0.4f, -0.4f);
@@ -297,7 +297,8 @@ TEST(EmbreePlanned, SamplePointsAreThoseOfThePlan) {
     EXPECT_DOUBLE_EQ(moments.mean.x, 31.5 + 4);
     EXPECT_DOUBLE_EQ(moments.mean.y, 21.5 - 6);
     sample.pixel = glm::vec2(0.4f, 0.4f);
-    // A lens point 0.2 px further moves the image across a pixel edge only together with the pixel offset of 0.4.
+    // A lens point that lies 0.2 px farther out moves the image across a pixel's border only together with a pixel
+    // offset of −0.4.
     sample.lens = glm::vec2(4.2 / radius, 6.2 / radius);
     plan.samples = {sample};
     const Moments further = momentsOf(renderedImage(*makeEmbreeRenderer(world, EmbreeSampling::planned), plan));

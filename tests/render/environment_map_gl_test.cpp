@@ -1,8 +1,7 @@
-// Tests of environments that vary with the direction: their radiance in a pixel, and their light on a surface.
-//
+// Tests environments that vary with the direction: their radiance in a pixel, and the radiance that a surface reflects.
 // Maps hold the radiance L(d) = 1 + linear and quadratic terms in d, which are spherical harmonics of the bands 0, 1
-// and 2. The clamped cosine scales the bands by 1, 2/3 and 1/4 (Ramamoorthi and Hanrahan 2001), so the matt reflection
-// is known.
+// and 2. The clamped cosine scales the bands by 1, 2/3 and 1/4 (Ramamoorthi and Hanrahan 2001), so the reflection of a
+// matt surface is known.
 
 #include <gtest/gtest.h>
 
@@ -81,8 +80,8 @@ TEST_F(EnvironmentMaps, aPixelSeesTheDirectionItLooksIn) {
     }
 }
 
-// Returns the fraction of light that reaches a wall's diffuse layer: the fraction that a black wall does not reflect
-// under a uniform radiance of 1.
+// Returns the fraction of light that reaches a wall's diffuse layer. It is measured as the fraction that a black wall
+// does not reflect under a uniform radiance of 1.
 double shareOfMattPart(Material material, const glm::dmat4& turn) {
     material.baseColorFactor = {0, 0, 0, 1};
     const auto small = turnedWall(material, turn);
@@ -90,8 +89,8 @@ double shareOfMattPart(Material material, const glm::dmat4& turn) {
     return 1 - static_cast<double>(wallImage(*small).at(16, 12)[0]);
 }
 
-// A matt wall reflects the light of the hemisphere in front of it. The difference between a white and a black wall is
-// the diffuse reflection.
+// A matt wall reflects the light of the hemisphere in front of it. The diffuse reflection is measured as the difference
+// between a white and a black wall.
 TEST_F(EnvironmentMaps, aMattWallGathersTheHemisphereBeforeIt) {
     for (const glm::dmat4& turn : turns())
         for (const float lighting : {1.0f, 0.5f}) {
@@ -113,7 +112,7 @@ TEST_F(EnvironmentMaps, aMattWallGathersTheHemisphereBeforeIt) {
         }
 }
 
-// A smooth white metal reflects all light from the mirrored direction.
+// A smooth white metal shows the radiance from the mirrored direction.
 TEST_F(EnvironmentMaps, aMirrorShowsTheMirroredDirection) {
     for (const glm::dmat4& turn : turns()) {
         Material mirror;
@@ -130,9 +129,10 @@ TEST_F(EnvironmentMaps, aMirrorShowsTheMirroredDirection) {
     }
 }
 
-// A matt wall under a gradient sky reflects the radiance E(n)/π. The irradiance E(n) is summed numerically over the
-// hemisphere in front of the wall. The renderer omits the bands beyond the second. The largest omitted band is the
-// fourth: its coefficient is −3/32 times zenith + nadir − 2·horizon, and the clamped cosine scales it by −1/24.
+// A matt wall under a gradient sky has the radiance E(n)/π. The irradiance E(n) is summed numerically over the
+// hemisphere in front of the wall. The renderer omits the spherical harmonics beyond the second band. The largest
+// omitted band is the fourth: its coefficient is −3/32 times zenith + nadir − 2·horizon, and the clamped cosine scales
+// it by −1/24.
 TEST_F(EnvironmentMaps, aMattWallUnderAGradientGathersItsHemisphere) {
     const Environment sky = {
         EnvironmentType::gradient, {0.6f, 0.8f, 1.0f}, {0.4f, 0.5f, 0.6f}, {0.1f, 0.1f, 0.2f}, nullptr, 1};

@@ -1,4 +1,4 @@
-// Tests of meshes whose vertices lie far from the origin of their object space.
+// Tests meshes whose vertices lie far from the origin of their object space.
 
 #include <gtest/gtest.h>
 
@@ -59,8 +59,8 @@ Image shiftedImage(SmallWorld& small, double cameraX) {
     return imageInFloats(small.world, planFrame(small.world, small.view, settings));
 }
 
-// A mesh far from its object's origin looks like the same mesh around the origin, even if the camera moves in steps of
-// 0.5 mm.
+// A mesh far from its object's origin looks like the same mesh around the origin. The camera moves in steps of 0.5 mm
+// to show rounding.
 TEST(FarMesh, looksLikeTheSameMeshAroundItsOrigin) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     for (const bool morphed : {false, true}) {

@@ -1,4 +1,4 @@
-// Tests of surfaces in a white furnace, with a radiance of 1 from all directions: no surface reflects more light than
+// Tests surfaces in a white furnace, with a radiance of 1 from all directions. No surface may reflect more light than
 // it receives, or a negative amount.
 
 #include <gtest/gtest.h>
@@ -54,7 +54,8 @@ constexpr float roughnesses[] = {0, 0.1f, 0.3f, 0.5f, 0.7f, 0.9f, 1};
 // cosines of the angle between normal and view axis; pixels deviate from the view axis by up to 20°
 constexpr double cosines[] = {1, 0.8, 0.5, 0.2, 0.05};
 
-// A white dielectric reflects all light: its diffuse base reflects the light that its specular layer transmits.
+// A white dielectric reflects all light: the specular layer transmits what it does not reflect, and the diffuse base
+// reflects that.
 TEST_F(Furnace, aWhiteDielectricThrowsBackAllOfTheLight) {
     for (const float roughness : roughnesses)
         for (const double cosine : cosines) {

@@ -1,5 +1,5 @@
 #pragma once
-// Helpers for tests of glass panes in front of the camera (KHR_materials_transmission and _volume).
+// Fixture for tests of glass panes in front of the camera (KHR_materials_transmission and _volume).
 
 #include "render/lit_wall.h"
 
@@ -15,7 +15,7 @@ protected:
         return result;
     }
 
-    // Returns glass that reflects nothing and colours transmitted light by `tint`.
+    // Returns a material of glass that reflects nothing and colours transmitted light by `tint`.
     static Material clear(const glm::vec3& tint = glm::vec3(1)) {
         Material result = glass();
         result.baseColorFactor = glm::vec4(tint, 1);
@@ -28,7 +28,7 @@ protected:
         small.scene.materials.push_back(material);
         Mesh mesh = quad(static_cast<int>(small.scene.materials.size()) - 1);
         mesh.vertices.colors = {
-            {0, 0.25f, 1, 1}, {1, 0.25f, 1, 1}, {1, 0.75f, 1, 1}, {0, 0.75f, 1, 1}};  // red grows along x
+            {0, 0.25f, 1, 1}, {1, 0.25f, 1, 1}, {1, 0.75f, 1, 1}, {0, 0.75f, 1, 1}};  // the red channel grows along x
         small.scene.meshes.push_back(std::move(mesh));
         place(small, static_cast<int>(small.scene.meshes.size()) - 1,
               glm::scale(glm::translate(small.view.worldFromCamera, glm::dvec3(0, 0, -depth)), glm::dvec3(scale)));

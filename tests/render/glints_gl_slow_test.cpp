@@ -1,4 +1,4 @@
-// Tests of glints of a glossy surface that are far smaller than a pixel. The filter that spreads them keeps their mean
+// Tests glints of a glossy surface that are far smaller than a pixel. A filter that spreads glints keeps their mean
 // radiance, and its bias falls as the number of samples grows.
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ private:
     static inline std::unique_ptr<GlContext> context_;
 };
 
-// Returns a ball about 40 px across, with a ripple every 5 to 10 px.
+// Returns a ball about 40 px across with ripples that are 5 to 10 px long.
 std::unique_ptr<SmallWorld> rippledBall(float roughness, float metallic) {
     auto small = std::make_unique<SmallWorld>();
     Material glossy;
@@ -45,8 +45,8 @@ PlacedLight sun(const glm::dvec3& direction, float intensity) {
     return placed;
 }
 
-// Returns suns in all directions, evenly on a spiral from pole to pole (Vogel 1979), with a different offset for each
-// `set`. With a single sun, the result would depend on the positions of the ripples' caustics.
+// Returns suns in all directions, evenly on a spiral from pole to pole (Vogel 1979). Each value of `set` gives all suns
+// another offset. With a single sun, the result would depend on the positions of the ripples' caustics.
 std::vector<PlacedLight> sunsAllAround(std::uint32_t set) {
     constexpr int count = 60;
     std::vector<PlacedLight> suns;
@@ -103,8 +103,8 @@ double worstPixel(const Image& image, const Image& converged) {
     return worst;
 }
 
-// The converged image has single white pixels, too, because glints are smaller than a pixel and up to 500 times as
-// bright.
+// The error is measured against a converged image that has white pixels, too, because glints are smaller than a pixel
+// and up to 500 times as bright.
 TEST_F(Glints, convergeWithinTheFirstSamples) {
     for (const float metallic : {0.0f, 1.0f})
         for (const float roughness : {0.05f, 0.2f})

@@ -1,4 +1,4 @@
-// Tests of the scene's data on the GPU: how many buffers meshes take, what the buffers hold, and uniform blocks of
+// Tests the scene's data on the GPU: that small meshes share buffers, what the buffers hold, and uniform blocks of
 // materials.
 
 #include <set>
@@ -16,7 +16,7 @@ class GpuSceneTest : public GlTest {
 protected:
     static constexpr int quads = 300;
 
-    // A world of shifted quads and a sphere, which is too large to share buffers.
+    // Makes a world of many quads at different depths and a sphere. The sphere is too large to share buffers.
     GpuSceneTest() {
         for (int i = 0; i < quads; ++i) {
             small_.scene.meshes.push_back(quad(-1));
@@ -28,7 +28,7 @@ protected:
 
     static float shift(int mesh) { return static_cast<float>(mesh) / 512; }
 
-    // Returns a plan that draws level 0 of the quads and one level of the sphere.
+    // Returns a plan that draws the quads at level of detail 0 and the sphere at `levelOfSphere`.
     [[nodiscard]] FramePlan planWith(std::size_t levelOfSphere) const {
         FramePlan plan;
         for (std::size_t mesh = 0; mesh < small_.world.pyramids.size(); ++mesh) {

@@ -1,5 +1,6 @@
-// Tests of textures of the KHR_materials extensions. For each slot, they test the channel that is read, its decoding,
-// and the product with its factor. Each pixel is compared with the value computed from its texel.
+// Tests textures of the KHR_materials extensions. For each texture slot, they check which channel is read, how it is
+// decoded, and that it is multiplied by the slot's factor. Each pixel is compared with the value computed from its
+// texel.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +27,7 @@ std::unique_ptr<SmallWorld> texturedWall(const Material& material, TextureUse Ma
     return small;
 }
 
-// Returns the relative error that is due to the driver's sRGB decoding of the texel.
+// Returns the relative error of the texel's linear colour that the driver's sRGB decoding may cause.
 glm::dvec3 relativeErrors(const Texel& texel) {
     return decodingErrors(texel) / decoded(texel);
 }
@@ -48,7 +49,7 @@ void expectSurface(const Material& material, TextureUse Material::*slot,
 
 // ---- transmission and volume
 
-// Adds a white sky that is visible through the wall but lights nothing.
+// Adds a white sky that is visible through the wall but does not light any surface.
 void lightFromBehind(SmallWorld& small) {
     small.world.environment.zenith = glm::vec3(1);
     small.world.environment.lighting = 0;
@@ -106,7 +107,7 @@ TEST_F(LayerTextures, alphaOfSpecularScalesTheReflectance) {
 
 TEST_F(LayerTextures, specularColourIsDecodedAndScaled) {
     Material glossy = glossyMaterial();
-    // black base colour, so the strongest channel of the reflectance, which reduces the base, does not matter
+    // with a black base, the dimming of the base by the strongest channel of the reflectance has no effect
     glossy.baseColorFactor = {0, 0, 0, 1};
     glossy.specularColorFactor = {1, 0.5f, 2};
     expectSurface(

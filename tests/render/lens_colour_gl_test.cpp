@@ -1,4 +1,4 @@
-// Tests of axial chromatic aberration and the cat's eye effect, measured on the bokeh of one bright point.
+// Tests axial chromatic aberration and the cat's eye effect, measured on the bokeh of one bright point.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ std::unique_ptr<GlContext> LensColour::context_;
 
 struct Blob {
     glm::dvec3 energy{0};  // Σ radiance
-    glm::dvec3 moment{0};  // sum of radiance · squared distance from the centroid, divided by the energy, px²
+    glm::dvec3 moment{0};  // mean squared distance from the centroid, weighted by radiance, px²
     glm::dvec2 centre{0};
 };
 
@@ -73,9 +73,9 @@ View viewOf(double fStop) {
     return view;
 }
 
-// Each wavelength t, from 0 (red) to 1 (blue), is blurred according to its own focus. With the weight w(t) of a colour
-// channel and the diameter c(t) of the blur, the channel's second moment is E[w(t)·c(t)²]/8, as a disk of diameter c
-// has c²/8. The size of the point and the pixel filter add a constant, which is measured without the aberration.
+// Each wavelength t, from 0 (red) to 1 (blue), has its own focus distance and a blur of diameter c(t). A uniform disk
+// of diameter c has the second moment c²/8. A colour channel with weight w(t) therefore has the second moment
+// E[w(t)·c(t)²]/8. The size of the point and the pixel filter add a constant, which is measured without the aberration.
 TEST_F(LensColour, bandsHaveTheBlurOfTheirOwnFocus) {
     View view = viewOf(0.35);
     view.lens.axialChromaticAberration = 0.08;
@@ -105,8 +105,8 @@ TEST_F(LensColour, bandsHaveTheBlurOfTheirOwnFocus) {
     EXPECT_GT(blob.moment.b, 1.1 * blob.moment.r) << "behind the focus blue is blurred more";
 }
 
-// A grey scene stays grey under each aberration alone. Both aberrations together are not tested: pixels would use
-// different subsets of the samples, and sampling noise would tint them.
+// A grey scene stays grey under chromatic aberration and under the cat's eye effect. Both together are not tested:
+// pixels would use different subsets of the samples, and sampling noise would tint them.
 TEST_F(LensColour, greyStaysGrey) {
     const Scene empty;
     Environment grey = blackBackground();
@@ -153,7 +153,8 @@ TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
             across += weight * std::pow(away.x * outward.y - away.y * outward.x, 2);
         }
 
-    // Expected second moments, from lens points that lie inside both circles as seen from each pixel of the bokeh.
+    // Expected second moments, computed from the lens points that lie inside both circles for the pixel that they
+    // light.
     const double diameter = 0.05 / 0.35 * (1 / 2.0 - 1 / depth) * 128 / 0.72;
     const double corner = std::sqrt(1 + 0.75 * 0.75);
     double expectedAlong = 0;

@@ -1,7 +1,6 @@
 #pragma once
-// A wall that fills the frame of a pinhole camera, with one sample per pixel, and the radiance of each pixel by glTF
-// 2.0's equations. The equations are evaluated in double precision, with half vectors and angles as written in the glTF
-// specification.
+// Makes a wall that fills the frame of a pinhole camera with one sample per pixel, and computes each pixel's expected
+// radiance. The equations of glTF 2.0 are evaluated in double precision, with half vectors and angles as specified.
 
 #include <gtest/gtest.h>
 
@@ -22,8 +21,8 @@ namespace defocus::engine {
 
 inline constexpr double wallDepth = 2;  // distance in m in front of the camera
 
-// Returns the wall and its camera. The camera looks along none of the world axes and is not at the origin, so that
-// world and camera coordinates cannot be confused.
+// Returns the wall and its camera. The camera is not at the origin and looks along no world axis, so that a test fails
+// if world and camera coordinates are confused.
 inline std::unique_ptr<SmallWorld> litWall(const Material& material) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(material);
@@ -56,13 +55,13 @@ inline Image wallImage(const SmallWorld& small) {
     return imageInFloats(small.world, wallPlan(small));
 }
 
-// The point of the wall that a pixel's single sample sees, in world coordinates.
+// The point of the wall that the single sample of pixel (x, y) sees, in world coordinates.
 struct WallPoint {
     int x = 0, y = 0;
     glm::dvec3 position{0.0};
     glm::dvec3 normal{0.0};  // unit normal, towards the camera
     glm::dvec3 toEye{0.0};
-    glm::dvec2 uv{0.0};  // first texture coordinate set
+    glm::dvec2 uv{0.0};  // first set of texture coordinates
 };
 
 inline std::vector<WallPoint> wallPoints(const SmallWorld& small) {
@@ -86,7 +85,7 @@ inline std::vector<WallPoint> wallPoints(const SmallWorld& small) {
     return points;
 }
 
-// Parameters of one surface point in glTF 2.0, appendix B.
+// Parameters of a surface in the equations of glTF 2.0, appendix B.
 struct GltfSurface {
     glm::dvec3 baseColor{1.0};
     double metallic = 0;
@@ -120,8 +119,8 @@ inline glm::dvec3 reflectedShare(const GltfSurface& surface, const glm::dvec3& n
     return nl * ((1.0 - reflected) * diffuse + fresnel * (distribution * visibility));
 }
 
-// Light that reaches a point: the illuminance of a surface that faces the light, and the unit direction towards the
-// light (KHR_lights_punctual).
+// Light that reaches a point, by KHR_lights_punctual: the illuminance of a surface that faces the light, and the unit
+// direction towards the light.
 struct Illumination {
     glm::dvec3 illuminance{0.0};
     glm::dvec3 toLight{0.0};
@@ -172,9 +171,9 @@ inline void expectRadiance(const Image& image, const WallPoint& point, const glm
             << "at " << point.x << ", " << point.y << ", channel " << c;
 }
 
-// Expects a pixel to have the radiance `expected` to within rounding. Single precision over some dozens of operations
-// errs by 2e-5. The GGX distribution compares the half vector's cosine with α², which magnifies rounding. `slope` is
-// the change of the radiance over the uncertainty of the position.
+// Expects a pixel to have the radiance `expected`, within rounding errors. Single precision over some dozens of
+// operations errs by 2e-5. The GGX distribution magnifies rounding of the half vector's cosine in proportion to 1/α².
+// `slope` is the change of the radiance over the uncertainty of the position.
 inline void expectLitRadiance(const Image& image, const WallPoint& point, const glm::dvec3& expected, double roughness,
                               const glm::dvec3& slope = glm::dvec3(0)) {
     const double relative = 2e-5 + 1e-6 / std::pow(roughness, 4);

@@ -1,5 +1,5 @@
-// Tests of KHR_materials_anisotropy, _iridescence, _diffuse_transmission and _dispersion, and of the compensation of
-// multiple scattering: a wall's radiance against equations and integrals in double precision.
+// Tests KHR_materials_anisotropy, _iridescence, _diffuse_transmission and _dispersion, and the compensation of multiple
+// scattering. A wall's radiance is compared with equations and integrals in double precision.
 
 #include <complex>
 
@@ -25,7 +25,7 @@ protected:
         return imageInFloats(small->world, planFrame(small->world, small->view, settings));
     }
 
-    // Returns the mean of the four middle pixels, between which the view axis passes.
+    // Returns the mean of the four middle pixels, at whose common corner the view axis passes.
     static glm::dvec3 middleOf(const Image& image) {
         glm::dvec3 sum(0);
         for (const auto& [x, y] : {std::pair(15, 11), {16, 11}, {15, 12}, {16, 12}})
@@ -42,8 +42,8 @@ protected:
 
 // ---- multiple scattering
 
-// `single` is the single-scattering albedo of GGX with height-correlated masking at normal incidence, which was
-// integrated with other code.
+// The reference `single` is the single-scattering albedo of GGX with height-correlated masking at normal incidence,
+// integrated by independent code.
 TEST_F(MaterialExtensions, roughWhiteMetalKeepsItsLightWithMultipleScattering) {
     for (const auto& [roughness, single] : {std::pair(0.2f, 0.9986), {0.4f, 0.967}, {0.6f, 0.824}, {1.0f, 0.307}}) {
         EXPECT_NEAR(middleOf(furnaceImage(metal(roughness), 1)).x, single, 0.005) << roughness;
@@ -68,8 +68,8 @@ struct Widths {
     double along, across;
 };
 
-// Returns D·V as specified by KHR_materials_anisotropy. The components of `v` and `l` are along the stretch, across it
-// and along the normal.
+// Returns D·V, distribution times visibility, by KHR_materials_anisotropy. The components of `v` and `l` are along the
+// tangent, across it and along the normal.
 double stretchedGgx(const Widths& widths, const glm::dvec3& v, const glm::dvec3& l) {
     const glm::dvec3 h = glm::normalize(v + l);
     const glm::dvec3 scaled(h.x / widths.along, h.y / widths.across, h.z);
@@ -110,7 +110,8 @@ TEST_F(MaterialExtensions, stretchedHighlightsFollowTheirEquations) {
     }
 }
 
-// Returns the albedo of a white stretched metal, ∫ D·V·(n·l) dl, by the midpoint rule in the half vector's slopes.
+// Returns the albedo ∫ D·V·(n·l) dl of a white metal with anisotropic roughness, by the midpoint rule in the half
+// vector's slopes.
 double stretchedAlbedo(const Widths& widths, const glm::dvec3& v) {
     constexpr int rings = 400, sectors = 400;
     double sum = 0;
@@ -213,13 +214,13 @@ TEST_F(MaterialExtensions, filmsReflectTheColoursOfInterference) {
                 }
 }
 
-// With light from the eye's direction, the half vector also points to the eye.
+// If light comes from the eye's direction, the half vector also points to the eye.
 TEST_F(MaterialExtensions, filmsColourTheHighlightsOfLights) {
     const float thickness = 300;
     const auto small = litWall(filmed(0.3f, 1.8f, thickness, 0.4f));
     small->world.lights = {sunFrom(fromWall(*small, {0, 0, -1}), 3)};
     const glm::dvec3 seen = middleOf(wallImage(*small));
-    const double unfilmed = 3 / (4 * std::numbers::pi * 0.16 * 0.16);  // E·D·V for n = v = l
+    const double unfilmed = 3 / (4 * std::numbers::pi * 0.16 * 0.16);  // without a film: E·D·V for n = v = l
     const glm::dvec3 expected = filmColor(1, 0.3, 1.8, thickness) * unfilmed;
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], expected[c], 0.035 * unfilmed) << c;
 }
@@ -244,8 +245,8 @@ TEST_F(MaterialExtensions, aWhiteSheetPassesOnAllLight) {
     for (const float share : {0.25f, 1.0f}) EXPECT_NEAR(middleOf(furnaceImage(sheet(share), 0.8)).x, 1, 1e-5) << share;
 }
 
-// A sheet with the diffuse transmission t that neither reflects specularly nor absorbs divides the irradiance E·cos θ
-// between its sides. The lit side has the radiance (1 − t)·E·cos θ/π, the other side t·E·cos θ/π.
+// A thin surface with the diffuse transmission t that neither reflects specularly nor absorbs divides the irradiance
+// E·cos θ between its sides. The lit side has the radiance (1 − t)·E·cos θ/π, the other side t·E·cos θ/π.
 TEST_F(MaterialExtensions, aSheetDividesTheLightOfASunBetweenItsSides) {
     for (const float side : {-1.0f, 1.0f})
         for (const float share : {0.25f, 1.0f}) {

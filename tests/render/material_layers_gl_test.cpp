@@ -1,5 +1,5 @@
-// Tests of KHR_materials_ior, _specular, _clearcoat and _sheen: a wall's radiance against their equations in double
-// precision, and energy in a white furnace.
+// Tests KHR_materials_ior, _specular, _clearcoat and _sheen: a wall's radiance against the specifications' equations in
+// double precision, and energy in a white furnace.
 
 #include <gtest/gtest.h>
 
@@ -78,7 +78,7 @@ TEST_F(MaterialLayers, specularScalesAndColoursTheReflectance) {
     colored.specularColorFactor = {0.2f, 0.9f, 0.5f};
     colored.ior = 2;
     expectWall(colored, {{0.5f, 0.2f, 0.4f}, 0, 0.3f, reflectanceOf(2) * glm::dvec3(0.2f, 0.9f, 0.5f)});
-    colored.metallicFactor = 1;  // a metal, since metals ignore both factors
+    colored.metallicFactor = 1;  // the material is a metal, which ignores both factors
     expectWall(colored, {{0.5f, 0.2f, 0.4f}, 1, 0.3f});
 }
 
@@ -89,8 +89,8 @@ TEST_F(MaterialLayers, aCoatReflectsAsTheStandardsDielectricOfItsOwnRoughness) {
     expectWall(coated, {glm::dvec3(0), 0, 0.3f}, 0.5);
 }
 
-// At normal incidence, a smooth coat reflects ((1.5 − 1)/(1.5 + 1))² = 0.04 of the furnace's light. A black wall below
-// the coat adds nothing. Below the coat, a base that emits a radiance of 1 raises the sum to 1.
+// At normal incidence, a smooth coat reflects ((1.5 − 1)/(1.5 + 1))² = 0.04 of the furnace's radiance of 1. A black
+// base below the coat adds nothing. A base that emits a radiance of 1 adds 0.96 through the coat, so the sum is 1.
 TEST_F(MaterialLayers, aSmoothCoatThrowsBackFourPercentFromStraightAhead) {
     Material coated = nothing();
     coated.clearcoatFactor = 1;

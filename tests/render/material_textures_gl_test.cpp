@@ -1,5 +1,5 @@
-// Tests of textured pixels against values computed from texels: the meaning of each channel, its decoding, and the
-// texel's position on the surface.
+// Tests textured pixels against values computed from texels: which channel is read, how it is decoded, and where the
+// texel lies on the surface.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,8 @@ TEST_F(MaterialTextures, greenIsRoughnessAndBlueIsMetalness) {
     });
 }
 
-// Occlusion, in the red channel, darkens only the light of the environment, not the light of lamps or emission.
+// Occlusion is read from the red channel. It darkens only the light of the environment, not the light of lamps or
+// emission.
 TEST_F(MaterialTextures, redOccludesTheEnvironmentOnly) {
     Material material;
     material.metallicFactor = 0;
@@ -47,7 +48,7 @@ TEST_F(MaterialTextures, redOccludesTheEnvironmentOnly) {
     });
 }
 
-// Emission is the decoded sRGB texel times a linear factor, which may exceed 1, and needs no lamp.
+// Emission is the decoded sRGB texel times a linear factor, which may exceed 1. It is visible without any lamp.
 TEST_F(MaterialTextures, emissionIsDecodedAndScaled) {
     Material material;
     material.emissiveFactor = {5, 0.5f, 1};
@@ -100,7 +101,7 @@ TEST_F(MaterialTextures, alphaMaskCutsHoles) {
     }
     EXPECT_GT(holes, 100);
     EXPECT_GT(left, 100);
-    // At a cutoff of 1, texels with an alpha of 1 are kept if the factor is 1.
+    // At a cutoff of 1, texels with an alpha of 1 are kept if the alpha factor is 1, too.
     small->scene.materials[0].baseColorFactor.a = 1;
     small->scene.materials[0].alphaCutoff = 1;
     const Image full = wallImage(*small);
@@ -162,7 +163,7 @@ TEST_F(MaterialTextures, coordinatesWrapAsTheTextureSays) {
     };
     const auto small = litWall(unlitMaterial(glm::vec4(1)));
     Mesh& mesh = small->scene.meshes[0];
-    // texture coordinates −1.7 … 2.7 over the visible width of the wall
+    // texture coordinates run from −1.7 to 2.7 over the visible width of the wall
     for (glm::vec2& uv : mesh.vertices.uv0) uv = 6.0f * uv - 2.5f;
     finish(*small);
     small->scene.materials[0].baseColor.texture = addTexture(small->scene, 4, scrambled);
@@ -187,8 +188,8 @@ TEST_F(MaterialTextures, coordinatesWrapAsTheTextureSays) {
         }
 }
 
-// Each 8-bit code of a base colour texture is decoded, then multiplied by the linear factor and the linear vertex
-// colours.
+// Each of the 256 sRGB values of a base colour texture is decoded, then multiplied by the linear factor and the linear
+// vertex colours.
 TEST_F(MaterialTextures, allCodesOfABaseColourAreDecoded) {
     const auto small = litWall(unlitMaterial({0.5f, 1, 1, 1}));
     Mesh& mesh = small->scene.meshes[0];
@@ -216,11 +217,12 @@ TEST_F(MaterialTextures, allCodesOfABaseColourAreDecoded) {
         ASSERT_TRUE(nearestCode(5.0 * pixel[1], texel[1])) << texel[1] << ": " << pixel[1];
         ASSERT_TRUE(nearestCode(pixel[2], texel[2])) << texel[2] << ": " << pixel[2];
     }
-    // At least 80 of the 256 codes lie in the visible part.
+    // At least 80 of the texture's 256 texels, each with another sRGB value, must be visible in the image.
     EXPECT_GT(std::ranges::count_if(seen, [](int times) { return times > 0; }), 80);
 }
 
-// Dark vertex colours are kept, since they are linear with 16 bits. With 8 bits, the first colour would become zero.
+// Dark vertex colours stay accurate, since they are stored linearly with 16 bits. With 8 bits, the first colour would
+// become zero.
 TEST_F(MaterialTextures, darkVertexColoursAreKept) {
     const auto small = litWall(unlitMaterial(glm::vec4(1)));
     small->scene.meshes[0].vertices.colors.assign(4, {118.0f / 65535, 0.0005f, 0.3f, 1});
@@ -230,7 +232,7 @@ TEST_F(MaterialTextures, darkVertexColoursAreKept) {
         expectRadiance(image, point, {118.0 / 65535, 0.0005, 0.3}, glm::dvec3(8e-6));
 }
 
-// Vertex colours that are fitted for a coarse level may lie outside [0, 1] and are not clamped.
+// Vertex colours of a coarse level of detail are fitted, may lie outside [0, 1] and are not clamped.
 TEST_F(MaterialTextures, fittedVertexColoursAreNotClamped) {
     const auto small = litWall(unlitMaterial({0.5f, 1, 1, 1}));
     small->scene.meshes[0].vertices.colors.assign(4, glm::vec4(1));
@@ -249,7 +251,8 @@ TEST_F(MaterialTextures, fittedVertexColoursAreNotClamped) {
         expectRadiance(image, point, {0.75, 0.25, -0.125}, glm::dvec3(1e-6));
 }
 
-// Texture filtering interpolates linear values, not sRGB codes. The interpolation weights have at least 8 bits.
+// Texture filtering interpolates linear values, not sRGB-encoded values. The interpolation weights have at least 8
+// bits.
 TEST_F(MaterialTextures, filteringMixesLight) {
     const auto small = litWall(unlitMaterial(glm::vec4(1)));
     const auto code = [](int column, int) { return column == 0 ? Texel{0, 40, 255, 255} : Texel{255, 200, 90, 255}; };

@@ -1,5 +1,5 @@
 #pragma once
-// Fixture for a ball of white metal, far from the camera.
+// Fixture for images of a far ball of white metal, whose reflected light is known in closed form.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ protected:
     static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
 
-    // distance in m, so large that all visible light leaves in almost the same direction
+    // distance in m, so large that all light towards the camera has almost the same direction
     static constexpr double ballDepth = 200;
     static constexpr double ballRadius = 1;
     static constexpr double ballFocalLength = 2000;  // mm
@@ -52,7 +52,7 @@ protected:
         return imageInFloats(small.world, planFrame(small.world, small.view, settings));
     }
 
-    // Returns the integral of the image's red channel over the solid angle.
+    // Returns the integral of the image's red channel over the solid angle, which is the intensity towards the camera.
     static double intensityOf(const Image& image) {
         const double pixel = 36.0 / ballFocalLength / image.width;  // pixel size on the image plane at distance 1
         double sum = 0;

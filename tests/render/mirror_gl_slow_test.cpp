@@ -1,12 +1,12 @@
-// Tests that highlights of a near-mirror, which are far smaller than a pixel, converge with few samples.
+// Tests that the highlight of a near-mirror, which is far smaller than a pixel, has the right energy with few samples.
 
 #include "render/mirror_ball.h"
 
 namespace defocus::engine {
 namespace {
 
-// A mirror ball of radius r under a sun of illuminance E sends the intensity E·r²/4 in all directions. Its highlight is
-// far smaller than a pixel, so few samples meet the highlight, or none.
+// A mirror ball of radius r under a sun of illuminance E sends the intensity E·r²/4 in every direction. Its highlight
+// is far smaller than a pixel, so few samples or none hit the highlight.
 TEST_F(Mirror, aBallSendsTheSunsLightToAllSidesAlike) {
     for (const float roughness : {0.0f, 0.05f, 0.2f})
         for (const glm::dvec3& way : {glm::dvec3(-0.3, -0.8, -1), {1, -0.3, -0.2}, {0.6, 0.7, -0.5}}) {

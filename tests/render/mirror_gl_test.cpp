@@ -1,4 +1,4 @@
-// Tests of the brightness of near-mirrors at every level of detail.
+// Tests the brightness of near-mirrors at every level of detail.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// Under uniform light, a mirror is as bright as that light at every level of detail.
+// Under a uniform environment, a mirror has the environment's radiance at every level of detail.
 TEST_F(Mirror, everyLevelIsAsBright) {
     const auto small = mirrorBall(0);
     const glm::vec3 white(1);

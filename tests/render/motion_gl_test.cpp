@@ -1,4 +1,4 @@
-// Tests of motion blur against closed forms, and against the mean of images without motion.
+// Tests motion blur against closed forms, and against the mean of images without motion.
 
 #include <gtest/gtest.h>
 
@@ -72,8 +72,8 @@ struct WhiteSquare : SmallWorld {
     }
 };
 
-// A square that moves past a pixel covers it for a fraction of the exposure; over the row, these fractions form a
-// trapezoid. A square of width 2a that moves by D covers pixel x while |x − D(t − 1/2)| < a.
+// A square that moves by D over the exposure covers a pixel for a fraction of the time. Along a row, these fractions
+// form a trapezoid: a square of width 2a covers pixel x at the times t in [0, 1] with |x − D(t − 1/2)| < a.
 TEST_F(Motion, aSquareThatGoesByLeavesATrapezoid) {
     constexpr double a = 8, way = 40;
     WhiteSquare square(a);
@@ -151,14 +151,14 @@ TEST_F(Motion, segmentsFollowARotation) {
     // 16 segments of 11.25° deviate from the arc by 0.5 % of the radius, a tenth of a pixel.
     EXPECT_GT(compareImages(exact, sixteen).psnr, 35);
     EXPECT_LT(compareImages(exact, one).psnr, 20);
-    // Over a single segment, a rotation by 180° moves the corners along straight lines through the centre. The square
-    // shrinks to a point on the way and sends less light.
+    // Over a single motion segment, a rotation by 180° moves the corners along straight lines through the centre. The
+    // square shrinks to a point on the way, so the sum of pixels is smaller.
     EXPECT_LT(sumOf(one), 0.5 * sumOf(exact));
     EXPECT_NEAR(sumOf(exact), 32 * 32, 10);
 }
 
-// Returns the mean of images of one sample each. Each image shows the scene and the camera without motion at the
-// sample's time.
+// Returns the mean of images of one sample each. Each image shows the scene and the camera at rest, in their poses at
+// the sample's time.
 Image meanOfMoments(const World& world, const View& view, std::uint32_t samples) {
     Image sum;
     for (std::uint32_t i = 0; i < samples; ++i) {
@@ -178,8 +178,8 @@ Image meanOfMoments(const World& world, const View& view, std::uint32_t samples)
 }
 
 // Expects motion blur to equal the mean of images without motion at the samples' times. The scene has a skinned figure,
-// a moving camera, defocus, and a lamp that does not rotate with the camera. `fStop` and `candela` suit the size of the
-// figure.
+// a rotating camera, defocus, and a lamp at the camera's position that does not move. `fStop` and `candela` suit the
+// size of the figure.
 void expectMeanOfMoments(const std::filesystem::path& path, int clip, double fStop, float candela) {
     constexpr std::uint32_t samples = 16;
     const auto small = posedWorld(path, 0.3, clip);
@@ -214,7 +214,7 @@ TEST_F(Motion, aRunningFoxBeforeAMovingCameraIsTheMeanOfItsMoments) {
     expectMeanOfMoments(path, 2, 0.02, 20'000);  // large values, since the fox is a hundred metres long
 }
 
-// Returns five spheres with a morph target, which openShutter() moves along straight lines in front of a moving camera.
+// Returns five spheres with a morph target. openShutter() moves them along straight lines and moves the camera.
 std::unique_ptr<SmallWorld> straightWays() {
     auto small = fiveSpheres();
     small->world.environment = {EnvironmentType::uniform, {0.2f, 0.3f, 0.4f}, {}, {}, nullptr, true, 1};
@@ -242,7 +242,8 @@ void openShutter(SmallWorld& small, const std::vector<double>& shares) {
     }
 }
 
-// Translation is linear in time, so one motion segment is exact, also for morph targets and under blur controls.
+// Translation is linear in time, so one motion segment between two poses is exact. This includes morph targets and blur
+// controls.
 TEST_F(Motion, oneSegmentIsExactForTranslationAndMorphs) {
     constexpr std::uint32_t samples = 16;
     for (const bool controlled : {false, true}) {

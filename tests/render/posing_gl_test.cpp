@@ -1,4 +1,4 @@
-// Tests of skins and morph targets on the GPU against static meshes that the CPU posed at the same time.
+// Tests skins and morph targets on the GPU against static meshes, posed by the CPU for the same time.
 
 #include <gtest/gtest.h>
 
@@ -35,8 +35,8 @@ RenderSettings levelZeroSettings() {
     return settings;
 }
 
-// Expects both images to be equal up to rounding. GPU and CPU round differently in single precision, so pixels may
-// differ where an edge passes close to a sample.
+// Expects the images of GPU-posed and CPU-posed (`baked`) meshes to be equal up to rounding. Single precision rounds
+// differently, so pixels may differ where an edge passes close to a sample.
 void expectSamePicture(const Image& posed, const Image& baked, const std::string& what) {
     const Difference difference = compareImages(baked, posed);
     EXPECT_EQ(difference.nonFinite, 0u) << what;
@@ -57,7 +57,7 @@ TEST_P(PosingOf, equalsTheBakedMeshes) {
 
 INSTANTIATE_TEST_SUITE_P(Models, PosingOf, testing::ValuesIn(posedModels), posedModelName);
 
-// Coarse levels are also posed: an unlit figure's coarsest level equals the same level posed on the CPU.
+// Coarse levels of detail are also posed: an unlit figure's coarsest level equals the same level posed on the CPU.
 TEST_F(Posing, coarseLevelsArePosedToo) {
     for (const char* file : {"meshes/reed.glb", "Fox.glb", "RiggedFigure.glb"}) {
         const auto posed = posedWorld(modelPath(file), 0.4, 0);
@@ -74,8 +74,8 @@ TEST_F(Posing, coarseLevelsArePosedToo) {
     }
 }
 
-// A skin with eight influences, one of which refers to a joint that the skin lacks, combines with morph targets that
-// have normals.
+// A skin with eight joints per vertex combines with morph targets that have normals. One of the joints is missing from
+// the skin.
 TEST_F(Posing, eightInfluencesAndMorphsTogether) {
     SmallWorld small;
     Material plain;

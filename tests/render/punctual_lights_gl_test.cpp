@@ -1,4 +1,5 @@
-// Tests of directional, point and spot lights in each pixel against glTF's equations in double precision.
+// Tests the radiance of each pixel under directional, point and spot lights against glTF's equations in double
+// precision.
 
 #include <gtest/gtest.h>
 
@@ -17,8 +18,8 @@ Material materialOf(const GltfSurface& surface) {
     return material;
 }
 
-// Returns the change of the radiance over half a step of the grid of 1/256 px to which GPUs round vertex positions.
-// Interpolated positions have errors up to that distance. Returns 0 for software rasterizers.
+// Returns the change of the radiance over 1/512 px, or 0 for software rasterizers. GPUs round vertex positions to a
+// grid of 1/256 px, so interpolated positions have errors up to half a grid step.
 glm::dvec3 overHalfAGridStep(const GltfSurface& surface, const WallPoint& point, const std::vector<PlacedLight>& lights,
                              const SmallWorld& small) {
     if (currentIsSoftware()) return glm::dvec3(0);
@@ -130,8 +131,7 @@ TEST_F(PunctualLights, aSpotFadesFromItsInnerToItsOuterCone) {
     EXPECT_GT(dark, 50);
 }
 
-// Several lights add up: both a few lights, which are constants of the shader, and many lights, which are read from a
-// buffer.
+// The radiance of several lights adds up. A few lights are constants of the shader; many lights are read from a buffer.
 TEST_F(PunctualLights, severalAddUp) {
     const GltfSurface surface{{0.8, 0.6, 0.4}, 0.2, 0.5};
     const auto small = litWall(materialOf(surface));

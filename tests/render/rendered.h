@@ -1,5 +1,5 @@
 #pragma once
-// Helpers that render complete images, with all samples of a plan.
+// Functions that render images with all samples of a plan.
 
 #include "plan/frame_plan.h"
 #include "render/methods.h"
@@ -13,7 +13,7 @@ inline Image imageOf(Renderer& renderer, const FramePlan& plan) {
     return renderer.image();
 }
 
-// Renders an image with 32-bit float layers. `method` is a method and its settings as on the command line.
+// Renders an image with 32-bit float layers. `method` is written as on the command line, for example "line:segments=4".
 inline Image imageByMethod(const char* method, const World& world, const FramePlan& plan) {
     const MethodUse use = parseMethodUse(method);
     RendererOptions options;
@@ -22,7 +22,7 @@ inline Image imageByMethod(const char* method, const World& world, const FramePl
     return imageOf(*use.method->make(world, options), plan);
 }
 
-// Renders an image by the accumulation with 32-bit float layers.
+// Renders an image by method "accumulation" with 32-bit float layers.
 inline Image imageInFloats(const World& world, const FramePlan& plan) {
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;

@@ -1,4 +1,4 @@
-// Tests of the shading of coarse levels whose normals describe a relief that the levels' triangles have lost.
+// Tests the shading of coarse levels of detail whose triangles have lost the relief that their normals still describe.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ private:
     static inline std::unique_ptr<GlContext> context_;
 };
 
-// Returns a square of side 2 with 12 × 12 hills of slopes up to 27°, and with the normals of these hills.
+// Returns a square of side 2 with 12 × 12 hills. Slopes reach 27°, and the normals are those of the hills.
 Mesh hills() {
     constexpr int cells = 96;
     constexpr double waves = 12;
@@ -60,8 +60,8 @@ double meanLight(const SmallWorld& small, LodMode lod) {
     return sum / covered;
 }
 
-// A flat level is as bright as the relief that it replaces. In an oblique view, the hillsides that face the eye cover
-// more of the picture. With only a mean normal, the flat level would be too dark by 0.06 at 55°.
+// A flat level of detail is as bright as the relief that it replaces. In an oblique view, hillsides that face the eye
+// cover more of the image. With only a mean normal, the flat level would be too dark by 0.06 at 55°.
 TEST_F(RoughLevels, areAsBrightAsTheirRelief) {
     SmallWorld small;
     Material matt;
@@ -83,7 +83,7 @@ TEST_F(RoughLevels, areAsBrightAsTheirRelief) {
             PlacedLight sun;
             sun.direction = glm::normalize(way);
             small.world.lights = {sun};
-            // Both means are in units of the radiance of a white face towards the sun.
+            // The mean radiances are relative to the radiance of a white surface that faces the sun.
             const double reference = std::numbers::pi * meanLight(small, LodMode::off);
             EXPECT_NEAR(std::numbers::pi * meanLight(small, LodMode::nearest), reference, 0.02)
                 << degrees << ' ' << way.x;

@@ -1,5 +1,5 @@
 #pragma once
-// Fixture for shadows of straight edges under a disk-shaped light: scenes, images and closed forms.
+// Fixture for shadows of straight edges under a disk-shaped sun: scenes, images, and the expected penumbra.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace defocus::engine {
 
 class Shadowed : public testing::Test {
 protected:
-    static constexpr double receiverDepth = 4;  // depth in m; all depths here are distances in front of the camera
+    static constexpr double receiverDepth = 4;  // distance in front of the camera, m
     static constexpr double tanHalfWidth = 36.0 / (2 * 50);
 
     static Material matt() {
@@ -31,7 +31,7 @@ protected:
         return material;
     }
 
-    // Returns a white wall that fills the image of a pinhole camera at the origin, without a light.
+    // Returns a white wall without lights that fills the image of a pinhole camera at the origin.
     static std::unique_ptr<SmallWorld> wall() {
         auto small = std::make_unique<SmallWorld>();
         small->scene.materials.push_back(matt());
@@ -105,9 +105,10 @@ protected:
         return 0.5 + (a * std::sqrt(1 - a * a) + std::asin(a)) / std::numbers::pi;
     }
 
-    // Returns the fraction of the sun's disk that lights the position x on the wall. An edge is at x = `left`, at the
-    // distance d in front of the wall. The sun stands 45° to the right, and t is the tangent of its angular radius. A
-    // point of the sun's disk at a·t from the disk's centre casts the edge's shadow to left − d·(1 + t·a)/(1 − t·a).
+    // Returns the fraction of the sun's disk that is visible from the position x on the wall. The board's left edge is
+    // at x = `left`, at the distance d in front of the wall. The sun stands 45° to the right, and t is the tangent of
+    // its angular radius. A point of the sun at a·t from the disk's centre casts the edge's shadow to left − d·(1 +
+    // t·a)/(1 − t·a).
     static double litShareBehindEdge(double x, double left, double d, double t) {
         const double q = (left - x) / d;
         return diskShare((q - 1) / ((q + 1) * t));

@@ -1,5 +1,4 @@
-// Slow tests of shadows: accumulation with different numbers of samples per wave, and multirate and post-process
-// methods.
+// Slow tests of shadows: with any number of samples drawn together, and with multirate and post-process methods.
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +27,7 @@ TEST_F(Shadowed, multirateAndPostProcessDrawThemToo) {
     const RenderSettings settings = settingsFor(64, Shadows::on);
     const Image accumulated = shadowImage(*small, settings);
     EXPECT_GT(compareImages(accumulated, shadowImage(*small, settings, "multirate")).psnr,
-              35);  // multirate uses different points on the lights
+              35);  // multirate samples the lights at other points
     const auto edge = wall();
     addSun(*edge, {1, 0, 1}, glm::radians(20.0));
     addEdge(*edge, 1, 1);
@@ -41,7 +40,7 @@ TEST_F(Shadowed, multirateAndPostProcessDrawThemToo) {
         max = std::max(max, std::abs(shares[static_cast<std::size_t>(x)] -
                                      litShareBehindEdge(place, 1, 1, std::tan(glm::radians(10.0)))));
     }
-    EXPECT_LT(max, 0.12);  // noise: each of 4 pinholes uses 16 points on the sun
+    EXPECT_LT(max, 0.12);  // noise: each of 4 pinhole images uses 16 points on the sun
 }
 
 }  // namespace

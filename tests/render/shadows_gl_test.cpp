@@ -1,4 +1,4 @@
-// Tests of shadows of straight edges under a disk-shaped light, against closed forms.
+// Tests shadows of straight edges under a disk-shaped light against closed forms.
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +24,8 @@ TEST_F(Shadowed, penumbraOfADiskBehindAnEdge) {
             finish(*small);
             const RenderSettings settings = settingsFor(256, Shadows::on);
             const std::vector<double> shares = litShares(*small, settings);
-            // The bias lifts the shadow map's lookup by at most a texel, which moves the shadow's edge by the same
-            // distance for light at 45°.
+            // A depth bias of up to a texel moves the shadow-map lookup towards the light. For light at 45°, this moves
+            // the shadow's edge by the same distance.
             const FramePlan plan = planFrame(small->world, small->view, settings);
             const double bias = shadowProjections(small->world, plan, {}).front().texel;
             double width = 0;  // number of columns in the penumbra
@@ -63,8 +63,8 @@ TEST_F(Shadowed, umbraIsDarkAndWhatNothingHidesIsLitUnchanged) {
     }
 }
 
-// No light leaks at a contact. A board stands on the wall with its foot at x = 0, and the wall is dark from the foot
-// on, except for the bias and a texel's width.
+// No light leaks where a board touches the wall. The board stands at x = 0, and the wall beside it is dark, except
+// within two texels of the board.
 TEST_F(Shadowed, noLightLeaksAtAContact) {
     const auto small = wall();
     addSun(*small, {1, 0, 1}, glm::radians(1.0));
@@ -81,15 +81,15 @@ TEST_F(Shadowed, noLightLeaksAtAContact) {
     for (int x = 0; x < small->view.width; ++x) {
         const double place = wallX(small->view, x);
         if (place > -2 * texel || place < -0.9)
-            continue;  // only 1 m is in shadow, and a texel is wider on the wall than across the light
+            continue;  // the shadow is 1 m wide; at the board, the depth bias lights up to two texels
         EXPECT_EQ(shares[static_cast<std::size_t>(x)], 0) << place;
         ++dark;
     }
     EXPECT_GT(dark, 15);
 }
 
-// Surfaces do not shadow themselves. A plane at grazing incidence and the lit side of a rippled ball, well inside its
-// outline, are as bright as without shadows.
+// Surfaces do not shadow themselves. A plane under grazing light is as bright as without shadows, and so is the lit
+// side of a rippled ball, well inside its outline.
 TEST_F(Shadowed, surfacesDoNotShadowThemselves) {
     for (const double degrees : {0.0, 45.0, 80.0, 87.0}) {
         const auto small = wall();
@@ -112,8 +112,8 @@ TEST_F(Shadowed, surfacesDoNotShadowThemselves) {
     EXPECT_LT(max, 0.02);
 }
 
-// The floor at the foot of a wall casts no shadow on the wall, although light grazes the wall and a texel of the shadow
-// map covers both. The sun's elevation of about 70° and its azimuth make the wall steep in the map.
+// The floor in front of a wall casts no shadow on the wall, although light grazes the wall and a texel of the shadow
+// map covers both. From the sun, at an elevation of about 70°, the wall is seen at a steep angle.
 TEST_F(Shadowed, floorDoesNotShadowTheFootOfAWall) {
     const auto small = wall();
     small->world.pose.objects.clear();
@@ -139,8 +139,8 @@ TEST_F(Shadowed, floorDoesNotShadowTheFootOfAWall) {
     EXPECT_GT(seen, 500);
 }
 
-// A pane of glass casts a shadow of the light that it absorbs. Its metalness of 1 is cancelled by a texture without
-// metal, another texture halves its transmission, and its volume absorbs by Beer-Lambert.
+// A pane of glass casts a shadow of the light that it absorbs. Textures cancel the pane's metalness of 1 and halve its
+// transmission, and its volume absorbs by Beer-Lambert.
 TEST_F(Shadowed, glassShadesByItsTexturesAndThickness) {
     constexpr double side = 4;  // side of the pane, m
     constexpr double thickness = 0.1;
@@ -175,7 +175,7 @@ TEST_F(Shadowed, glassShadesByItsTexturesAndThickness) {
     EXPECT_NEAR(sum / seen, expected, 0.01);
 }
 
-// A pane of coloured glass tints the light by its base colour at each surface, and by the absorption of its volume.
+// A pane of coloured glass tints the light by the base colours of both surfaces and by absorption inside the glass.
 TEST_F(Shadowed, colouredGlassTintsTheLight) {
     const glm::vec3 colour(1, 0.2f, 0.5f);
     for (const bool closed : {false, true}) {
@@ -252,8 +252,8 @@ TEST_F(Shadowed, blendedLayersShadeByTheirProduct) {
     EXPECT_NEAR(sum / seen, 0.6 * 0.3, 0.01);
 }
 
-// Lamps cast magnified shadows. A lamp 1 m in front of a board of 0.4 m and 2 m in front of the wall gives a shadow of
-// 0.8 m. The lamp uses one map, or six if an object also stands behind the lamp.
+// Lamps cast magnified shadows. A lamp 1 m in front of a board and 2 m in front of the wall doubles the board's width
+// of 0.4 m. The lamp needs one shadow map, or six if an object also stands behind the lamp.
 TEST_F(Shadowed, lampsThrowMagnifiedShadows) {
     for (const bool amid : {false, true}) {
         for (const LightType type : {LightType::point, LightType::spot}) {
@@ -282,7 +282,7 @@ TEST_F(Shadowed, lampsThrowMagnifiedShadows) {
     }
 }
 
-// Under a uniform sky, a tall, wide board hides half of the sky from the wall at its foot.
+// Under a uniform sky, a tall and wide board that stands on the wall hides half of the sky from the wall beside it.
 TEST_F(Shadowed, surroundingsAreHiddenByHalf) {
     const auto small = wall();
     small->world.environment = {EnvironmentType::uniform, glm::vec3(1), glm::vec3(1), glm::vec3(1), nullptr, 1};

@@ -1,5 +1,5 @@
 #pragma once
-// The equations of KHR_materials_sheen in double precision.
+// Evaluates the equations of KHR_materials_sheen in double precision.
 
 #include <algorithm>
 #include <cmath>

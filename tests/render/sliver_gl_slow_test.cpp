@@ -1,4 +1,5 @@
-// Tests of triangles far narrower than the subpixel precision of rasterizers.
+// Tests that no sample of a very narrow triangle has a colour outside the range of the corners' colours. The triangles
+// are far narrower than the subpixel precision of rasterizers.
 
 #include <gtest/gtest.h>
 

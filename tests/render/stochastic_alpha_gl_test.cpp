@@ -1,4 +1,4 @@
-// Tests of stochastic transparency: where blended surfaces have no common order, the mean over the lens samples equals
+// Tests stochastic transparency. Where blended surfaces have no common order, the mean over the lens samples equals
 // blending in depth order at each pixel.
 
 #include <gtest/gtest.h>
@@ -83,7 +83,8 @@ TEST_F(StochasticAlpha, crossingPanesOfOneMeshAreRightOnBothSides) {
         }
 }
 
-// The thresholds of a pixel are stratified over its samples: with one triangle, the error of N samples is at most 1/N.
+// A pixel's random thresholds for alpha are stratified over its samples, so with one triangle, the error of N samples
+// is at most 1/N.
 TEST_F(StochasticAlpha, oneTriangleErrsByOneSampleAtMost) {
     const auto small = crossingPanes();
     small->scene.meshes[0].primitives.pop_back();
@@ -115,7 +116,7 @@ TEST_F(StochasticAlpha, pixelsDoNotDependOnTheWave) {
     EXPECT_EQ(std::memcmp(first.pixels.data(), other.pixels.data(), first.pixels.size() * sizeof(float)), 0);
 }
 
-// Returns two layers of one primitive over a blue sky. The nearer layer is first in the index list.
+// Returns a mesh of one primitive with two layers over a blue sky. The nearer layer is first in the index list.
 std::unique_ptr<SmallWorld> twoLayers() {
     auto small = crossingPanes();
     Mesh& mesh = small->scene.meshes[0];
@@ -144,7 +145,8 @@ TEST_F(StochasticAlpha, layersOfOnePrimitiveAreIndependent) {
     EXPECT_LT(found.rms, 0.03);
 }
 
-// Layers that don't cross are sorted, even if the file lists the nearer layer first. One lens sample is enough.
+// Layers of a primitive that do not cross are sorted, even if the file lists the nearer layer first. A single lens
+// sample then already gives the exact colour.
 TEST_F(StochasticAlpha, layersOfOnePrimitiveAreSorted) {
     const auto small = twoLayers();
     for (const char* method : {"accumulation", "layered"}) {

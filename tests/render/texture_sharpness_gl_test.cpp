@@ -1,5 +1,5 @@
-// Tests of the sharpness of textures on slanted surfaces. Each sample filters the texture over only a part of the
-// pixel. The mean of many samples is therefore as sharp as the pixel allows, even where the mip level of a full pixel
+// Tests the sharpness of textures on slanted surfaces. Each lens sample filters the texture over only a part of the
+// pixel. The mean of many samples is therefore as sharp as the pixel allows, although the mip level of a full pixel
 // would be much coarser.
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ protected:
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
 };
 
-constexpr double wallAway = 40;  // distance in m, so large that all of the wall has almost the same scale
+constexpr double wallAway = 40;  // distance in m, so large that the wall has almost the same scale everywhere
 
 // Returns a wall rotated about a vertical axis, with a texture of 1024² texels that is black above and white below.
 // Rotated by 80°, the wall shows 5.8 times as many texels per pixel horizontally as vertically.
@@ -44,7 +44,7 @@ double edgeWidth(const SmallWorld& small, const char* method, std::uint32_t samp
     RenderSettings settings;
     settings.sampleCount = samples;
     settings.lod = LodMode::off;
-    settings.keepAll = true;  // without keepAll, an image without blur uses only 16 samples
+    settings.keepAll = true;  // without keepAll, an image without blur is drawn with only 16 samples
     const Image image = imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
     const auto crossing = [&](double level) {
         for (int y = 8; y < image.height - 8; ++y) {

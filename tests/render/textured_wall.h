@@ -1,5 +1,5 @@
 #pragma once
-// Textures with distinct texels for the lit wall, and a function that returns the texel that a pixel of the wall shows.
+// Helpers that add textures with distinct texels to the lit wall, and return the texel that a pixel of the wall shows.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-// Returns the linear value of an 8-bit sRGB code (IEC 61966-2-1).
+// Returns the linear value of an 8-bit sRGB value (IEC 61966-2-1).
 inline double linearOf(int code) {
     const double encoded = code / 255.0;
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
@@ -19,8 +19,7 @@ inline double linearOf(int code) {
 
 using Texel = std::array<int, 4>;
 
-// Adds an image of `size`² texels to the scene, and a texture that shows each texel as a square. Returns the texture's
-// index.
+// Adds an image of `size`² texels to the scene, and a texture with nearest filtering. Returns the texture's index.
 inline int addTexture(Scene& scene, int size, const std::function<Texel(int column, int row)>& texel) {
     TextureImage image;
     image.width = image.height = size;
@@ -42,7 +41,8 @@ inline Texel scrambled(int column, int row) {
     return {(i * 37 + 11) % 256, (i * 61 + 50) % 256, (i * 89 + 5) % 256, (i * 23 + 90) % 256};
 }
 
-// Returns the texel of a `size`² image at `uv`, or nullopt near a border, where rounding decides.
+// Returns the texel of a `size`² image at the texture coordinates `uv`, or nullopt near a texel's border, where
+// rounding decides.
 inline std::optional<glm::ivec2> texelAt(const glm::dvec2& uv, int size) {
     const glm::dvec2 place = uv * double(size);
     const glm::dvec2 away = glm::abs(place - glm::round(place));
@@ -50,8 +50,8 @@ inline std::optional<glm::ivec2> texelAt(const glm::dvec2& uv, int size) {
     return glm::ivec2(glm::floor(place));
 }
 
-// Returns the tolerance for the linear value of an 8-bit sRGB value: half the step to the next value, since drivers
-// approximate sRGB decoding with polynomials.
+// Returns the tolerance for the linear value of an 8-bit sRGB value. It is half the step to the next value, since
+// drivers approximate sRGB decoding with polynomials.
 inline double decodingError(int code) {
     return 0.5 * (linearOf(std::max(code, 1)) - linearOf(std::max(code, 1) - 1));
 }
@@ -62,8 +62,8 @@ inline glm::dvec3 decodingErrors(const Texel& texel) {
     return {decodingError(texel[0]), decodingError(texel[1]), decodingError(texel[2])};
 }
 
-// Calls `check` for each pixel with its texel of a 4 × 4 texture; `placed` maps the pixel's coordinates to the
-// texture's.
+// Calls `check` for each pixel with its texel of a 4 × 4 texture. `placed` maps texture coordinates of the wall to
+// coordinates in [0, 1] inside the texture.
 inline void forTexels(const SmallWorld& small, const std::function<glm::dvec2(const glm::dvec2&)>& placed,
                       const std::function<void(const Image&, const WallPoint&, const Texel&)>& check) {
     const Image image = wallImage(small);

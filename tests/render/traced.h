@@ -1,5 +1,5 @@
 #pragma once
-// Helpers that render images of scenes without levels of detail by the ray tracer.
+// Functions that render images of scenes at full detail with the ray tracer.
 
 #include <cstdint>
 

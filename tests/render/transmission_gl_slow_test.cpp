@@ -8,8 +8,8 @@
 namespace defocus::engine {
 namespace {
 
-// A pane that neither reflects nor tints, in front of all spheres, leaves the image through a lens unchanged, because
-// each sample shows its own background.
+// A pane in front of all spheres that neither reflects nor tints leaves the blurred image unchanged, because in each
+// lens sample the pane shows that sample's background.
 TEST_F(Transmission, aPaneThatDoesNothingLeavesTheBlurAsItIs) {
     const auto without = fiveSpheres();
     const auto with = fiveSpheres();

@@ -1,5 +1,5 @@
-// Tests of KHR_materials_transmission and _volume: energy, absorption and refraction against closed forms, by the
-// accumulation.
+// Tests KHR_materials_transmission and _volume, rendered by method "accumulation": energy, absorption and refraction
+// against closed forms.
 
 #include "render/glass_wall.h"
 
@@ -31,8 +31,8 @@ TEST_F(Transmission, whatWhiteGlassDoesNotReflectItLetsThrough) {
             }
 }
 
-// A slab absorbs by Beer-Lambert, c^(d/D), with the attenuation colour c. The thickness d scales with the object, but
-// the attenuation distance D does not.
+// A slab absorbs by Beer-Lambert, c^(d/D), with the attenuation colour c. The thickness d scales with the object. The
+// attenuation distance D does not.
 TEST_F(Transmission, aSlabAbsorbsByItsThickness) {
     const glm::dvec3 color(0.5, 0.25, 1);
     for (const double thickness : {0.1, 0.4})
@@ -66,7 +66,7 @@ TEST_F(Transmission, aVolumeShowsWhereItsRefractedRayLeaves) {
     const glm::dvec3 normal(placed[2]);
     int compared = 0;
     for (const WallPoint& point : wallPoints(*small)) {
-        // The view ray meets the tilted pane at `entry`. The pane is rotated about its centre.
+        // The view ray meets the tilted pane at the point `entry`.
         const glm::dvec3 eye(small->view.worldFromCamera[3]);
         const double along = glm::dot(glm::dvec3(placed[3]) - eye, normal) / glm::dot(-point.toEye, normal);
         const glm::dvec3 entry = eye - point.toEye * along;
@@ -83,8 +83,7 @@ TEST_F(Transmission, aVolumeShowsWhereItsRefractedRayLeaves) {
     EXPECT_GT(compared, 200);
 }
 
-// Panes behind each other, with an alpha-blended surface in between, are all visible, independent of their order in the
-// file.
+// Panes behind each other, with an alpha-blended surface in between, are all visible, in any order in the file.
 TEST_F(Transmission, panesAndBlendedSurfacesBehindEachOtherAreAllSeen) {
     for (const bool nearestFirst : {false, true}) {
         const auto small = litWall(clear({1, 0.5f, 1}));
@@ -100,8 +99,8 @@ TEST_F(Transmission, panesAndBlendedSurfacesBehindEachOtherAreAllSeen) {
     }
 }
 
-// Each of the eight nearest panes shows the panes behind it. Farther panes show only the opaque background, so the last
-// one that is drawn hides the others.
+// Each of the eight nearest panes shows the panes behind it. Farther panes show only the opaque background. Of these,
+// only the pane that is drawn last is visible.
 TEST_F(Transmission, behindManyPanesTheBackgroundIsStillSeen) {
     const auto small = litWall(clear(glm::vec3(0.9f)));
     light(*small);
@@ -139,8 +138,8 @@ Spread redOf(const Image& image) {
     return {sum / count, std::sqrt(squares / count - sum * sum / count / count)};
 }
 
-// A rough pane blurs the wall behind it and keeps the wall's light. Red varies across the wall, and a rougher pane
-// leaves less of that variation.
+// A rough pane blurs the wall behind it and keeps the wall's mean radiance. Red varies across the wall, and a rougher
+// pane reduces this variation.
 TEST_F(Transmission, roughnessSpreadsWhatLiesBehindAndKeepsItsLight) {
     double before = 1;
     Spread smooth;

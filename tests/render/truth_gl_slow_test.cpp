@@ -1,6 +1,5 @@
-// Tests of the rasterizer against an independent ray tracer on real geometry, and against the closed forms of a small
-// quad's bokeh. With DEFOCUS_TEST_OUTPUT set to a folder, images and their differences (× 16 around grey) are written
-// there.
+// Tests the rasterizer against an independent ray tracer on real geometry, and against closed forms of a small quad's
+// bokeh. If DEFOCUS_TEST_OUTPUT names a folder, images and their differences (× 16 around grey) are written there.
 
 #include <gtest/gtest.h>
 
@@ -44,9 +43,9 @@ void writeForPeople(const std::string& name, const Image& reference, const Image
     writeImage(path / (name + "-difference.png"), differenceImage(reference, image, 16));
 }
 
-// Expects the difference from the ray tracer at equal lens points to have no structure: the images are not shifted,
-// scaled or blurred by different widths. The bounds are far below the noise of 256 samples against an independent
-// sequence.
+// Expects the difference between rasterizer and ray tracer at equal lens points to have no structure: the images are
+// not shifted, scaled or blurred by different widths. The bounds are far below the noise of 256 samples with different
+// lens points.
 void expectNoStructure(const std::string& name, const TruthScene& baked, const Image& image,
                        const RenderSettings& settings) {
     const Image planned = traced(baked.world, baked.view, settings, EmbreeSampling::planned);
@@ -61,10 +60,10 @@ void expectNoStructure(const std::string& name, const TruthScene& baked, const I
     EXPECT_GE(compareImages(planned, image).psnr, 70) << name;
     EXPECT_LE(blocks.largest, 1.5e-4) << name;
     EXPECT_LE(std::abs(blocks.mean), 2e-6) << name;
-    EXPECT_NEAR(widened, 0, 5e-4) << name;      // difference as a fraction of the blur's width
+    EXPECT_NEAR(widened, 0, 5e-4) << name;      // excess of the blur's width, as a fraction
     EXPECT_NEAR(moved.right, 0, 1e-3) << name;  // px
     EXPECT_NEAR(moved.down, 0, 1e-3) << name;
-    EXPECT_NEAR(moved.growth * baked.view.width, 0, 2e-3) << name;  // change of size over the image's width, px
+    EXPECT_NEAR(moved.growth * baked.view.width, 0, 2e-3) << name;  // change of the image's size, px
 }
 
 void expectTruth(const std::string& name, Scene scene) {
@@ -78,8 +77,8 @@ void expectTruth(const std::string& name, Scene scene) {
     const Difference difference = compareImages(reference, image);
     EXPECT_GE(difference.psnr, 45) << name;
     EXPECT_EQ(difference.nonFinite, 0) << name;
-    // The bounds allow for two differences at 256 samples: the noise of the ray tracer's own points, and an offset of
-    // the plan's mean lens point of up to 0.006.
+    // At 256 samples, the bounds allow for the noise of the ray tracer's independent sample points, and for a mean lens
+    // point of the plan that is up to 0.006 lens radii off the centre.
     const BlockDifference blocks = blockDifference(reference, image);
     EXPECT_LE(blocks.largest, 5e-4) << name;  // an eighth of a step of an 8-bit value
     EXPECT_LE(std::abs(blocks.mean), 1e-4) << name;

@@ -1,5 +1,5 @@
-// Tests of the limited foreground against an independent ray tracer that puts a separate lens at the depth α in front
-// of each pixel (Munkberg, Toth and Akenine-Möller 2012, Figure 9).
+// Tests the foreground blur limit against an independent ray tracer that puts a separate lens in front of each pixel,
+// at the depth α (Munkberg, Toth and Akenine-Möller 2012, Figure 9).
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double limit = 5;  // foreground limit, px
 
-// Returns a small school of fish. Without the limit, its nearest fish would be blurred by more than three times
+// Returns a small school of fish. Without a foreground limit, its nearest fish have more than three times the blur
 // `limit`.
 std::unique_ptr<TruthScene> nearSchool() {
     FishSchoolOptions school;

@@ -1,4 +1,4 @@
-// Tests of objects posed on the GPU against the ray tracer, whose meshes the CPU poses. Both use the same lens points.
+// Tests objects posed on the GPU against the ray tracer, whose meshes the CPU poses. Both use the same lens points.
 
 #include <gtest/gtest.h>
 

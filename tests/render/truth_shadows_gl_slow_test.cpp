@@ -1,13 +1,13 @@
-// Tests of penumbrae of lamps, rendered on the GPU, against the ray tracer.
+// Tests soft shadows of lamps on the GPU against the ray tracer.
 
 #include "render/ball_shadows.h"
 
 namespace defocus::engine {
 namespace {
 
-// Lamps cast the same penumbrae as in the ray tracer. The ray tracer's lamp disks face each lit point, and the
-// rasterizer's disks face the centre of the scene. Therefore only the means of the disks' points agree. A lamp without
-// a cone has wider shadow-map texels, so its PSNR bound is lower.
+// Disk-shaped lamps cast the same penumbrae on the GPU as in the ray tracer, on average over the samples. Single
+// samples differ, because the disks face each lit point in the ray tracer, but the scene's centre on the GPU. A lamp
+// without a cone has wider shadow-map texels, so its PSNR bound is lower.
 TEST_F(TruthOfShadows, lampsThrowTheSamePenumbrae) {
     for (const LightType type : {LightType::point, LightType::spot}) {
         const auto small = ballBeforeAWall();

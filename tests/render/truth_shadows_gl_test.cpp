@@ -1,13 +1,13 @@
-// Tests of soft shadows of the sun on the GPU against the ray tracer.
+// Tests soft shadows of the sun on the GPU against the ray tracer.
 
 #include "render/ball_shadows.h"
 
 namespace defocus::engine {
 namespace {
 
-// With the same points on lens and sun, both renderers give the same penumbrae, up to the size of shadow-map texels. In
-// each sample, a shadow map rounds a shadow's edge to different texels. A bias also moves shadow-map lookups by part of
-// a texel, which is visible where light grazes the ball.
+// With the same sample points on lens and sun, GPU and ray tracer give the same penumbrae, up to the size of shadow-map
+// texels. A shadow map rounds a shadow's edge to a texel, in each sample to a different one. A bias also moves
+// shadow-map lookups by part of a texel, which is visible where light grazes the ball.
 TEST_F(TruthOfShadows, rasteriserAndRayTracerSeeTheSamePenumbrae) {
     expectTheSameShadows(*ballBeforeAWall(), 64, 37);
 }

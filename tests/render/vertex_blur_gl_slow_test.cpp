@@ -1,4 +1,4 @@
-// Tests of blur from vertex attributes, by each method that supports it, against closed forms and finer meshes.
+// Tests blur from vertex attributes, with each method that supports it, against closed forms and finer meshes.
 
 #include <cmath>
 #include <functional>
@@ -42,8 +42,8 @@ TEST_F(VertexBlurs, addsToTheLenss) {
         }
 }
 
-// The blur C(t) of a vertex is linear between the opening and the closing of the shutter (Munkberg et al. 2012), so the
-// mean squared diameter is (c₀² + c₀c₁ + c₁²)/3 for diameters c₀ and c₁ at the two ends.
+// The blur of a vertex changes linearly between the opening and the closing of the shutter (Munkberg et al. 2012). The
+// mean squared diameter is therefore (c₀² + c₀c₁ + c₁²)/3 for diameters c₀ at the opening and c₁ at the closing.
 TEST_F(VertexBlurs, changesWhileTheShutterIsOpen) {
     SKIP_ON_SECOND_DRIVER();
     const double opening = 2, closing = -10;

@@ -1,4 +1,4 @@
-// Tests of blur from vertex attributes against closed forms: the image of a small square is the disk of its blur.
+// Tests blur from vertex attributes against closed forms: a small square becomes a disk of the diameter of its blur.
 
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace defocus::engine {
 namespace {
 
-// Blur from vertex attributes can cancel the blur of the lens.
+// A blur that vertex attributes add can cancel the blur of the lens.
 TEST_F(VertexBlurs, canBringIntoFocus) {
     const auto small = blurredSquare(5, {1, 0, 0});
     const double ofLens = blurDiameter(small->view, 5) / perMillimetre(*small);
@@ -35,8 +35,8 @@ TEST_F(VertexBlurs, keepsToLimitsAndToItsObject) {
     expectVariance(*small, sharpVariance, "accumulation");
 }
 
-// The radial example of Munkberg et al. 2012: C(p) = (a + b·w)·(1 + x² + y²) for the clip position p = (x, y, w), in m,
-// of the square.
+// The radial example of Munkberg et al. 2012 multiplies the circle of confusion a + b·w of a thin lens by 1 + x² + y²
+// at the clip position (x, y, w) in m. The test draws a square away from the image's centre.
 TEST_F(VertexBlurs, drawTheRadialExampleAsPrinted) {
     constexpr double depth = 5;
     const glm::dvec2 position(0.8, -0.5);  // m
@@ -55,8 +55,7 @@ TEST_F(VertexBlurs, drawTheRadialExampleAsPrinted) {
     EXPECT_NEAR(moments.variance.y, expected, 0.03 * expected);
 }
 
-// Without vertex blur, post-process methods draw sharp edges. With vertex blur, edges are as wide as under the same
-// blur of the lens.
+// Post-process methods draw vertex blur like an equal blur of the lens. A vertex blur of zero gives sharp edges.
 TEST_F(VertexBlurs, postProcessMethodsFollow) {
     for (const char* method : {"circular", "scheuermann:coc=thin-lens,max-coc=unlimited", "layered"}) {
         const auto ofLens = blurredSquare(5, {1, 0, 0});

@@ -1,5 +1,5 @@
 #pragma once
-// Fixture for surfaces with blur from vertex attributes, with a closed form for the image of a small square.
+// Fixture for surfaces whose blur is set by vertex attributes, with a closed form for the image of a small square.
 
 #include <gtest/gtest.h>
 
@@ -55,16 +55,16 @@ protected:
         return small.view.width / small.view.lens.horizontalAperture;
     }
 
-    // Returns the variance in px² of a blurred square and its pixel; `squared` is the mean squared diameter of the
-    // blur's disk.
+    // Returns the variance along an axis, in px², of the blurred square's image. It is the sum of c²/16 for a blur disk
+    // of diameter c, side²/12 for the square, and 1/12 for a pixel. `squared` is the mean of c² over the exposure.
     static double varianceOf(double squared) { return squared / 16 + blurredSide * blurredSide / 12 + 1.0 / 12; }
 
-    // Variance in px² of the sharp square. The square's edges lie on pixel borders.
+    // Variance along an axis, in px², of the unblurred square, whose edges lie on pixel borders.
     static constexpr double sharpVariance = (blurredSide * blurredSide - 1) / 12;
 
-    // Expects the energy, centre and variance of the blurred square, for methods that rasterize points or lines.
-    // Post-process methods blur with other kernels. In method stochastic, each pixel has its own points, so errors of
-    // neighbouring pixels do not cancel. This method therefore gets four times as many samples.
+    // Expects the energy, centre and variance of the blurred square's image. Valid for methods that sample the lens at
+    // points or lines, not for post-process methods. Method stochastic gets four times as many samples, because each
+    // pixel has different sample points and errors of neighbouring pixels do not cancel.
     static void expectVariance(const SmallWorld& small, double expected, const std::string& method,
                                double relative = 0.02) {
         const std::uint32_t count = method == "stochastic" ? 4 * blurSamples : blurSamples;
@@ -75,8 +75,8 @@ protected:
         EXPECT_NEAR(moments.variance.y, expected, relative * expected) << method;
     }
 
-    // Returns a slanted floor of `cells` × `cells` squares. Its vertices have the blur blur(t), where t grows from 0 at
-    // the near end to 1 at the far end.
+    // Returns a slanted floor of `cells` × `cells` squares. The vertex blur is `blur`(t), where t grows from 0 at the
+    // near end to 1 at the far end.
     static std::unique_ptr<SmallWorld> slantedFloor(int cells, const std::function<VertexBlur(double)>& blur) {
         auto small = std::make_unique<SmallWorld>();
         small->view = bokehView(120, 90);

@@ -1,5 +1,5 @@
 #pragma once
-// Fixture for images with and without culling of clusters.
+// Fixture that compares images with and without culling of clusters (groups of triangles).
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ protected:
         return renderer->image();
     }
 
-    // Returns the plan without culling, so that all triangles of its levels are drawn.
+    // Returns the plan without culling of clusters, so that all triangles of the chosen levels of detail are drawn.
     static FramePlan drawnWhole(const SmallWorld& small, FramePlan plan) {
         plan.trianglesDrawn += plan.trianglesFacingAway + plan.trianglesOutside;
         for (ObjectPlan& object : plan.objects) {
@@ -55,7 +55,7 @@ protected:
         return plan;
     }
 
-    // Expects the same image with and without culling. Returns the culled fraction of the triangles.
+    // Expects the same image with and without culling of clusters. Returns the culled fraction of the triangles.
     static double expectSameImage(const SmallWorld& small, LodMode lod) {
         const FramePlan seen = planFrame(small.world, small.view, settingsFor(lod, false));
         const FramePlan all = drawnWhole(small, seen);

@@ -1,4 +1,4 @@
-// Tests that culling of clusters leaves images of large models bit-identical.
+// Tests that culling of clusters (groups of triangles) leaves images of large models bit-identical.
 
 #include "render/visibility.h"
 

@@ -1,4 +1,4 @@
-// Tests that culling of clusters leaves the image bit-identical.
+// Tests that culling of clusters (groups of triangles) leaves the image bit-identical.
 
 #include "models.h"
 #include "render/visibility.h"
@@ -32,7 +32,7 @@ TEST_F(Visibility, underLimitsRangesAndTiltedPlanes) {
     }
 }
 
-// If the focus surface is curved, clusters are culled by the corners of their triangles (visibility.h).
+// With a curved focus surface, clusters are culled by the corners of their triangles (visibility.h).
 TEST_F(Visibility, curvedFocus) {
     const auto small = fiveSpheres();
     small->view.lens.fieldCurvature = 0.3;

@@ -1,5 +1,5 @@
-// Tests of the highlight of a thin metal ring. Within a pixel, the normals vary by half a turn across the wire, but
-// hardly along it.
+// Tests the highlight of a thin metal ring. Within a pixel, the normals vary by 180° across the wire, but hardly along
+// it.
 
 #include <gtest/gtest.h>
 
@@ -62,7 +62,7 @@ std::unique_ptr<SmallWorld> ring() {
 }
 
 // Returns the sums of the red channel over the quarters of the ring at its right, top, left and bottom. The renderer
-// widens highlights in the first samples of a frame only, so images without widening begin with sample 2²⁰.
+// widens highlights only in the first samples of a frame, so images without widened highlights begin with sample 2²⁰.
 glm::dvec4 lightOfQuarters(const SmallWorld& small, std::uint32_t samples, bool widened) {
     RenderSettings settings;
     settings.sampleCount = samples;

@@ -1,4 +1,4 @@
-// Tests of the stability benchmark's cases whose ground truth is the ray tracer, in builds with Embree.
+// Tests those cases of the stability benchmark whose reference is the ray tracer, in builds with Embree.
 
 #include <gtest/gtest.h>
 

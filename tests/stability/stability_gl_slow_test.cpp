@@ -40,8 +40,8 @@ TEST(LensHonesty, theAccumulationFollowsTheLens) {
     EXPECT_GT(count, 10);
 }
 
-// Every method that honestyMethods() lists can be created: each method with each of its settings, plus the settings
-// that these require.
+// All methods that honestyMethods() lists can be created. The list has each method with each of its settings, combined
+// with other settings that these require.
 TEST(LensHonesty, everyMethodThatItNamesCanBeMade) {
     const auto context = createHeadlessContext();
     World world;
@@ -55,7 +55,7 @@ TEST(LensHonesty, everyMethodThatItNamesCanBeMade) {
 }
 
 // Method "line" may need more segments of lens lines than the driver's shared memory can hold, as on llvmpipe. The
-// benchmark reports that and continues with the next method.
+// benchmark then reports the method as left out and continues with the next method.
 TEST(LensHonesty, whatADriverCannotDrawIsLeftOut) {
     const auto context = createHeadlessContext();
     std::vector<HonestyRow> rows;

@@ -20,7 +20,7 @@ TEST(StabilityText, everyLineFitsIntoAHundredColumns) {
         const StabilityRow before{cases[i == 0 ? 0 : i - 1]};
         std::istringstream lines(stabilityLine(row, i == 0 ? nullptr : &before));
         for (std::string line; std::getline(lines, line);) {
-            // Counts UTF-8 code points, not bytes.
+            // Counts code points of the UTF-8 text, not bytes.
             const auto columns = std::ranges::count_if(line, [](char c) { return (c & 0xc0) != 0x80; });
             EXPECT_LE(columns, 100) << line;
         }

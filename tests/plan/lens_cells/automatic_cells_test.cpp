@@ -21,7 +21,7 @@ FramePlan planOfLens() {
     return plan;
 }
 
-// Adds a box with the given view-space corners, behind all other boxes.
+// Adds a box with the given view-space corners to the plan. Boxes must be added from front to back.
 void addBox(FramePlan& plan, const glm::dvec3& minimum, const glm::dvec3& maximum) {
     ObjectPlan object;
     object.viewBox = Bounds{minimum, maximum};
@@ -30,7 +30,7 @@ void addBox(FramePlan& plan, const glm::dvec3& minimum, const glm::dvec3& maximu
     plan.objects.push_back(object);
 }
 
-// A wall at 10 m, where the blur c is 20 px, fills the left half of the image.
+// A wall at 10 m, where the blur has a diameter of 20 px, fills the left half of the image.
 TEST(BlurredShare, isTheAreaOfWhatIsBlurred) {
     FramePlan plan = planOfLens();
     addBox(plan, {-20, -20, -10.01}, {0, 20, -10});
@@ -46,7 +46,7 @@ TEST(BlurredShare, leavesOutWhatIsHidden) {
     EXPECT_EQ(blurredShare(plan, 8), 0);
 }
 
-// The background counts as blurred only if it is an environment map; other backgrounds have no detail.
+// The background counts as blurred only if it is an environment map, since other backgrounds have no detail to blur.
 TEST(BlurredShare, countsTheBackgroundOnlyIfItIsAMap) {
     FramePlan plan = planOfLens();
     EXPECT_EQ(blurredShare(plan, 8), 0);

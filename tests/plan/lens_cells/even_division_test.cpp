@@ -14,7 +14,7 @@ std::vector<LensSample> samplesOfLens(const Lens& lens, std::uint32_t first, std
     return lensSamples(lens, Sequence::sobol, first, count, 0);
 }
 
-// Returns the mean squared distance of the points from their mean.
+// Returns the mean squared distance of lens points from their mean.
 float spread(std::span<const LensSample> points) {
     glm::vec2 mean(0);
     for (const LensSample& point : points) mean += point.lens / static_cast<float>(points.size());
@@ -46,10 +46,10 @@ TEST(EvenDivision, pointsBesideACentreBelongToIt) {
     for (std::uint32_t i = 0; i < 64; ++i) EXPECT_EQ(order[i] % 16, i / 4);
 }
 
-// Points lie near the centre to which they are assigned: the mean squared distance is below 0.3 of the points' mean
-// squared distance from their mean, the spread. A random assignment would give twice the spread. If the groups were
-// sixteen squares with the disk's total area, the mean squared distance from a square's middle would be 1/16 ·
-// (π/6)/(1/2) = 6.5 % of the spread. Between two random points of a square, it would be twice that. Apertures with
+// Lens points lie near the centre to which they are assigned: the mean squared distance is below 0.3 times the spread,
+// which is the points' mean squared distance from their common mean. A random assignment would give twice the spread.
+// For an ideal division of the disk into sixteen squares, the mean squared distance from a square's middle would be
+// 1/16 · (π/6)/(1/2) = 6.5 % of the spread, and between two random points of a square twice that. Apertures with
 // corners add a small error, because points and centres are halved separately.
 TEST(EvenDivision, pointsLieNearTheirCentre) {
     for (const ApertureShape& shape : apertureShapes)

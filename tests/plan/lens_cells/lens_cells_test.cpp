@@ -15,7 +15,7 @@
 namespace defocus::engine {
 namespace {
 
-// Returns strongly blurred spheres in front of and behind the focus.
+// Returns strongly blurred spheres in front of and behind the focal plane.
 std::unique_ptr<SmallWorld> muchBlurred() {
     auto small = fiveSpheres();
     small->view.lens.fStop = 0.1;
@@ -82,8 +82,8 @@ TEST(LensCells, middlesAndBlurHaveTheSpreadOfTheLens) {
     check("ring", 2e-3);
 }
 
-// Centres of lens cells lie farther apart than the sequence's points. Each of the 64 centres is the mean of a region
-// with 1/64 of the lens's area.
+// Centres of lens cells, regions of the lens with one sample each, lie farther apart than points of the sample
+// sequence. Each of the 64 centres is the mean of a region with 1/64 of the lens's area.
 TEST(LensCells, middlesKeepApart) {
     const auto small = muchBlurred();
     const auto nearest = [](const auto& points, const auto& place) {
@@ -96,7 +96,7 @@ TEST(LensCells, middlesKeepApart) {
     const std::vector<LensSample> samples = lensSamples(small->view.lens, Sequence::sobol, 0, 64, 0);
     const double apart = nearest(lensCellsOf(*small, 64).middles, [](const glm::vec2& p) { return p; });
     EXPECT_GT(apart, 1.5 * nearest(samples, [](const LensSample& s) { return s.lens; }));
-    EXPECT_GT(apart, 1.0 / 8);  // each of 64 equal disks with the lens's total area is 1/4 wide, in lens radii
+    EXPECT_GT(apart, 1.0 / 8);  // half the width of 64 equal disks with the lens's total area, in lens radii
 }
 
 // Returns the RMS difference between two blurred straight edges, over positions of the edge: one blurred by a disk, the
@@ -116,8 +116,8 @@ double edgeError(const std::vector<glm::vec2>& points, double sigma, double angl
     return std::sqrt(squares / places);
 }
 
-// Lens cells blur edges of every direction almost as a disk does. Rows and columns of points would blur vertical and
-// horizontal edges in steps.
+// Images that are blurred by lens cells, regions of the lens, show edges of every direction almost as blurred by a
+// disk. Rows and columns of lens points would blur vertical and horizontal edges in steps.
 TEST(LensCells, edgesAreBlurredAsByADisk) {
     const auto small = muchBlurred();
     for (const std::uint32_t count : {16u, 24u, 32u, 64u, 128u}) {
@@ -139,8 +139,8 @@ TEST(LensCells, edgesAreBlurredAsByADisk) {
     }
 }
 
-// Part of a frame's samples has the same lens cells as all samples of the frame. A block of samples that is planned
-// separately has cells of its own, whose blur follows from the number of samples up to the end of the block.
+// A subset of a planned frame's samples has the same lens cells (regions of the lens) as the entire frame. Samples that
+// are planned separately have different cells, whose blur follows from the frame's number of samples so far.
 TEST(LensCells, belongToWhatIsPlannedTogether) {
     const auto small = muchBlurred();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(192));
@@ -157,8 +157,8 @@ TEST(LensCells, belongToWhatIsPlannedTogether) {
     EXPECT_NEAR(moments.covariance[0][0], 0.25 - 4 * block.blur * block.blur, 1e-4);
 }
 
-// The blur of lens cells shrinks as samples are added and vanishes at the count where samples leave no gaps. The
-// centres of the cells do not jump at that count.
+// The blur of lens cells (regions of the lens) shrinks as samples are added. It vanishes at the sample count that
+// leaves no visible gaps. The centres of the cells do not jump at that count.
 TEST(LensCells, blurFallsWithTheSamplesUntilThereIsNone) {
     const auto small = muchBlurred();
     const LensCells few = lensCellsOf(*small, 16);
@@ -176,7 +176,7 @@ TEST(LensCells, blurFallsWithTheSamplesUntilThereIsNone) {
         ASSERT_LT(glm::distance(none.middles[i], before.middles[i]), 1e-6f) << i;
 }
 
-// The resolution of a sample's image falls from 1 to 1/16 of full resolution without a jump as the blur grows.
+// As the blur grows, the resolution that a sample's image needs falls without a jump to 1/16 of full resolution.
 TEST(LensCells, pixelRateIsContinuous) {
     const auto small = muchBlurred();
     const LensCells cells = lensCellsOf(*small, 64);

@@ -1,5 +1,4 @@
-// Tests of the number of pixels that a triangle's screen bounds cover over all points of the lens, against closed
-// forms.
+// Tests the number of pixels that a triangle's screen bounds cover over all points of the lens, against closed forms.
 
 #include "plan/lens_cells/swept_work.h"
 
@@ -38,7 +37,7 @@ double sumOf(const Image& image) {
     return sum;
 }
 
-// Expects the bounds of each of the square's two triangles to cover `side` × `side` px.
+// Expects each of the square's two triangles to have screen bounds of `side` × `side` px.
 void expectSide(const SmallWorld& small, int side) {
     const Image image = sweptOf(small);
     EXPECT_EQ(sumOf(image), 2.0 * side * side);

@@ -1,4 +1,4 @@
-// Tests of motion during the exposure: sample times, bounds and requirements on a shutter.
+// Tests motion during the exposure: the times of samples, bounds over the exposure, and errors for invalid shutters.
 
 #include "plan/motion/motion.h"
 
@@ -14,7 +14,7 @@
 namespace defocus::engine {
 namespace {
 
-// Sets `moments` poses over the exposure. The first sphere moves by `step` from each pose to the next.
+// Sets `moments` poses, evenly spaced over the exposure. The first sphere moves by `step` from each pose to the next.
 void moveFirst(SmallWorld& small, std::size_t moments, const glm::dvec3& step) {
     small.world.shutter.poses.assign(moments, small.world.pose);
     for (std::size_t i = 0; i < moments; ++i) {
@@ -81,7 +81,7 @@ TEST(Motion, samplesFindTheirMoments) {
 
 TEST(Motion, boundsBlurAndCullingCoverTheWholeExposure) {
     const auto small = fiveSpheres();
-    // The object crosses the frame from far left to far right. It is outside the frame at both ends of the exposure.
+    // One object crosses the frame from far left to far right. It is outside the frame at both ends of the exposure.
     for (Object& object : small->world.pose.objects) object.worldFromObject[3] += glm::dvec4(0, 0, -40, 0);
     Object& crossing = small->world.pose.objects[0];
     crossing.worldFromObject = glm::translate(glm::dmat4(1), glm::dvec3(30, 0, -3));

@@ -22,7 +22,7 @@ void expectBoundsHold(const SmallWorld& small) {
         const auto mesh = static_cast<std::size_t>(object.mesh);
         const Pyramid& pyramid = small.world.pyramids[mesh];
         const Bounds box = posedBox(pyramid, objectPose(object, glm::dmat4(1)), object.skinned());
-        // tolerance for baked vertices, which have single precision
+        // tolerance for vertices that the CPU poses in single precision
         const double tolerance = 1e-5 * glm::length(box.size());
         for (std::uint32_t level = 0; level < pyramid.levels.size(); ++level) {
             const Mesh baked = bakedLevel(small.scene.meshes[mesh], pyramid, level, object, glm::dvec3(0));
@@ -51,7 +51,7 @@ TEST_P(ObjectPoseOf, boundsHoldAllVerticesAtManyTimes) {
 
 INSTANTIATE_TEST_SUITE_P(Models, ObjectPoseOf, testing::ValuesIn(posedModels), posedModelName);
 
-// Bounds hold for morph weights below 0 and above 1.
+// An object's bounds contain its vertices for morph weights below 0 and above 1, too.
 TEST(ObjectPose, boundsHoldForAnyMorphWeights) {
     SmallWorld small;
     small.scene.meshes.push_back(bumpySphere(24, 18, -1));
@@ -70,7 +70,8 @@ TEST(ObjectPose, boundsHoldForAnyMorphWeights) {
         }
 }
 
-// Bounds hold for vertices without weights, and for vertices whose joints the skin lacks. Both follow the first joint.
+// An object's bounds contain vertices without weights, and vertices whose joints the skin lacks. Both follow the first
+// joint.
 TEST(ObjectPose, boundsHoldForOddWeights) {
     SmallWorld small;
     small.scene.meshes.push_back(bumpySphere(24, 18, -1));

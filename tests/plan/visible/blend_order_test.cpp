@@ -1,4 +1,4 @@
-// Tests of the choice between sorting and stochastic transparency.
+// Tests the choice between sorting and stochastic transparency for alpha-blended surfaces.
 #include "plan/visible/blend_order.h"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,8 @@ std::unique_ptr<SmallWorld> panes(const std::vector<glm::dmat4>& places) {
     return small;
 }
 
-// Returns for each pane whether it is drawn by stochastic transparency. `places` are the panes' transforms.
+// Returns for each pane whether it is drawn by stochastic transparency. `places` are the panes' transforms to world
+// space.
 std::vector<bool> choicesFor(const std::vector<glm::dmat4>& places) {
     const auto small = panes(places);
     const FramePlan plan = planFrame(small->world, small->view, {});
@@ -82,7 +83,8 @@ TEST(BlendOrder, panesAreSortedUnlessTheyMayCross) {
     EXPECT_EQ(std::ranges::count(crossing, true), 1) << "crossing";
 }
 
-// Returns the indices of the panes in drawing order, back to front. Expects all panes to be sorted.
+// Returns the indices of the panes from back to front. Fails the test if a pane is drawn by stochastic transparency,
+// which has no order.
 std::vector<int> orderOf(const SmallWorld& small) {
     const FramePlan plan = planFrame(small.world, small.view, {});
     std::vector<int> order;
@@ -93,7 +95,8 @@ std::vector<int> orderOf(const SmallWorld& small) {
     return order;
 }
 
-// Two parallel panes, rotated by 80°, whose depths overlap. Pane 0 reaches nearer to the camera, but is behind pane 1.
+// Two parallel panes, rotated by 80°, overlap in depth. One reaches nearer to the camera, but lies behind the other's
+// plane and must be drawn first.
 TEST(BlendOrder, overlappingDepthsAreSortedByPlanes) {
     const auto small = panes({turnedPane(-0.2, -10, 80), turnedPane(0.1, -10.1, 80)});
     EXPECT_EQ(orderOf(*small), (std::vector<int>{0, 1}));
@@ -113,8 +116,8 @@ TEST(BlendOrder, lensOnBothSidesOfAPaneHasNoOrder) {
     EXPECT_EQ(std::ranges::count(plan.blendOrder, true, &BlendRun::stochastic), 1);
 }
 
-// Each of three bars lies over the next one at one end and under the previous one at the other: a cycle. The plane of
-// each bar is parallel to the next bar, so that two bars always have an order.
+// Each of three bars lies over the next bar at one end and under the previous bar at the other, so the bars form a
+// cycle. Any two bars have an order, because the plane of each bar is parallel to the next bar.
 TEST(BlendOrder, cyclesAreBroken) {
     const auto turned = [](int i, const glm::dvec3& vector) {
         return glm::dvec3(glm::rotate(glm::dmat4(1), i * 2 * std::numbers::pi / 3, {0, 0, 1}) * glm::dvec4(vector, 0));

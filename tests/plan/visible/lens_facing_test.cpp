@@ -1,5 +1,5 @@
-// Tests of bounds on a triangle's facing determinant over lens and time (Munkberg, Toth and Akenine-Möller 2012,
-// Appendix A), against sampled values.
+// Tests bounds on the determinant whose sign says whether a triangle faces a lens point (Munkberg, Toth and
+// Akenine-Möller 2012, Appendix A). Sampled values over lens and time must not exceed the bounds.
 
 #include "plan/visible/lens_facing.h"
 
@@ -42,8 +42,8 @@ double sheared(const LensTriangle& triangle, double u, double v) {
     return glm::dot(q[0], glm::cross(q[1], q[2]));
 }
 
-// Returns the determinant's max over the lens, by sampling. The max lies on the rim because the determinant is linear
-// over the lens.
+// Returns the max of the triangle's facing determinant over the lens, by sampling. The max lies on the rim because the
+// determinant is linear over the lens.
 double sampledLargest(const LensTriangle& triangle, double radius) {
     double largest = sheared(triangle, 0, 0);
     constexpr int points = 720;
@@ -54,8 +54,8 @@ double sampledLargest(const LensTriangle& triangle, double radius) {
     return largest;
 }
 
-// Returns the max change of the determinant from the lens centre to the rim. Errors of the bounds are given in this
-// unit.
+// Returns the max change of the facing determinant from the lens centre to the rim. This is the unit for errors of the
+// bounds.
 double spreadOf(const LensTriangle& triangle) {
     return sampledLargest(triangle, 1) - sheared(triangle, 0, 0);
 }
@@ -73,8 +73,8 @@ TEST(LensFacing, isTheLargestOverTheLensForAnyC) {
     }
 }
 
-// For a thin lens, whose circle of confusion C = a + b·w is linear in the depth w, the bound equals the bound for an
-// eye that moves over a disk of radius |a| (Munkberg et al. 2012, Eq. 6).
+// For a thin lens, whose circle of confusion C = a + b·w is linear in the depth w, the bound on the facing determinant
+// equals the bound for an eye that moves over a disk of radius |a| (Munkberg et al. 2012, Eq. 6).
 TEST(LensFacing, ofAThinLensIsThePublishedShortForm) {
     TriangleSource random(2);
     const double a = -0.12, b = 0.05;
@@ -95,7 +95,8 @@ double sampledLargest(const LensTriangle& from, const LensTriangle& to) {
     return largest;
 }
 
-// The bound over lens and time (Munkberg et al. 2012, Eq. 7 and 8) holds for moving triangles.
+// The bound on the facing determinant over lens and time (Munkberg et al. 2012, Eq. 7 and 8) holds for moving
+// triangles.
 TEST(LensFacing, boundsTheLargestOverLensAndTime) {
     TriangleSource random(3);
     double loosest = 0;
@@ -103,7 +104,7 @@ TEST(LensFacing, boundsTheLargestOverLensAndTime) {
     for (int trial = 0; trial < 400; ++trial) {
         const LensTriangle from = anyTriangle(random);
         LensTriangle to = anyTriangle(random);
-        // The motion ranges from almost none to a change between two unrelated triangles.
+        // The triangle's motion ranges from almost none to a change into an unrelated triangle.
         const double share = std::pow(10.0, random(-3, 0));
         to = between(from, to, share);
         const double sampled = sampledLargest(from, to);

@@ -1,4 +1,4 @@
-// Tests of the choice of lights, directions and map sizes for shadows.
+// Tests which lights cast shadows, how directions to the sky are chosen, and how large shadow maps are.
 #include "plan/visible/shadows.h"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST(ShadowPlan, lightsCountByTheirIlluminanceOfTheImage) {
     EXPECT_EQ(shares[2], 0);
 }
 
-// A uniform sky of radiance L illuminates a surface in the open with π·L lux.
+// A uniform sky of radiance L illuminates an unoccluded surface with π·L lux.
 TEST(ShadowPlan, aUniformSkyCountsByItsIlluminance) {
     const auto small = wallWithoutLights();
     addLight(*small, LightType::directional, std::numbers::pi, {});
@@ -78,7 +78,7 @@ TEST(ShadowPlan, aUniformSkyCountsByItsIlluminance) {
     EXPECT_NEAR(shares[1], 0.5, 1e-3);
 }
 
-// A weak lamp 0.3 m from the wall illuminates the nearest part of the wall more than the sun does. At the distance of
+// A weak lamp 0.3 m from the wall illuminates the nearest part of the wall more than the sun does. From as far away as
 // the scene's radius, the lamp would give only 0.2 % of the illuminance.
 TEST(ShadowPlan, aWeakLampNearASurfaceCastsShadows) {
     const auto small = wallWithoutLights();
@@ -130,9 +130,9 @@ TEST(ShadowPlan, texelsAreAsLargeAsTheBlurHides) {
     EXPECT_LT(sizeOf(true), sizeOf(false));
 }
 
-// Two methods choose directions to an environment: for any surface, and for a horizontal ground. Both give the same
-// irradiance of the ground: π under a uniform sky of radiance 1, and π·2/3 under a sky of radiance cos θ. The method
-// for a ground has less than half the variance.
+// Directions to the sky can be chosen for surfaces of any orientation or only for a horizontal ground. Both choices
+// estimate the same irradiance of the ground: π under a uniform sky of radiance 1, and π·2/3 under a sky of radiance
+// cos θ. The choice for a ground has less than half the variance.
 TEST(EnvironmentDirections, directionsForAGroundEstimateTheSameIrradiance) {
     for (const bool uniform : {true, false}) {
         Environment environment;

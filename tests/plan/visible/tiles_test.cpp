@@ -1,5 +1,5 @@
-// Tests of the division of an image: cells and ranges of rows cover each pixel once, and a tile's plan keeps all
-// objects that may be visible in the tile.
+// Tests the division of an image: rasterization cells and ranges of rows cover each pixel once, and a tile's plan keeps
+// all objects that may be visible in the tile.
 
 #include "plan/visible/tiles.h"
 

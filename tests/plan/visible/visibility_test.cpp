@@ -1,5 +1,5 @@
-// Tests of culling of clusters (groups of triangles) against brute force over lens points and times. Munkberg, Toth and
-// Akenine-Möller 2012, Appendix A, treat the thin lens in Eq. 6 and any circle of confusion C in Eq. 5. Signs are
+// Tests culling of clusters (groups of triangles) against brute force over lens points and times. In Appendix A of
+// Munkberg, Toth and Akenine-Möller 2012, Eq. 6 treats the thin lens, and Eq. 5 any circle of confusion C. Signs are
 // inverted (see plan/visible/visibility.h).
 
 #include "plan/visible/visibility.h"
@@ -42,8 +42,8 @@ RenderSettings settingsFor(std::uint32_t samples) {
     return settings;
 }
 
-// Returns objects of one triangle each, of up to `size` m, at random positions in front of the camera and a few beside
-// and behind it. Every third transform is a reflection, and every fourth has a non-uniform scale.
+// Returns objects of one triangle each, up to `size` m large, at random positions. Most are in front of the camera, a
+// few beside or behind it. Every third transform is a reflection, and every fourth has a non-uniform scale.
 std::unique_ptr<SmallWorld> looseTriangles(Random& random, int count, double size) {
     auto small = std::make_unique<SmallWorld>();
     small->view.width = 400;
@@ -101,7 +101,7 @@ double determinant(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     return glm::dot(a, glm::cross(b, c));
 }
 
-// Returns the max of the facing determinant over the lens (Munkberg et al. 2012, Eq. 5).
+// Returns the max of the triangle's facing determinant over the lens (Munkberg et al. 2012, Eq. 5).
 double largestDeterminant(const ClipTriangle& t, double aspect, double sign) {
     glm::dvec3 n(0);
     for (std::size_t i = 0; i < 3; ++i) n += t.c[i] * glm::cross(t.p[(i + 1) % 3], t.p[(i + 2) % 3]);
@@ -180,8 +180,8 @@ Counts checkTriangles(const SmallWorld& small, const FramePlan& plan) {
 
 TEST(Visibility, randomTrianglesThroughAThinLens) {
     Random random(1);
-    // Triangles that are large relative to their distance are clipped more often, or their bounding box reaches the
-    // near plane. Fewer of the triangles that face away are then culled.
+    // Triangles that are large relative to their distance are more often clipped, or reach the near plane. Culling then
+    // detects fewer of the triangles that face away.
     const std::pair<double, double> sizesAndShares[] = {{0.02, 0.9}, {0.1, 0.7}, {0.4, 0.5}};
     for (const auto& [size, share] : sizesAndShares) {
         const auto small = looseTriangles(random, 3000, size);
@@ -191,8 +191,8 @@ TEST(Visibility, randomTrianglesThroughAThinLens) {
     }
 }
 
-// The max facing determinant of a thin lens equals that of an eye that moves over a disk of the lens's radius in metres
-// (Munkberg et al. 2012, Eq. 6).
+// For a thin lens, the max facing determinant of a triangle equals that of an eye that moves over a disk of the lens's
+// radius in metres (Munkberg et al. 2012, Eq. 6).
 TEST(Visibility, thinLensMovesTheEyeOverADisk) {
     Random random(2);
     const auto small = looseTriangles(random, 500, 0.3);
@@ -206,7 +206,7 @@ TEST(Visibility, thinLensMovesTheEyeOverADisk) {
     }
 }
 
-// No visible triangle is culled under lens controls, alone and together, that make the circle of confusion a nonlinear
+// No visible triangle is culled if lens controls, one or several at once, make the circle of confusion a nonlinear
 // function of depth.
 TEST(Visibility, randomTrianglesUnderControlsOfTheBlur) {
     Random random(3);
@@ -283,7 +283,7 @@ TEST(Visibility, randomTrianglesWhoseCornersHaveTheirOwnBlur) {
         }
 }
 
-// The blur that widens the frustum for culling is the object's own blur, not the lens's.
+// The frustum for culling is widened by the object's own blur, which may exceed the blur of the lens.
 TEST(Visibility, anObjectBlurredMoreThanTheLensBlursIsSeenFromFarther) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial(glm::vec4(1)));
@@ -292,7 +292,7 @@ TEST(Visibility, anObjectBlurredMoreThanTheLensBlursIsSeenFromFarther) {
     small->view.height = 300;
     small->view.lens.fStop = 1;
     small->view.lens.focusDistance = 2;
-    // A square 10 px beside the image and 0.4 px wide, which the lens blurs by 7 px.
+    // The square is 0.4 px wide and 10 px outside the image. The lens blurs it by 7 px.
     const double pixel = 2 * tanHalfHorizontalFov(small->view.lens) * 4 / 400;
     place(*small, 0,
           glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(210 * pixel, 0, -4)), glm::dvec3(0.2 * pixel)));
@@ -346,8 +346,8 @@ TEST(Visibility, farSideOfASphereIsLeftOut) {
     }
 }
 
-// Clusters of skinned meshes are culled by the corners of their triangles. With a skin of one static joint, about as
-// many clusters are culled as for the rigid mesh.
+// Clusters of skinned meshes are culled by the corners of their triangles instead of by normal cones. A skin of one
+// static joint has about as many culled triangles as the rigid mesh.
 TEST(Visibility, aSkinnedSpheresFarSideIsLeftOut) {
     const auto rigid = oneSphere(at(0, -4));
     const auto skinned = oneSphere(at(0, -4));

@@ -1,5 +1,5 @@
 #pragma once
-// Helpers that render images with method "accumulation".
+// Fixtures that render images with method "accumulation", which averages images over lens samples.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ private:
     static inline std::unique_ptr<GlContext> context_;
 };
 
-// Fixture for images in which one sample may draw two levels of an object, each in a part of the pixels
+// Fixture for images in which one sample may draw two levels of detail of an object, each in some of the pixels
 // (LodMode::continuous).
 class ScreenDoor : public testing::Test {
 protected:

@@ -13,7 +13,7 @@
 namespace defocus::engine {
 namespace {
 
-// Returns a green square of half width `halfSize` (m) at `depth` (m), in front of a uniform red background.
+// Returns a green square of half width `halfSize` at distance `depth`, both in m, in front of a uniform red background.
 std::unique_ptr<SmallWorld> wall(double depth, double halfSize) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial({0.1f, 0.7f, 1.0f / 3, 1}));
@@ -72,9 +72,9 @@ TEST_F(Accumulation, apertureZeroIsThePinhole) {
 }
 
 TEST_F(Accumulation, focusPlaneIsUnchangedByTheAperture) {
-    const auto small = wall(2, 0.4);  // the square is in focus, so its edges must stay in place
+    const auto small = wall(2, 0.4);  // the square is in focus, so its edges must stay sharp
     RenderSettings settings = settingsFor(64);
-    settings.keepAll = true;  // keeps the lens in the plan although nothing is blurred
+    settings.keepAll = true;  // keeps the lens in the plan even if nothing is blurred
     const Image wide = rendered(*small, settings);
     small->view.lens.dofEnabled = false;
     EXPECT_LT(largestDifference(wide, rendered(*small, settings)), 1e-3);
@@ -182,8 +182,8 @@ TEST_F(Accumulation, blendedSurfacesAreDrawnBackToFront) {
     EXPECT_NEAR(image.at(8, 8)[2], 0.25, 1e-3);
 }
 
-// Through a pinhole, each pixel shows the gradient sky's radiance L(d) for the pixel's direction d. A lens shows an
-// environment at infinity unblurred only if it is focused at infinity.
+// Through a pinhole, each pixel shows the gradient sky's radiance L(d) for the pixel's direction d. A lens would blur
+// the sky unless it is focused at infinity.
 TEST_F(Accumulation, gradientSkyIsItsFormula) {
     SmallWorld small;
     small.world.environment = {
@@ -232,8 +232,8 @@ void addLocalLights(SmallWorld& small) {
     small.world.lights.insert(small.world.lights.end(), {lamp, spot});
 }
 
-// Lights give the same image whether they are constants or uniforms of the shaders. Few lights are compiled into the
-// shaders as constants, and additional dark lights turn all of them into uniforms.
+// Lights give the same image whether they are constants or uniforms of the shaders. A few lights are compiled into the
+// shaders as constants. Additional dark lights exceed the limit, so that all lights become uniforms.
 TEST_F(Accumulation, constantLightsLightAsUniformOnes) {
     const auto small = fiveSpheres();
     RendererOptions options;
@@ -271,7 +271,7 @@ TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
         light.position = glm::dvec3(turn * glm::dvec4(light.position, 1));
         light.direction = glm::dmat3(turn) * light.direction;
     }
-    // the images differ, since objects and lights have moved but the camera has not
+    // as long as only objects and lights have moved, but not the camera, the images differ
     EXPECT_LT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);
     small->view.worldFromCamera = turn * small->view.worldFromCamera;
     EXPECT_GT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);

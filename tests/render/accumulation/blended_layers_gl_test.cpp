@@ -1,5 +1,5 @@
-// Tests of coverage, and of the number of samples that show each object, where alpha-blended surfaces overlap. The
-// expected weight of a surface is alpha · Π (1 − alpha of each nearer surface).
+// Tests coverage and the number of samples that show each object, where alpha-blended surfaces overlap. The expected
+// weight of a surface is alpha · Π (1 − alpha of each nearer surface).
 
 #include <algorithm>
 #include <cmath>
@@ -57,8 +57,8 @@ Residual errorOf(const std::vector<double>& errors) {
 
 class BlendedLayer : public BlendedPanes {
 protected:
-    // Expects each object to have the given fraction of a pixel's samples, on average over the pixels and without a
-    // bias.
+    // Expects each object to have its `expected` fraction of a pixel's samples. The mean error over all pixels must
+    // vanish, and the RMS error must not exceed that of random choices.
     static void expectShares(const Drawn& frame, const std::vector<double>& expected) {
         const auto samples = static_cast<double>(frame.plan.samples.size());
         const std::size_t pixels = frame.layers.coverage.pixels.size();
@@ -67,14 +67,14 @@ protected:
             for (std::size_t pixel = 0; pixel < pixels; ++pixel)
                 errors.push_back(sharesAt(frame, pixel)[object] - expected[object]);
             const Residual error = errorOf(errors);
-            const double noise = std::sqrt(expected[object] * (1 - expected[object]) / samples);  // for random choices
+            const double noise = std::sqrt(expected[object] * (1 - expected[object]) / samples);  // for random samples
             EXPECT_NEAR(error.mean, 0, 4 * noise / std::sqrt(static_cast<double>(pixels))) << object;
             EXPECT_LT(error.rms, 1.1 * noise) << object;
         }
     }
 };
 
-// The slow test layer_combinations_gl_slow_test.cpp renders all pairs of layers.
+// Tests each data layer alone and all together. The slow test layer_combinations_gl_slow_test.cpp renders all pairs.
 TEST_F(BlendedLayer, coverageIsThePicturesAlphaWithAnyLayer) {
     const auto small = overlappingPanes();
     expectCoverage(*small, everyLayer);
@@ -114,7 +114,8 @@ TEST_F(BlendedLayer, surfacesOfOneObjectAreIndependent) {
     expectShares(frame, {0.75});
 }
 
-// At blurred edges, the samples that count the pane are chosen independently of their lens points.
+// At blurred edges, the fraction of samples that show the pane is its coverage. A choice of samples that depended on
+// their lens points would add a bias.
 TEST_F(BlendedLayer, countsAtBordersAreUnbiased) {
     const auto small = sceneOf({{0.5f, facing(0, 0, 1, 0.15)}});
     small->view.width = 96;
@@ -129,7 +130,7 @@ TEST_F(BlendedLayer, countsAtBordersAreUnbiased) {
     EXPECT_LT(errorOf(errors).rms, 0.045);
 }
 
-// With stochastic transparency, each sample counts the surface that it shows in the picture.
+// With stochastic transparency, a sample's data layers count the surface that the sample's image shows.
 TEST_F(BlendedLayer, countsOfStochasticPanesAreThePicturesAlpha) {
     const auto small = sceneOf({turned(0.4f, 0.6), turned(0.7f, -0.6)});
     RenderSettings settings = settingsFor(64, LodMode::off);

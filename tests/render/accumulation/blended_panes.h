@@ -1,5 +1,6 @@
 #pragma once
-// Scenes of alpha-blended panes, and a fixture that compares coverage with the picture's alpha.
+// Helpers that make scenes of alpha-blended panes, and a fixture that compares the coverage layer with the image's
+// alpha.
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,7 @@ inline std::unique_ptr<SmallWorld> overlappingPanes() {
 
 class BlendedPanes : public LensLayer {
 protected:
-    // Expects coverage to equal the picture's alpha if `layers` are drawn together with the picture.
+    // Expects coverage to equal the image's alpha if data layers such as depth are drawn together with the image.
     static void expectCoverage(const SmallWorld& small, const std::vector<Layer>& layers) {
         const Drawn frame = drawn(small, 16, layers);
         EXPECT_EQ(frame.plan.samples.size(), 16u);
@@ -58,7 +59,7 @@ protected:
                 largest, std::abs(double{frame.layers.coverage.pixels[i]} - double{frame.picture.pixels[4 * i + 3]}));
         std::string names;
         for (const Layer layer : layers) names += std::to_string(static_cast<int>(layer)) + ' ';
-        EXPECT_LT(largest, 5e-4) << names;  // normals and albedo are half floats
+        EXPECT_LT(largest, 5e-4) << names;  // half floats, in which normals and albedo are drawn, round
     }
 };
 

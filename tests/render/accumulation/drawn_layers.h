@@ -1,5 +1,5 @@
 #pragma once
-// Fixture that draws data layers, such as depth and normals, together with their picture.
+// Fixture that draws an image together with its data layers, such as depth and normals.
 
 #include "render/accumulation/accumulated.h"
 

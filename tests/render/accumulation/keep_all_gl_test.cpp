@@ -1,5 +1,5 @@
-// Tests that objects outside the view of all lens samples do not change the image if RenderSettings::keepAll draws
-// them. The plan ignores them in all other decisions.
+// Tests that RenderSettings::keepAll, which draws objects outside the view of all lens samples, does not change the
+// image. Such objects must not affect decisions on sorting, glass and shadows.
 
 #include "likeness.h"
 #include "render/accumulation/blended_panes.h"
@@ -9,7 +9,7 @@ namespace {
 
 class KeepAll : public BlendedPanes {
 protected:
-    // Expects the same bits with and without keepAll. No lens sample may see the last object.
+    // Expects the same bits with and without keepAll. The scene's last object must be invisible to all lens samples.
     static void expectSameBits(const SmallWorld& small, const RenderSettings& settings) {
         const FramePlan culled = planFrame(small.world, small.view, settings);
         ASSERT_EQ(culled.objects.size() + 1, small.world.pose.objects.size());
@@ -38,8 +38,8 @@ void addPane(SmallWorld& small, const Material& material, const glm::dmat4& worl
     finish(small);
 }
 
-// The unseen pane can't be sorted with the visible panes. If it took part, visible panes would be drawn by stochastic
-// transparency.
+// An invisible pane beside the camera has no depth order with the visible panes. If the plan counted it, visible panes
+// would be drawn by stochastic transparency.
 TEST_F(KeepAll, unseenPanesDoNotChangeTheBlending) {
     const auto small = overlappingPanes();
     Material blended = unlitMaterial({1, 0, 0, 0.5f});
@@ -49,7 +49,8 @@ TEST_F(KeepAll, unseenPanesDoNotChangeTheBlending) {
     expectSameBits(*small);
 }
 
-// Only the nearest eight transmitting objects show each other. An unseen object must not count as one of the eight.
+// Only the eight nearest transmitting objects are visible through each other. An invisible object must not be one of
+// the eight.
 TEST_F(KeepAll, unseenGlassDoesNotChangeTheGlass) {
     Material glass = unlitMaterial({0.5f, 0.8f, 0.9f, 1});
     glass.unlit = false;

@@ -1,4 +1,4 @@
-// Tests that no pair of data layers changes the coverage.
+// Tests that coverage is the same with every pair of data layers, such as depth and normals.
 
 #include <bit>
 

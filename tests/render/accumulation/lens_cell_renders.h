@@ -1,5 +1,5 @@
 #pragma once
-// Helpers that render images for the tests of method "multirate".
+// Helpers that render images for tests of method "multirate", which draws few samples and blurs each sample's image.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ inline RenderSettings ratedSettings(std::uint32_t samples, LodMode lod = LodMode
     return settings;
 }
 
-// Returns a renderer for `method`, given in the command line's syntax, such as "line:segments=4".
+// Returns a renderer for `method`, written as on the command line, for example "line:segments=4".
 inline std::unique_ptr<Renderer> rendererOf(const char* method, const World& world, RendererOptions options = {}) {
     const MethodUse use = parseMethodUse(method);
     options.settings = use.settings;
@@ -36,7 +36,7 @@ inline Image drawnBy(const char* method, const SmallWorld& small, const RenderSe
     return imageOf(*rendererOf(method, small.world, options), planFrame(small.world, small.view, settings));
 }
 
-// Returns a reference image of 4096 samples. Its sequence differs from the tested images' sequence.
+// Returns a reference image of 4096 samples, drawn with another sample sequence than the tested images.
 inline Image convergedImage(const SmallWorld& small) {
     RenderSettings settings = ratedSettings(4096);
     settings.sequence = Sequence::halton;
@@ -56,8 +56,8 @@ inline double relativeDifferenceFrom(const Image& image, const glm::vec3& color)
     return largest;
 }
 
-// Fixture for images by lens cells, regions of the lens. Each cell has one sample, whose image is blurred as by a lens
-// of the size of the cell.
+// Fixture for images that are drawn by lens cells, which are regions of the lens. Each cell has one sample, whose image
+// is blurred as by a lens of the size of the cell.
 class LensCellImages : public testing::Test {
 protected:
     static void SetUpTestSuite() { context_ = createHeadlessContext(); }
@@ -67,8 +67,8 @@ protected:
         return lensCells(planFrame(small.world, small.view, settings));
     }
 
-    // Returns spheres in front of and behind the focus. With 64 samples, both sides have blur classes (groups of pixels
-    // with similar blur) with σ = 1 and 2 px.
+    // Returns spheres in front of and behind the focal plane. With 64 samples, both sides have blur classes (groups of
+    // pixels with similar blur) with σ = 1 and 2 px.
     static std::unique_ptr<SmallWorld> blurredSpheres() {
         auto small = fiveSpheres();
         small->view.lens.fStop = 0.25;

@@ -1,5 +1,5 @@
-// Tests of data layers (depth, normals and other surface data, averaged over lens samples) against the picture itself
-// and against closed forms.
+// Tests data layers against the rendered image and against closed forms. Data layers are depth, normals and other
+// surface data, averaged over lens samples.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-// Returns three unlit squares of different colours and depths on black. The lens blurs the first and the last.
+// Returns three unlit squares of different colours on black, at depths of 1, 2 and 5 m. The second square is in focus.
 std::unique_ptr<SmallWorld> threeSquares() {
     auto small = std::make_unique<SmallWorld>();
     const glm::vec4 colours[] = {{1, 0.2f, 0, 1}, {0.1f, 0.9f, 0.3f, 1}, {0.2f, 0.3f, 2, 1}};
@@ -41,7 +41,8 @@ TEST_F(LensLayer, leavesThePictureUnchanged) {
     EXPECT_LT(largestDifference(plain, drawn(*small, 24).picture), 1e-5);
 }
 
-// For unlit objects, the sum of mask × colour over all objects equals the picture.
+// For unlit objects, the sum over all objects of mask × colour equals the rendered image. A mask is the fraction of a
+// pixel's samples that show an object.
 TEST_F(LensLayer, masksTimesObjectsAreThePicture) {
     const auto small = threeSquares();
     for (const double catEye : {0.0, 0.5}) {
@@ -69,7 +70,7 @@ TEST_F(LensLayer, masksTimesObjectsAreThePicture) {
     }
 }
 
-// The albedo layer and the emission layer of unlit surfaces equal the picture.
+// For unlit surfaces, the albedo layer and the emission layer equal the rendered image.
 TEST_F(LensLayer, albedoIsFilteredAsThePicture) {
     const Drawn frame = drawn(*threeSquares(), 64);
     for (const Layer layer : {Layer::albedo, Layer::emission}) {
@@ -119,7 +120,7 @@ TEST_F(LensLayer, ofAWallAreItsPlaceAndBlur) {
         EXPECT_NEAR(at(Layer::coc), coc, 1e-3);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(Layer::normal, c), c == 2 ? 1 : 0, 1e-3);
         EXPECT_NEAR(at(Layer::albedo, 1), 0.25, 1e-3);
-        // Lens samples are symmetric about the pixel's centre, apart from noise of a tenth of the blur.
+        // The mean position of a pixel's samples deviates from the pixel's centre by up to a tenth of the blur.
         const double pixelWidth = 2 * tanX * 3 / small->view.width;
         const double tolerance = (0.1 * coc + 0.1) * pixelWidth;
         EXPECT_NEAR(at(Layer::position, 0), 0.25 + (pixel.x + 0.5 - 32) * pixelWidth, tolerance);
@@ -142,7 +143,8 @@ TEST_F(LensLayer, ofNothingAreEmpty) {
     EXPECT_EQ(frame.layers.numbers.at(Layer::objects).values[95 * 16], 0u);
 }
 
-// In data layers, a pane with alpha 1/4 in front of a wall has the weight 1/4, and the wall has 3/4.
+// Data layers weight surfaces by alpha: a pane with alpha 1/4 in front of a wall has the weight 1/4, and the wall has
+// 3/4.
 TEST_F(LensLayer, ofBlendedSurfacesFollowAlpha) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({1, 0, 0, 0.25f}), unlitMaterial({0, 1, 0, 1})};
@@ -185,7 +187,7 @@ TEST_F(LensLayer, motionIsTheWayDuringTheExposure) {
     EXPECT_NEAR(valueAt(frame.layers.means.at(Layer::motion), 48, 32, 1), -0.04 * pixels, 1e-3);
 }
 
-// Data layers depend neither on the number of samples that are drawn at once nor on other data layers.
+// Data layers depend neither on the number of samples that are drawn together nor on the choice of other data layers.
 TEST_F(LensLayer, dependOnlyOnTheSamples) {
     const auto small = fiveSpheres();
     const Drawn all = drawn(*small, 70);

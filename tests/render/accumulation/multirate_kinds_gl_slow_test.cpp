@@ -1,4 +1,5 @@
-// Slow tests of method "multirate", which render a few dozen images of 256 samples.
+// Tests method "multirate" with many kinds of surfaces and lenses. The tests are slow: some dozen images of 256
+// samples.
 
 #include <gtest/gtest.h>
 

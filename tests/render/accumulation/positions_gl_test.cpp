@@ -1,4 +1,4 @@
-// Tests of lens samples that draw four positions in each pixel (RenderSettings::positions).
+// Tests images in which each lens sample draws four positions in each pixel instead of one (RenderSettings::positions).
 
 #include <vector>
 
@@ -21,7 +21,7 @@ protected:
         return settings;
     }
 
-    // Returns a reference image of 1,024 samples. Its sequence differs from the tested images' sequence.
+    // Returns a reference image of 1,024 samples, drawn with another sample sequence than the tested images.
     static Image referenceOf(const SmallWorld& small) {
         RenderSettings settings = ratedSettings(1024);
         settings.sequence = Sequence::halton;
@@ -41,7 +41,7 @@ protected:
     }
 };
 
-// With four positions, each pixel is the mean of 2 × 2 pixels of an image of twice the width and height.
+// With four positions per pixel, each pixel is the mean of 2 × 2 pixels of an image of twice the width and height.
 TEST_F(Positions, areThePixelsOfATwiceAsLargeImage) {
     RendererOptions exact;
     exact.layerFormat = LayerFormat::rgba32f;
@@ -131,7 +131,7 @@ TEST_F(Positions, otherThanOneOrFourAreRefused) {
     EXPECT_THROW(static_cast<void>(planFrame(small->world, small->view, layers)), Error);
 }
 
-// With an automatic number of samples, the renderer chooses four positions if the blur is small but not zero.
+// With an automatic number of samples, the renderer chooses four positions per pixel if the blur is small but not zero.
 TEST_F(Positions, areChosenByTheBlur) {
     const auto small = fiveSpheres();
     small->view.width = 64;
@@ -155,7 +155,7 @@ TEST_F(Positions, areChosenByTheBlur) {
     EXPECT_EQ(drawn(true).positions, 1u) << "a pinhole";
 }
 
-// Rough glass blurs the objects behind it by the same width with one position and with four.
+// Rough glass blurs the objects behind it equally with one and with four positions per pixel.
 TEST_F(Positions, doNotSharpenRoughGlass) {
     const auto small = fiveSpheres();
     small->scene.materials[0].transmissionFactor = 1;
@@ -167,7 +167,7 @@ TEST_F(Positions, doNotSharpenRoughGlass) {
     EXPECT_GT(compareImages(image, drawnBy("accumulation", *small, four)).psnr, 40);
 }
 
-// The estimated error of the image decides how many samples are drawn, also with four positions.
+// With four positions per pixel, too, samples are drawn until the estimated error of the image is that of the quality.
 TEST_F(Positions, areDrawnUntilTheQualityIsReached) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = fiveSpheres();

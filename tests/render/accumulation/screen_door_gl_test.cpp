@@ -1,5 +1,5 @@
-// Tests of lens samples in which some pixels show one level of an object, and the others the next level
-// (LodMode::continuous): the choice of pixels, their number, and the error.
+// Tests lens samples that are split: some pixels show one level of detail of an object, and the others the next level
+// (LodMode::continuous). The tests check which pixels show which level, how many, and the error.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,8 +11,8 @@
 namespace defocus::engine {
 namespace {
 
-// Draws the only object at level `level` + 1 in the first `coarseCount` samples and at `level` in the later samples.
-// The first of the later samples is split: it draws a fraction `share` of its pixels at level `level` + 1.
+// Plans the only object at level `level` + 1 in the first `coarseCount` samples and at `level` in the later samples.
+// The first of the later samples is split: a fraction `share` of its pixels shows level `level` + 1.
 void setSplit(FramePlan& plan, const World& world, std::uint32_t level, std::uint32_t coarseCount, double share) {
     ObjectPlan& object = plan.objects.at(0);
     const auto samples = static_cast<std::uint32_t>(plan.samples.size());
@@ -23,7 +23,7 @@ void setSplit(FramePlan& plan, const World& world, std::uint32_t level, std::uin
     plan.levelsUsed[0].assign(plan.levelsUsed[0].size(), true);
 }
 
-// Returns the nearest of the five spheres alone, enlarged.
+// Returns a scene that contains only the nearest of the five spheres, enlarged.
 std::unique_ptr<SmallWorld> oneSphere() {
     auto small = fiveSpheres();
     small->world.pose.objects.resize(1);
@@ -32,8 +32,8 @@ std::unique_ptr<SmallWorld> oneSphere() {
     return small;
 }
 
-// If one sample is split between two levels, each pixel equals the same pixel of the image in which n or n + 1 samples
-// show the coarser level.
+// If sample n + 1 is split between two levels of detail, each pixel is bit-identical to an image without a split:
+// either n or n + 1 samples show the coarser level.
 TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
     const auto small = oneSphere();
     constexpr std::uint32_t samples = 8;
@@ -67,8 +67,8 @@ TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
     }
 }
 
-// Splitting a sample between two levels changes the coverage of a pixel by at most one sample. For an object of one
-// colour on a background of another, no pixel changes by more than 1/N of the colour difference, with N samples.
+// Splitting a sample between two levels of detail changes the coverage of a pixel by at most one sample. With N
+// samples, no pixel changes by more than 1/N of the colour difference between object and background.
 TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     const auto small = oneSphere();
     small->scene.materials[0] = unlitMaterial({1, 1, 1, 1});
@@ -77,7 +77,7 @@ TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     small->world.environment = {EnvironmentType::uniform, {0, 0, 0}, {}, {}, nullptr, 1};
     for (const std::uint32_t samples : {1u, 8u, 32u}) {
         FramePlan plan = planFrame(small->world, small->view, continuousFor(samples));
-        // The outlines of the two coarsest levels differ most.
+        // The outlines of an object's two coarsest levels differ most.
         const auto last = static_cast<std::uint32_t>(small->world.pyramids[0].levels.size() - 2);
         setSplit(plan, small->world, last, samples / 2, 0);
         const Image full = renderedPlan(*small, plan);
@@ -120,7 +120,7 @@ TEST_F(ScreenDoor, ofBlendedSurfacesLeavesNoHole) {
     finish(*small);
     small->world.environment = {EnvironmentType::uniform, {1, 0, 0}, {}, {}, nullptr, 1};
     FramePlan plan = planFrame(small->world, small->view, continuousFor(1));
-    plan.blendOrder.at(0).stochastic = false;  // sort, because stochastic transparency has holes in a single sample
+    plan.blendOrder.at(0).stochastic = false;  // sorted: stochastic transparency leaves holes in a single sample
     setSplit(plan, small->world, 1, 0, 0.4);
     const Image image = renderedPlan(*small, plan);
     EXPECT_NEAR(image.at(80, 60)[0], 0.6, 2e-3);  // half the sphere's colour and half the background's in each pixel

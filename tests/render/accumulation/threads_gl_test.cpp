@@ -1,5 +1,4 @@
-// Tests that images do not depend on the number of threads that draw. Also tests frames that are abandoned or that
-// fail.
+// Tests that images do not depend on the number of drawing threads, and that frames can be abandoned or fail.
 
 #include <algorithm>
 #include <filesystem>
@@ -109,7 +108,8 @@ TEST_F(DrawingThreads, changeNoBitOfDataLayers) {
     }
 }
 
-// The image after each wave is the mean of all samples so far, even while threads draw further samples.
+// After each batch (wave) of samples, the image is the mean of all samples so far, while threads already draw further
+// samples.
 TEST_F(DrawingThreads, changeNoBitOfUnfinishedImages) {
     const auto small = fiveSpheres();
     const FramePlan plan = planOf(*small, 32);
@@ -154,7 +154,8 @@ TEST_F(DrawingThreads, areAtMostTheSamples) {
     }
 }
 
-// A limit on the layers that are drawn at once applies to all threads together, so it also limits their number.
+// A limit on the number of samples that are drawn together applies to all threads in total, so it also limits the
+// number of threads.
 TEST_F(DrawingThreads, keepToTheLimitOfLayers) {
     const auto small = fiveSpheres();
     const FramePlan plan = planOf(*small, 64);
@@ -169,7 +170,7 @@ TEST_F(DrawingThreads, keepToTheLimitOfLayers) {
     for (const std::uint32_t layers : {1u, 3u, 4u, 9u}) {
         const RenderStats stats = statsWith(4, layers);
         EXPECT_EQ(stats.threads, std::min(layers, 4u));
-        // Each thread also has uniform blocks of its own, which are smaller than a layer.
+        // Each thread also has uniform buffers, which are smaller than the layer of one sample.
         EXPECT_LE(stats.peakBytes, statsWith(1, 1).peakBytes + layers * layerBytes) << layers;
     }
 }
@@ -212,7 +213,7 @@ TEST_F(DrawingThreads, errorsReachTheCaller) {
     };
     EXPECT_NE(messageWith("accumulation/object.vert").find("accumulation/object.vert"), std::string::npos);
     auto map = std::make_shared<Image>(16, 8, 3);
-    small->world.environment.type = EnvironmentType::map;  // threads compile the sky's shader with the first wave
+    small->world.environment.type = EnvironmentType::map;  // threads compile the sky's shader for their first samples
     small->world.environment.map = map;
     EXPECT_NE(messageWith("accumulation/sky.frag").find("accumulation/sky.frag"), std::string::npos);
 }

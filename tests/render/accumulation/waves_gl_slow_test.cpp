@@ -1,5 +1,5 @@
-// Tests of methods "accumulation" and "multirate" for every wave size, which is the number of samples drawn at once.
-// Also tests the rounding error of the sum of layers.
+// Tests that images by methods "accumulation" and "multirate" do not depend on the wave size, which is the number of
+// samples drawn together. Also tests the rounding error of the sum of samples.
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ TEST_F(Accumulation, waveSizeChangesNoBit) {
     }
 }
 
-// The compensated sum of layers agrees with a sum in double precision of the same layers.
+// The sum of samples on the GPU, with compensated rounding, agrees with a sum of the same samples in double precision.
 TEST_F(Accumulation, summationErrsLessThanOneInAMillion) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = fiveSpheres();
@@ -45,7 +45,7 @@ TEST_F(Accumulation, summationErrsLessThanOneInAMillion) {
         one.firstSample = i;
         one.keepAll = true;
         FramePlan plan = planFrame(small->world, small->view, one);
-        plan.frameSamples = n;  // the filter of highlights depends on the frame's sample count
+        plan.frameSamples = n;  // the filter that widens highlights depends on the frame's sample count
         const Image layer = imageOf(*methodNamed("accumulation").make(small->world, options), plan);
         sum.resize(layer.pixels.size());
         for (std::size_t p = 0; p < sum.size(); ++p) sum[p] += double(layer.pixels[p]);

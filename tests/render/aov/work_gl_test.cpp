@@ -32,7 +32,7 @@ RenderSettings manySamples() {
 }
 
 // Returns quads that face a 50 mm lens at f/1.4, focused at 2 m, in an image of 96 × 72 px. At depth z, the image is
-// 0.72·z wide.
+// 0.72·z m wide.
 std::unique_ptr<SmallWorld> facingQuads(const std::vector<glm::dmat4>& quads, const Material& material) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(material);
@@ -59,7 +59,7 @@ void expectEverywhere(const Image& work, float expected) {
     for (const float value : work.pixels) ASSERT_EQ(value, expected);
 }
 
-// Two triangles that are out of focus and fill the image touch each pixel exactly once in each lens sample.
+// A quad of two triangles that is out of focus and fills the image touches each pixel exactly once in each lens sample.
 TEST_F(Work, fullScreenPairTouchesEachPixelOnceASample) {
     const auto small = facingQuads({quadAt(1, {0, 0}, {2, 2})}, unlitMaterial(glm::vec4(1)));
     expectEverywhere(workOf(*small), samples);
@@ -85,8 +85,8 @@ TEST_F(Work, backsCountOnlyWhereTheyAreDrawn) {
     expectEverywhere(workOf(*facingQuads({back}, material)), samples);
 }
 
-// In each sample, a rectangle is shifted for the lens point and the jitter, and touches the pixels whose centres lie
-// inside it.
+// In each lens sample, the lens point and the jitter shift a rectangle in the image. It touches the pixels whose
+// centres lie inside it.
 TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
     const double depth = 0.6;
     const glm::dvec2 centre(0.0143, -0.0097);
@@ -112,8 +112,8 @@ TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
     EXPECT_NEAR(sum / samples, 4 * half.x * half.y * perMetre * perMetre, 0.01 * sum / samples);
 }
 
-// In the viewer, the work AOV grows by a few samples per frame, up to the sum of one complete pass. The test does this
-// for two views, one after the other.
+// The work AOV counts the triangles that cover each pixel. In the viewer, it grows by a few samples per frame, up to
+// the sum of one complete pass. The test does this for two views in turn.
 TEST_F(Work, growsToTheSameSumForViewAfterView) {
     const auto small = facingQuads({quadAt(0.6, {0.014, -0.01}, {0.08, 0.05}), quadAt(3, {0, 0}, {0.9, 0.2})},
                                    unlitMaterial(glm::vec4(1)));
@@ -131,7 +131,7 @@ TEST_F(Work, growsToTheSameSumForViewAfterView) {
     }
 }
 
-// In the viewer, the work AOV has the same colours as the heat map that is written to files.
+// The viewer shows the work AOV, the number of triangles that cover each pixel, in the colours of the heat map file.
 TEST_F(Work, isShownInTheColoursOfItsFile) {
     const auto small = facingQuads({quadAt(0.6, {0.014, -0.01}, {0.08, 0.05}), quadAt(3, {0, 0}, {0.9, 0.2})},
                                    unlitMaterial(glm::vec4(1)));

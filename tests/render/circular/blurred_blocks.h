@@ -1,5 +1,5 @@
 #pragma once
-// Small test images and their blur by a sum of complex Gaussians.
+// Fixture that makes small test images and blurs them by a sum of complex Gaussians.
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ protected:
         return {.width = width, .height = height, .components = components, .storage = storage, .shaderFolder = {}};
     }
 
-    // Returns blocks of colours between 0 and 1 with weight 1, which have edges in every direction.
+    // Returns blocks of colours between 0 and 1 with edges in every direction. The alpha channel, the weight, is 1.
     static Image blocks() {
         Image image(width, height, 4);
         for (int y = 0; y < height; ++y)
@@ -62,7 +62,7 @@ protected:
         return image;
     }
 
-    // Returns the top left quarter of an image, so that tests of every pixel under wide kernels stay fast.
+    // Returns the top left quarter of an image. Tests compare only this quarter, because wide kernels are slow.
     static Image partOf(const Image& image) {
         Image part(width / 2, height / 2, image.channels);
         const std::size_t row = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.channels);

@@ -48,7 +48,7 @@ TEST(CircularKernel, factorsOfTwoAxesMultiplyToACircle) {
 }
 
 TEST(CircularKernel, profileIsTheWeightedSumOfRealAndImaginaryParts) {
-    const CircularComponent quarterTurn{0.5, pi / 2, 3, 7};  // the complex factor at radius 1 is e^(−1/2)·i
+    const CircularComponent quarterTurn{0.5, pi / 2, 3, 7};  // at radius 1, its complex factor is e^(−1/2)·i
     EXPECT_NEAR(circularProfile({&quarterTurn, 1}, 1), 7 * std::exp(-0.5), 1e-14);
     EXPECT_NEAR(circularProfile({&quarterTurn, 1}, 0), 3, 1e-14);
     EXPECT_NEAR(std::abs(circularFactor(quarterTurn, 1) - std::complex<double>(0, std::exp(-0.5))), 0, 1e-14);
@@ -78,8 +78,8 @@ TEST(CircularKernel, nodesIntegrateOverTheSquare) {
                 pi * edge * edge - 4 * segment, 1e-12);
 }
 
-// The error of a single Gaussian K of any weight agrees with closed forms. ∫K² and ∫K over the square are error
-// functions, and ∫K over a disk of radius ρ inside the square is π·(1 − e^(−a·ρ²))/a.
+// The error of a single Gaussian K(r) = e^(−a·r²) of any weight agrees with closed forms. ∫K² and ∫K over the square
+// are error functions, and ∫K over a disk of radius ρ inside the square is π·(1 − e^(−a·ρ²))/a.
 TEST(CircularKernel, errorOfAGaussianInClosedForm) {
     for (const double decay : {0.7, 2.0}) {
         for (const double extent : {1.0, 1.25}) {
@@ -94,7 +94,7 @@ TEST(CircularKernel, errorOfAGaussianInClosedForm) {
             EXPECT_NEAR(diskProfileError(kernel, extent, radius),
                         std::sqrt((gain * gain * square - 2 * gain * both + disk) / disk), 1e-12);
 
-            // With the square inside the disk, the disk's part outside the square counts fully as error.
+            // If the square lies inside the disk, the disk's part outside the square counts fully as error.
             const double wide = 2 * extent;
             disk = pi * wide * wide;
             gain = disk / over;
@@ -104,8 +104,8 @@ TEST(CircularKernel, errorOfAGaussianInClosedForm) {
     }
 }
 
-// roundingAmplification() is 1 for a Gaussian of positive weight. For components that partly cancel, it is the sum of
-// their magnitudes over their sum.
+// roundingAmplification() is 1 for a Gaussian of positive weight. If components partly cancel, it is the sum of the
+// components' magnitudes divided by the magnitude of their sum.
 TEST(CircularKernel, roundingIsAmplifiedWhereComponentsCancel) {
     const Kernel one = {{1.5, 0, 4, 0}};
     EXPECT_NEAR(roundingAmplification(one, 1, 1), 1, 1e-12);
@@ -119,7 +119,8 @@ TEST(CircularKernel, energyIsTheDisks) {
     }
 }
 
-// Half floats round by 2⁻¹¹ = 0.05 %, so an amplification below 5 keeps the error under 0.25 % of the brightest pixel.
+// Half floats round by 2⁻¹¹ = 0.05 %. If the kernel amplifies rounding by less than 5, the error stays below 0.25 % of
+// the brightest pixel.
 TEST(CircularKernel, halfFloatsSuffice) {
     for (int n = 1; n <= circularKernelLimit; ++n) {
         EXPECT_LT(roundingAmplification(circularKernel(n), circularKernelExtent, 1), 5) << n;
@@ -137,8 +138,8 @@ TEST(CircularKernel, moreComponentsComeCloserToTheDisk) {
     }
 }
 
-// The fitted kernels are no farther from a disk than Niemitalo's kernels. Each of his kernels is compared at its best
-// extent and disk radius.
+// The project's fitted kernels approximate a disk at least as well as Niemitalo's kernels. Each of his kernels is
+// compared at its best extent and disk radius.
 TEST(CircularKernel, noFurtherFromTheDiskThanThePublishedKernels) {
     const std::vector<Kernel> published = {
         {{0.862325, 1.624835, 0.767583, 1.862321}},
@@ -156,8 +157,8 @@ TEST(CircularKernel, noFurtherFromTheDiskThanThePublishedKernels) {
     }
 }
 
-// The published kernel has the constants of Garcia's slides at x = tap/8. At the outermost tap, the kernel of two
-// components is 0.9245, the value of the printed formula.
+// The published kernel has the constants of Garcia's slides, with the distance x = tap/8. At the outermost tap, the
+// kernel of two components is 0.9245 by the printed formula.
 TEST(CircularKernel, publishedKernelIsThatOfTheSlides) {
     const auto kernel = publishedCircularKernel(2);
     EXPECT_EQ(kernel[0].decay, 0.886528);
@@ -165,8 +166,8 @@ TEST(CircularKernel, publishedKernelIsThatOfTheSlides) {
     EXPECT_NEAR(circularProfile(kernel, 1), 0.9245, 1e-4);
 }
 
-// Rescaled kernels have the published constants in units of the disk's radius. At the same extent, any other radius
-// would fit a disk worse.
+// Rescaled kernels are the published ones in units of the radius of the disk that they approximate. With the extent
+// fixed, a radius 3 % larger or smaller fits a disk worse.
 TEST(CircularKernel, rescaledKernelsAreInRadiiOfTheirDisk) {
     EXPECT_THROW(publishedCircularKernel(0), Error);
     EXPECT_THROW(rescaledCircularKernel(publishedKernelLimit + 1), Error);
@@ -190,8 +191,8 @@ TEST(CircularKernel, rescaledKernelsAreInRadiiOfTheirDisk) {
     }
 }
 
-// The rescaled kernels have shallower negative lobes, which darken the surroundings of a highlight, than the fitted
-// kernels.
+// Negative lobes of a kernel darken the surroundings of a highlight. The rescaled kernels have shallower lobes than the
+// fitted kernels.
 TEST(CircularKernel, rescaledKernelsDipLess) {
     const auto lowest = [](std::span<const CircularComponent> kernel) {
         double value = 0;
@@ -270,7 +271,7 @@ TEST(CircularKernel, rowsThenColumnsDrawTheKernelAroundEachPoint) {
         int x, y;
         double light;
     };
-    // the kernels' squares around both points overlap; the image border cuts the second square
+    // the kernels' supports around both points overlap; the image border cuts the second one
     const Point points[] = {{45, 52, 1}, {61, 20, 2.5}};
     Field in(side * side);
     for (const Point& point : points) in[at(point.x, point.y)] = point.light;
@@ -291,7 +292,7 @@ TEST(CircularKernel, rowsThenColumnsDrawTheKernelAroundEachPoint) {
     }
 }
 
-// The RMS radius of a blurred point equals that of a disk, radius/√2, as for a lens's bokeh.
+// The blur of a point has the RMS radius of a disk, radius/√2.
 TEST(CircularKernel, blurIsAsWideAsTheDisk) {
     Field in(side * side);
     in[at(side / 2, side / 2)] = 1;

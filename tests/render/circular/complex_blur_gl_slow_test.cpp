@@ -1,4 +1,4 @@
-// Slow tests of the blur by two separable passes of complex Gaussians.
+// Slow tests of a blur by two separable passes of complex Gaussians.
 
 #include <utility>
 
@@ -8,7 +8,7 @@
 namespace defocus::engine {
 namespace {
 
-// Two separable passes give the same image as the direct sum over the two-dimensional kernel.
+// Two separable passes give the same image as direct convolution with the two-dimensional kernel.
 TEST_F(ComplexBlurs, twoPassesGiveTheWholeKernel) {
     SKIP_ON_SECOND_DRIVER();
     for (const ComplexTaps taps : {ComplexTaps::exact, ComplexTaps::eight, ComplexTaps::sets})

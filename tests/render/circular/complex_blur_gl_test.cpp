@@ -9,8 +9,8 @@
 namespace defocus::engine {
 namespace {
 
-// A point becomes an oval whose variance along each axis is a quarter of the squared half-axis, as for a uniform
-// ellipse.
+// A point becomes an ellipse. As for a uniform ellipse, the variance along each axis is a quarter of the squared
+// half-axis.
 TEST_F(ComplexBlurs, aPointBecomesAnOvalOfItsAxes) {
     Image point = filled(4, 0);
     point.at(48, 40)[0] = 1000;
@@ -34,7 +34,7 @@ TEST_F(ComplexBlurs, aPointBecomesAnOvalOfItsAxes) {
 
 TEST_F(ComplexBlurs, aConstantStaysConstantHoweverTheRadiusVaries) {
     Image varying(width, height, 1);
-    for (int y = 0; y < height; ++y)  // blur radii: a slope with a step at its end
+    for (int y = 0; y < height; ++y)  // the blur radius grows along x and has a step
         for (int x = 0; x < width; ++x) *varying.at(x, y) = x + y < 90 ? 0.07f * static_cast<float>(x) : 11.0f;
     for (const ComplexStorage storage : {ComplexStorage::float32, ComplexStorage::half})
         for (int components = 1; components <= circularKernelLimit; ++components) {
@@ -81,7 +81,7 @@ TEST_F(ComplexBlurs, aPointBecomesADiskOfTheRadiusAndKeepsItsEnergy) {
 TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
     Image bright = blocks();
     for (std::size_t i = 0; i < bright.pixels.size(); ++i)
-        if (i % 4 != 3) bright.pixels[i] *= 50;  // storage divides by the image's max, so it clips nothing
+        if (i % 4 != 3) bright.pixels[i] *= 50;  // 10-bit storage divides by the image's max, so it clips nothing
     for (const int components : {1, 2, 3}) {
         const Image exact = blurred(infoOf(components, ComplexStorage::float32), bright, filled(1, 9));
         const Image stored = blurred(infoOf(components, ComplexStorage::rgb10A2), bright, filled(1, 9));
@@ -98,7 +98,7 @@ TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
     }
 }
 
-// 10-bit storage divides the weights by their max, as it does for radiance, so small weights keep their relative
+// 10-bit storage divides radiance and weights by their max before rounding, so small weights keep their relative
 // precision.
 TEST_F(ComplexBlurs, bracketsKeepSmallWeights) {
     Image light = blocks();
@@ -108,8 +108,8 @@ TEST_F(ComplexBlurs, bracketsKeepSmallWeights) {
     for (std::size_t i = 0; i < one.pixels.size(); ++i) ASSERT_NEAR(small.pixels[i] / 0.01f, one.pixels[i], 5e-3) << i;
 }
 
-// The published bracket is the storage range of a kernel with a radius of eight taps. It scales values by the sum of
-// the taps: a white field is stored as 1, a black field as 0 and every other field in between.
+// The published bracket (storage range) of a kernel with a radius of eight taps scales values by the sum of the taps. A
+// white field is stored as 1, a black field as 0 and every other field in between.
 TEST(Brackets, ofEightTapsStoreAWhiteFieldAsOne) {
     for (int n = 1; n <= circularKernelLimit; ++n)
         for (const CircularComponent& component : circularKernel(n)) {
@@ -127,8 +127,8 @@ TEST(Brackets, ofEightTapsStoreAWhiteFieldAsOne) {
 }
 
 // Brackets (storage ranges) of the published kernel of two components, for a radius of eight taps, equal those that
-// Garcia's filter generator prints. The generator scales the kernel to a sum of one, so the middle tap, whose factor is
-// 1, is 0.064754.
+// Garcia's filter generator prints. The generator scales the kernel to a sum of one, so the middle tap is 0.064754
+// instead of 1.
 TEST(Brackets, ofEightTapsAreGarcias) {
     constexpr double middle = 0.064754;
     constexpr int taps = 17;
@@ -162,7 +162,8 @@ TEST(Brackets, boundTheTapsOfEveryRadius) {
         }
 }
 
-// At ten bits, scaling by the sum of the taps loses less precision than scaling by the taps' range over all radii.
+// With ten bits, storage scaled by the sum of the taps loses less precision than storage scaled by the range of taps
+// over all radii.
 TEST_F(ComplexBlurs, publishedBracketsLoseLessThanRanges) {
     const auto lost = [&](ComplexTaps taps) {
         ComplexBlurInfo info = infoOf(2, ComplexStorage::float32);

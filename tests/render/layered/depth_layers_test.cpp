@@ -1,4 +1,4 @@
-// Tests of views that are widened beyond the frame: each pixel shows the same point with the same blur as in the
+// Tests views that are widened beyond the frame. Each pixel must show the same point with the same blur as in the
 // original view.
 
 #include "render/layered/depth_layers.h"

@@ -1,5 +1,5 @@
-// Tests of method "layered", which traces lens rays through depth layers, against the accumulation: round surfaces, and
-// every shape and control of the lens.
+// Tests method "layered", which traces lens rays through depth layers, with method "accumulation" as the reference. The
+// scenes have round surfaces, and the lenses many shapes and controls.
 
 #include <functional>
 #include <utility>

@@ -1,5 +1,5 @@
-// Tests of method "layered", which traces lens rays through depth layers, against formulas and against the
-// accumulation.
+// Tests method "layered", which traces lens rays through depth layers, against formulas and against method
+// "accumulation".
 
 #include <cmath>
 #include <numbers>
@@ -40,7 +40,7 @@ std::unique_ptr<SmallWorld> panes(const std::vector<Pane>& list, int width = 96,
     return small;
 }
 
-// Scales the lens so that the blur at `depth` is `pixels` wide.
+// Scales the lens's blur so that a point at `depth` has a blur of `pixels` px.
 void blurBy(SmallWorld& small, double pixels, double depth) {
     small.view.lens.blurScale *= pixels / blurDiameter(small.view, depth);
 }
@@ -55,7 +55,7 @@ TEST_F(Layered, apertureZeroIsThePinholeImage) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
     EXPECT_LT(maxBetween(seenBy(*small, "accumulation", 1), seenBy(*small, "layered", 1)), 2e-3);
-    // A uniform sky is the same in all lens samples, whereas the default sky varies within a pixel.
+    // A uniform sky is the same in all lens samples. The default sky varies within a pixel.
     small->world.environment = {EnvironmentType::uniform, glm::vec3(0.4f), {}, {}, nullptr, 1};
     EXPECT_LT(maxBetween(seenBy(*small, "accumulation", 1), seenBy(*small, "layered:pinholes=1", 32)), 2e-3);
 }
@@ -84,8 +84,8 @@ TEST_F(Layered, aPointOfLightBecomesADiskOfTheCircleOfConfusion) {
     }
 }
 
-// In a pinhole image, a bar hides a red stripe. If the bar is blurred, the stripe is visible: the bar covers a strip of
-// the lens disk, and the rest of the lens sees the middle of the stripe.
+// In a pinhole image, a bar hides a red stripe of the same width behind it. If the bar is blurred, it hides the middle
+// of the stripe only from a strip of the lens. The rest of the lens sees the stripe.
 TEST_F(Layered, aBlurredBarShowsWhatItHidesFromThePinhole) {
     constexpr double bar = 8;    // width of the bar, px
     constexpr double blur = 24;  // diameter of the bar's blur, px
@@ -112,8 +112,8 @@ TEST_F(Layered, lightFromBeyondTheImageReachesIntoIt) {
     EXPECT_LT(errorBetween(seenBy(*small, "layered"), expected), 0.004);
 }
 
-// With more layers, the image approaches the accumulation's. Boards at many depths hide each other, except where the
-// lens sees around them.
+// With more depth layers, the image approaches that of method "accumulation". Boards at many depths hide each other,
+// but the lens sees around them.
 TEST_F(Layered, moreLayersComeCloserToTheAccumulation) {
     std::vector<Pane> list;
     for (int i = 0; i < 14; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// Helpers that render images with method "layered", and their error.
+// Helpers that render images with method "layered" and compute the difference of two images.
 
 #include <gtest/gtest.h>
 

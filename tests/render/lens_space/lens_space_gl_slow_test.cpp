@@ -1,5 +1,5 @@
-// Slow tests of both lens-space methods against the accumulation: tens of thousands of blurred triangles in one tile,
-// and motion blur.
+// Slow tests of both lens-space methods against method "accumulation": tens of thousands of blurred triangles in one
+// tile, and motion blur.
 
 #include <string>
 
@@ -36,7 +36,7 @@ TEST_F(LensSpaceAlone, stochasticPointsBlurMotion) {
     EXPECT_GE(psnrAgainst(reference, lensSpaceImage("stochastic", *small, 256)), 50);
     expectRefusal("line", *small, "motion blur is not supported");
     small->world.shutter.perSample = true;
-    small->world.shutter.poses.push_back(small->world.shutter.poses.back());  // one pose for each of four samples
+    small->world.shutter.poses.push_back(small->world.shutter.poses.back());  // four poses, one for each sample
     expectRefusal("stochastic", *small, "motion segments");
 }
 

@@ -1,4 +1,4 @@
-// Tests of properties of both lens-space methods, with the accumulation as the reference.
+// Tests properties of both lens-space methods, with method "accumulation" as the reference.
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,8 @@
 namespace defocus::engine {
 namespace {
 
-// Returns the number of rays that meets the tests' error bounds. A lens line replaces several lens points.
+// Returns a number of rays (points or lines on the lens) with which `method` meets the tests' error bounds. A lens line
+// replaces several lens points.
 std::uint32_t enoughFor(const std::string& method) {
     return method == "line" ? 40 : 256;
 }
@@ -55,8 +56,8 @@ TEST_P(LensSpace, drawsWhatPassesTheCamera) {
     EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 40);
 }
 
-// Shading at vertices equals shading at surface points if colours are linear over each triangle. On small lit
-// triangles, both are nearly equal.
+// Shading at vertices and shading at each visible surface point give the same image if colours are linear over each
+// triangle. On small lit triangles, they are nearly equal.
 TEST_P(LensSpace, shadesVerticesOrSurfaces) {
     const std::string method = GetParam();
     const auto ground = groundUnderCamera();
@@ -71,7 +72,7 @@ TEST_P(LensSpace, shadesVerticesOrSurfaces) {
     const double fine = psnr(96);
     EXPECT_GE(fine, 40);
     EXPECT_GT(fine, coarse + 6);
-    EXPECT_LT(coarse, 60);  // on large triangles, the two kinds of shading differ
+    EXPECT_LT(coarse, 60);  // on large triangles, shading at vertices differs visibly
 }
 
 TEST_P(LensSpace, hasTheShapeOfTheAperture) {
@@ -87,8 +88,8 @@ TEST_P(LensSpace, hasTheShapeOfTheAperture) {
     EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 50);
 }
 
-// Expects every ray through the grid to meet a triangle, wherever the triangle stands in its tile's list. A lost
-// triangle would leave a hole.
+// Expects all pixels of the grid to be covered. If any triangle in the list of its tile were skipped, the grid would
+// have a hole.
 void expectWholeGrid(const Image& image) {
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 32; ++x) {
@@ -130,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, LensSpace, testing::Values("stochastic", "line
 
 using Models = LensSpace;
 
-// Models with textures, normal maps and skins look the same as with the accumulation.
+// Models with textures, normal maps and skins look the same as by method "accumulation".
 TEST_P(Models, lookAsInTheAccumulation) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = posedWorld(modelPath("Fox.glb"), 0.3, 0);
@@ -141,8 +142,8 @@ TEST_P(Models, lookAsInTheAccumulation) {
 }
 INSTANTIATE_TEST_SUITE_P(Methods, Models, testing::Values("stochastic", "line"));
 
-// Exact visibility along lens lines (lines across the lens) and the published segment buffers give the same image if no
-// segment is dropped. Two separate quads that do not intersect fit into any buffer.
+// Visibility along lens lines, which are lines across the lens, is exact or uses the published buffers of segments. If
+// no segment is dropped, both give the same image. Two separate quads that do not intersect fit into any buffer.
 TEST_F(LensSpaceAlone, exactLinesAreTheBuffersWhereNothingWasDropped) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({1, 0.5f, 0.2f, 1}), unlitMaterial({0.1f, 0.4f, 0.9f, 1})};
@@ -159,11 +160,11 @@ TEST_F(LensSpaceAlone, exactLinesAreTheBuffersWhereNothingWasDropped) {
     EXPECT_EQ(figureOf(stats, "dropped segments per line"), 0);
     const Image buffered = lensSpaceImage("line:resolve=published", *small, 16, &stats);
     EXPECT_LT(figureOf(stats, "dropped share of the light"), 1e-4);
-    EXPECT_GT(figureOf(stats, "merged segments per line"), 0);  // the two triangles of a quad
+    EXPECT_GT(figureOf(stats, "merged segments per line"), 0);  // segments of a quad's two triangles merge
     EXPECT_LT(largestDifference(exact, buffered), 2e-3);
 }
 
-// A buffer of two segments counts the segments that it drops, and larger buffers reduce the error.
+// A buffer of two segments per lens line counts the segments that it drops or merges. Larger buffers reduce the error.
 TEST_F(LensSpaceAlone, fullBuffersCountWhatTheyDrop) {
     const auto small = twoSpheres();
     RenderStats stats;
@@ -174,8 +175,8 @@ TEST_F(LensSpaceAlone, fullBuffersCountWhatTheyDrop) {
     EXPECT_GT(psnrAgainst(exact, many), psnrAgainst(exact, few));
 }
 
-// Returns the RMS error of the means over squares of `side` × `side` px. Averaging suppresses noise and keeps
-// structure.
+// Returns the RMS difference between the images' means over squares of `side` × `side` px. The means suppress noise and
+// keep structure.
 double errorOfSquares(const Image& reference, const Image& image, int side) {
     double sum = 0;
     int count = 0;
@@ -212,8 +213,8 @@ TEST_F(LensSpaceAlone, turnedWheelsMakeNoiseOfStrobes) {
     EXPECT_LT(errorOfSquares(reference, turned, 8), 0.5 * errorOfSquares(reference, shared, 8));
 }
 
-// Exact visibility along lens lines shows both of two intersecting quads. A published segment buffer shows a single
-// quad between the ends of a segment.
+// Exact visibility along lens lines, which are lines across the lens, shows both of two intersecting quads. A published
+// segment buffer shows a single quad between the ends of a segment.
 TEST_F(LensSpaceAlone, exactLinesFindIntersections) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({1, 0, 0, 1}), unlitMaterial({0, 0, 1, 1})};

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes for tests of both lens-space methods, and their images.
+// Helpers that make scenes for tests of both lens-space methods and render them.
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ inline double psnrAgainst(const Image& reference, const Image& image) {
     return compareImages(reference, image, CompareOptions{}).psnr;
 }
 
-// Returns two lit, rippled spheres in front of a gradient sky: one in front of the focus and one behind it.
+// Returns two lit, rippled spheres under a gradient sky. One is in front of the focal plane and one behind it.
 inline std::unique_ptr<SmallWorld> twoSpheres(int slices = 24, int stacks = 18) {
     auto small = std::make_unique<SmallWorld>();
     Material glossy;
@@ -68,7 +68,7 @@ inline double figureOf(const RenderStats& stats, const std::string& name) {
     return std::nan("");
 }
 
-// Returns a ground that extends from behind the camera to far away, so that the near plane cuts it.
+// Returns a ground that extends from behind the camera into the distance, so that the near plane cuts it.
 inline std::unique_ptr<SmallWorld> groundUnderCamera() {
     auto small = std::make_unique<SmallWorld>();
     Mesh mesh = quad(0);
@@ -105,7 +105,7 @@ protected:
     static inline std::unique_ptr<GlContext> context_;
 };
 
-// Returns a grid of side² squares of two triangles each that covers 6 × 6 px within one tile.
+// Returns a grid that covers 6 × 6 px within one tile. It has side² squares of two triangles each.
 inline std::unique_ptr<SmallWorld> gridInATile(std::uint32_t side) {
     auto small = std::make_unique<SmallWorld>();
     Mesh mesh;
@@ -135,8 +135,8 @@ inline std::unique_ptr<SmallWorld> gridInATile(std::uint32_t side) {
     return small;
 }
 
-// Number of squares per side for which the grid has more triangles than the 65,536 iterations that Mesa's software
-// driver allows in a loop.
+// Number of squares per side of a grid that has more triangles than 65,536, the max number of loop iterations in Mesa's
+// software driver.
 inline constexpr std::uint32_t longerThanLoops = 184;
 
 class LensSpaceAlone : public testing::Test {

@@ -1,4 +1,4 @@
-// Tests of the lens-space methods with the settings of the publications, and with alternatives to these settings.
+// Tests the lens-space methods with the settings of the publications and with alternatives to these settings.
 
 #include <set>
 
@@ -11,7 +11,7 @@ namespace {
 
 using CocInterpolation = LensSpace;
 
-// Returns planks of two long triangles each, which lead from beside the camera into the distance.
+// Returns planks of two long triangles each that lead from beside the camera into the distance.
 std::unique_ptr<SmallWorld> planks() {
     auto small = std::make_unique<SmallWorld>();
     Mesh mesh;
@@ -56,7 +56,7 @@ TEST_P(CocInterpolation, bendsOnlyInDividedTriangles) {
 }
 INSTANTIATE_TEST_SUITE_P(Methods, CocInterpolation, testing::Values("stochastic", "line"));
 
-// The image does not change along y, so pixels of a column differ only by their sample points.
+// The scene does not change along y, so pixels of a column differ only by their sample points.
 TEST_F(LensSpaceAlone, stochasticPixelsHaveTheirOwnPoints) {
     auto small = std::make_unique<SmallWorld>();
     Mesh mesh = quad(0);
@@ -74,7 +74,7 @@ TEST_F(LensSpaceAlone, stochasticPixelsHaveTheirOwnPoints) {
     const Image image = lensSpaceImage("stochastic", *small, 4);
     std::set<float> values;
     for (int y = 0; y < image.height; ++y) values.insert(image.at(2, y)[0]);
-    EXPECT_GT(values.size(), 200u);  // a repetition of 64 ray sets would give at most 64 values
+    EXPECT_GT(values.size(), 200u);  // if pixels shared 64 sets of sample points, there would be at most 64 values
 }
 
 // Returns twoSpheres(), one of which moves during the exposure.
@@ -87,8 +87,8 @@ std::unique_ptr<SmallWorld> movingSpheres(bool doubleSided) {
     return small;
 }
 
-// Triangles that face away over the entire lens and exposure are culled before visibility is computed. The image does
-// not change.
+// Triangles that face away from the entire lens during the entire exposure are culled before visibility is computed.
+// The image does not change.
 TEST_F(LensSpaceAlone, movingBacksAreCulled) {
     RenderStats front, both;
     const Image culled = lensSpaceImage("stochastic", *movingSpheres(false), 16, &front);
@@ -97,7 +97,7 @@ TEST_F(LensSpaceAlone, movingBacksAreCulled) {
     EXPECT_GE(psnrAgainst(complete, culled), 60);
 }
 
-// Under astigmatism and coma, the circle of confusion depends on the point of the lens.
+// Method "stochastic" supports astigmatism and coma, under which the circle of confusion depends on the lens point.
 TEST_F(LensSpaceAlone, stochasticPointsSeeAberrations) {
     const auto small = twoSpheres();
     const Image plain = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(1024)));
@@ -150,15 +150,15 @@ double middleOverRim(const Image& image) {
     return sums[0] / counts[0] / (sums[1] / counts[1]);
 }
 
-// Figure 4 of Tzeng et al. 2012: with the factor κ, a blurred point is a uniform disk; without κ, the disk's centre is
-// brighter.
+// With the factor κ, a blurred point is a uniform disk. Without κ, the disk's centre is brighter (Figure 4 of Tzeng et
+// al. 2012).
 TEST_F(LensSpaceAlone, kappaMakesDisksUniform) {
     const auto small = brightSpot();
     EXPECT_NEAR(middleOverRim(lensSpaceImage("line", *small, 64)), 1, 0.15);
     EXPECT_GT(middleOverRim(lensSpaceImage("line:line-weights=length", *small, 64)), 1.5);
 }
 
-// Figure 2 of Tzeng et al. 2012: several lens lines share a position in the pixel.
+// Several lens lines share a position in the pixel (Figure 2 of Tzeng et al. 2012).
 TEST_F(LensSpaceAlone, linesShareSpatialPositions) {
     const auto small = twoSpheres();
     const FramePlan plan = planFrame(small->world, small->view, raySettings(16));
@@ -175,7 +175,8 @@ TEST_F(LensSpaceAlone, linesShareSpatialPositions) {
     }
 }
 
-// If the two ends of a segment are stored in 8 bits each, they move by at most 1/510 of the lens line.
+// If the two ends of a segment of a lens line are stored in 8 bits each, they move by at most 1/510 of the line's
+// length.
 TEST_F(LensSpaceAlone, shortIntervalsChangeLittle) {
     const auto small = twoSpheres();
     const Image full = lensSpaceImage("line:resolve=published", *small, 16);
@@ -184,7 +185,7 @@ TEST_F(LensSpaceAlone, shortIntervalsChangeLittle) {
     EXPECT_GE(psnrAgainst(full, compact), 40);
 }
 
-// A bin is a list of fixed size that keeps the nearest triangles of a tile and counts the others.
+// A bin is a list of fixed size that keeps the nearest triangles of a tile and counts those that do not fit.
 TEST_F(LensSpaceAlone, binsOfFixedSizeCountTheirOverflow) {
     const std::uint32_t side = 20;
     const auto small = gridInATile(side);
@@ -199,7 +200,7 @@ TEST_F(LensSpaceAlone, binsOfFixedSizeCountTheirOverflow) {
     EXPECT_EQ(figureOf(stats, "triangles beyond the size of a bin"), 0);
 }
 
-// With lighting at vertices, segments of a lens line merge only if their colours agree.
+// With lighting at vertices, neighbouring segments of a lens line merge only if their colours agree.
 TEST_F(LensSpaceAlone, segmentsOfDifferentColoursStayApart) {
     const auto mergedOf = [](float difference) {
         auto small = std::make_unique<SmallWorld>();

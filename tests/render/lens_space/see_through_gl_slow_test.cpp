@@ -1,4 +1,4 @@
-// Tests of cut-out and alpha-blended surfaces in both lens-space methods.
+// Tests cut-out and alpha-blended surfaces in both lens-space methods.
 
 #include "render/lens_space/lens_space_images.h"
 
@@ -47,7 +47,7 @@ TEST_P(SeeThroughSurfaces, panesLetTheirShareOfLightThrough) {
     }
 }
 
-// Alpha grows from left to right. The surface is visible only where alpha is not below the cutoff.
+// Alpha grows from left to right. The surface is visible only where alpha reaches the cutoff.
 TEST_P(SeeThroughSurfaces, cutOutsEndWhereAlphaReachesTheCutoff) {
     const auto small = groundUnderCamera();
     Mesh& mesh = small->scene.meshes[0];

@@ -1,5 +1,5 @@
-// Tests of the intervals of a lens line from which a triangle is visible. For points along the line, the test
-// intersects the point's ray with the triangle's plane.
+// Tests the intervals of a lens line, which is a line across the lens, from which a triangle is visible. At points of
+// the line, the ray's intersection with the triangle's plane is the reference.
 
 #include "render/line/line_triangle.h"
 
@@ -16,8 +16,8 @@ namespace {
 
 constexpr double nearPlane = 0.1;
 
-// Returns whether the ray from the lens point p·d, with d = `line.direction`, through the image position `line.place`
-// meets the triangle. Returns nullopt if the ray passes so close to an edge that rounding decides.
+// Returns whether the triangle is hit by the ray from the lens point p·d through the image position `line.place`, with
+// d = `line.direction`. Returns nullopt if the ray passes so close to an edge that rounding decides.
 std::optional<bool> met(const std::array<LensVertex, 3>& corners, const LensLine& line, double p, bool front) {
     glm::dmat3 matrix(0);
     for (int i = 0; i < 3; ++i) {
@@ -26,7 +26,7 @@ std::optional<bool> met(const std::array<LensVertex, 3>& corners, const LensLine
     }
     const double determinant = glm::determinant(matrix);
     if (std::abs(determinant) < 1e-9) return {};
-    // barycentric coordinates divided by w
+    // barycentric coordinates divided by the depth w
     const glm::dvec3 weights = glm::inverse(matrix) * glm::dvec3(line.place, 1);
     const double w = 1 / (weights.x + weights.y + weights.z);
     const glm::dvec3 barycentric = w * weights;

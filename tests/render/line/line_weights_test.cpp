@@ -10,8 +10,8 @@
 namespace defocus::engine {
 namespace {
 
-// Returns the fraction of a lens line's light between its points p1 and p2 (Tzeng et al. 2012). p runs from −1/2 to 1/2
-// over the line.
+// Returns κ, the fraction of a lens line's light that passes between its points p1 and p2 (Tzeng et al. 2012). p runs
+// from −1/2 to 1/2 along the line.
 double kappa(double p1, double p2) {
     return lightBetween({}, 2 * p1, 2 * p2);
 }
@@ -34,13 +34,13 @@ TEST(LineWeights, addUp) {
     }
 }
 
-// A spoke is a line through the lens centre. The spokes' chords inside a region have a mean light κ. It equals the
-// fraction of the disk that the region covers.
+// A spoke is a line through the lens centre, and κ is the fraction of its light inside a region. Averaged over all
+// spokes, κ equals the fraction of the disk that the region covers.
 TEST(LineWeights, giveARegionItsShareOfTheDisk) {
     constexpr int lines = 20000;
-    const double h = 0.3;  // the region u > h is a circular segment
+    const double h = 0.3;  // the first region, u > h, is a circular segment
     double halfPlane = 0, offCentreDisk = 0;
-    const double distance = 0.45, radius = 0.35;  // the region is a disk beside the centre
+    const double distance = 0.45, radius = 0.35;  // the second region is a disk beside the centre
     for (int i = 0; i < lines; ++i) {
         const double angle = std::numbers::pi * (i + 0.5) / lines;
         const double c = std::cos(angle);
@@ -57,19 +57,19 @@ TEST(LineWeights, giveARegionItsShareOfTheDisk) {
 TEST(LineWeights, anObstructedMiddleLetsNoLightPass) {
     const LineLight ring{1, 0.5, 0, 0.25};
     EXPECT_EQ(lightBetween(ring, -0.5, 0.5), 0);
-    // half the ring's area on one side of the centre
+    // a quarter of the light: the inner half, by area, of the ring's part on one side of the centre
     EXPECT_NEAR(lightBetween(ring, 0.5, std::sqrt((0.25 + 1) / 2)), 0.25, 1e-15);
 }
 
-// Each spoke of a polygonal aperture represents an equal fraction of the aperture's area. Beyond a straight cut, the
-// mean light of the spokes is therefore the fraction of the area beyond the cut.
+// Each spoke (line through the centre) of a polygonal aperture represents an equal fraction of the aperture's area. The
+// mean light of the spokes beyond a straight cut is therefore the fraction of the area beyond the cut.
 TEST(LineSets, weighASquareByItsArea) {
     FramePlan plan;
     plan.view.lens.bladeCount = 4;
     plan.view.width = plan.view.height = 100;
     plan.samples.resize(512);
     const LineSets lines = lineSets(plan, true);
-    // The square's corners lie on the axes. Its part with u > 1/2 is a half-size copy of its right half, which is 1/8
+    // The square's corners lie on the axes. Its part with u > 1/2 is a half-size copy of its right half, so it has 1/8
     // of the area.
     double share = 0;
     for (const GpuRay& ray : lines.sets.table) {

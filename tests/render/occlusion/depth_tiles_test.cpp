@@ -20,7 +20,7 @@ struct DepthRows {
     }
 };
 
-// Returns rows of reversed depth values of near surfaces, in which 1 % of the pixels are far away.
+// Returns rows of reversed depth values (1 is near). 1 % of the pixels are holes that show far surfaces.
 DepthRows depthsWithHoles(int width, int height, std::mt19937& random) {
     DepthRows depths{width, height, {}};
     std::uniform_real_distribution<float> near(0.5f, 1.0f);
@@ -45,7 +45,8 @@ TEST(DepthTiles, neverFartherThanAnyPixelAsked) {
     }
 }
 
-// A far pixel affects depth queries near it, but no queries more than a tile away.
+// The farthest depth of a range of pixels is computed from tiles. A far pixel may affect ranges next to it, but not
+// ranges more than a tile away.
 TEST(DepthTiles, aHoleReachesNoFartherThanATile) {
     DepthRows depths{200, 100, std::vector<float>(200 * 100, 0.5f)};
     depths.values[50 * 200 + 100] = 0;

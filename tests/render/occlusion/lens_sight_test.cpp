@@ -16,7 +16,7 @@ struct PlaceInImage {
 };
 
 // Returns the image position of the view-space point `inView` for a lens sample, by geometric optics. The ray from the
-// lens point through `inView` meets the focus plane at the point that the sharp image shows at this position.
+// lens point through `inView` meets the focal plane at a point that a pinhole image shows at the same position.
 PlaceInImage seenThroughLens(const glm::dvec3& inView, const LensSample& sample, const FramePlan& plan) {
     const View& view = plan.view;
     const double radius = view.lens.dofEnabled ? 0.5e-3 * view.lens.focalLength / view.lens.fStop : 0;
@@ -28,8 +28,8 @@ PlaceInImage seenThroughLens(const glm::dvec3& inView, const LensSample& sample,
     return {0.5 * (ndc + 1.0) * glm::dvec2(view.width, view.height) - glm::dvec2(sample.pixel), -inView.z};
 }
 
-// Expects random points of random boxes in object space to project into the bounds computed for their box, for each
-// sample.
+// Draws random points in random object-space boxes. For each sample, expects a point's image to lie inside the bounds
+// computed for its box.
 void expectBoxesHoldWhatIsSeen(const SmallWorld& small) {
     RenderSettings settings;
     settings.sampleCount = 32;
@@ -67,14 +67,14 @@ TEST(LensSight, boxesHoldWhatTheLensSees) {
     expectBoxesHoldWhatIsSeen(*fiveSpheres());
 }
 
-// The bounds of a box's image also hold for a pinhole camera, whose plan has no lens.
+// The image bounds of boxes also hold for a pinhole camera, whose plan has no lens.
 TEST(LensSight, boxesHoldWhatAPinholeSees) {
     const auto small = fiveSpheres();
     small->view.lens.dofEnabled = false;
     expectBoxesHoldWhatIsSeen(*small);
 }
 
-// The bounds of a small box are at most 3 px wide, and their depth is the depth of the box.
+// The image bounds of a small box are at most 3 px wide, and their depth is the depth of the box.
 TEST(LensSight, boxesAreNotMuchLargerThanWhatTheyHold) {
     const auto small = fiveSpheres();
     RenderSettings settings;
@@ -91,8 +91,8 @@ TEST(LensSight, boxesAreNotMuchLargerThanWhatTheyHold) {
     EXPECT_FALSE(sight.of({0, 0, 0}, {100, 100, 100}));  // the camera lies inside the box
 }
 
-// Boxes are not tested under lens controls, with motion or with an object's own blur, since the circle of confusion is
-// then not a linear function of the depth.
+// Image bounds of boxes are available only if the circle of confusion is a linear function of depth. Lens controls,
+// motion or an object's blur scale make it nonlinear.
 TEST(LensSight, knowsWhereItDoesNotHold) {
     RenderSettings settings;
     settings.sampleCount = 8;

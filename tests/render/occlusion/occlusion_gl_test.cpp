@@ -128,11 +128,11 @@ TEST_F(OccludedSurfaces, ofAPinholeChangeNoBit) {
         return renderer->image();
     };
     const Image seen = imageOf(0.2);
-    plan.settings.keepAll = true;  // turns culling off without a new plan
+    plan.settings.keepAll = true;  // turns culling off in the existing plan
     EXPECT_TRUE(seen.pixels == imageOf(0).pixels);
 }
 
-// A masked surface hides nothing behind its holes, and a translucent surface hides nothing at all.
+// A masked wall does not hide objects behind its holes, and a translucent wall does not hide any objects.
 TEST_F(OccludedSurfaces, holesAndGlassHideNothing) {
     const double behindWall = opaqueDrawn("accumulation", *behindAWall(), sharpLevels(24)).hidden;
     for (const AlphaMode mode : {AlphaMode::mask, AlphaMode::blend}) {

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes of flat boards for tests of post-process methods, and functions that render them.
+// Helpers that make scenes of flat boards and render them with post-process methods.
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ inline double largestDifferenceInColumns(const Image& a, const Image& b, int lef
     return largest;
 }
 
-// An unlit, upright board at a depth, seen in front of a uniform sky.
+// An unlit board that faces the camera at a depth in m, in front of a uniform sky.
 struct Board {
     double depth = 2;
     glm::dvec2 centre{0};    // m

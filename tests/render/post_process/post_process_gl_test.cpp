@@ -1,4 +1,4 @@
-// Tests of properties that every post-process method has under every setting.
+// Tests properties that all post-process methods have with all settings.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ bool inTenBits(std::string_view method) {
     return method.find("r10g10b10a2") != std::string_view::npos;
 }
 
-// Returns the image that `method` can store: clipped at 1 if it stores ten bits.
+// Returns the image as `method` can store it: clipped at 1 if its storage has ten bits.
 Image storable(Image image, std::string_view method) {
     if (inTenBits(method))
         for (float& value : image.pixels) value = std::min(value, 1.0f);
@@ -48,14 +48,14 @@ TEST_P(PostProcesses, apertureZeroIsThePinhole) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
     const Image image = postProcessed(*small, GetParam());
-    // Without blur, the image equals the pinhole image that another post-process method gives.
+    // Without blur, the image equals a pinhole image, rendered with another post-process method.
     small->view.lens.dofEnabled = false;
     const std::string pinholes = std::string(GetParam()).starts_with("circular") ? "scheuermann" : "circular";
-    if (!inTenBits(GetParam())) {  // ten bits clip each of the pinhole images, not their mean
+    if (!inTenBits(GetParam())) {  // ten-bit storage clips the samples, not their mean
         EXPECT_LT(largestDifferenceInColumns(image, postProcessed(*small, pinholes)), 2e-3);
     }
 
-    // With one pinhole, the image equals a single sample of the accumulation.
+    // If only one pinhole sample is drawn, the image equals a single sample of method "accumulation".
     RenderSettings one = settingsWithTheLens();
     one.sampleCount = 1;
     const auto accumulation = methodNamed("accumulation").make(small->world, {});
@@ -76,13 +76,13 @@ TEST_P(PostProcesses, aConstantSceneStaysConstant) {
                                {9, {0, 1}, {9, 2}, color}},
                               glm::vec3(color));
     const Image image = postProcessed(*small, GetParam());
-    small->view.lens.dofEnabled = false;  // the reference is the constant rounded to half floats
+    small->view.lens.dofEnabled = false;  // the reference: the constant colour, rounded to half floats
     EXPECT_LT(largestDifferenceInColumns(image, postProcessed(*small, GetParam())),
               inTenBits(GetParam()) ? 6e-3 : 1e-3);
 }
 
 TEST_P(PostProcesses, aHighlightKeepsItsEnergyWhereTheBlurIsTheSame) {
-    // A bright square on a black wall. Both are at the same depth behind the focus plane and have a blur of 16 px.
+    // A bright square and a black wall are at the same depth behind the focal plane and have a blur of 16 px.
     const auto small =
         boards({{6, {0, 0}, {0.2, 0.2}, {1, 0.5f, 0.25f, 1}}, {6.0001, {0, 0}, {9, 9}, {0, 0, 0, 1}}}, glm::vec3(0));
     small->view.lens.blurScale = 16 / (0.05 * (1.0 / 2 - 1.0 / 6) * 96 / 0.72);
@@ -97,18 +97,18 @@ TEST_P(PostProcesses, aHighlightKeepsItsEnergyWhereTheBlurIsTheSame) {
     }
     ASSERT_GT(sharpEnergy, 50);
     EXPECT_NEAR(blurredEnergy / sharpEnergy, 1, 0.01);
-    EXPECT_LT(*image.at(48, 32), 0.95 * *sharp.at(48, 32));  // the centre is darker, so the light is blurred
+    EXPECT_LT(*image.at(48, 32), 0.95 * *sharp.at(48, 32));  // the square's centre is darker, so the square is blurred
 }
 
 TEST_P(PostProcesses, aPointOfLightBecomesADiskOfTheCircleOfConfusion) {
     const std::string method = GetParam();
     if (method == "scheuermann") GTEST_SKIP() << "as published, blur follows planes and ends at 10 px";
-    // Images with a quarter of the width and height widen the disk: their pixels are 4 px wide (variance 16/12), and
-    // they are interpolated linearly (16/6). A pre-blurred copy widens the disk by its Gaussian (variance 8). A disk of
-    // radius R has a variance of R²/4 along an axis.
+    // The method's low-resolution images widen the blurred disk. With a quarter of the width and height, pixels add the
+    // variance 16/12 and their linear interpolation 16/6, in px². A pre-blurred copy adds 8 by its Gaussian. A disk of
+    // radius R has the variance R²/4 along an axis.
     const bool preblurred = method.starts_with("scheuermann");
     const double variance = preblurred ? 12 : method.find("quarter") != std::string::npos ? 4 : 0;
-    // A square of 3 px on a black wall at the same depth, in front of and behind the focus plane.
+    // A square of 3 px on a black wall is at the same depth as the wall, in front of or behind the focal plane.
     for (const double depth : {1.5, 6.0}) {
         const double pixel = 0.72 * depth / 96;  // width of a pixel at this depth, m
         const auto small = boards(
@@ -132,11 +132,10 @@ TEST_P(PostProcesses, whatIsInFocusStaysWhenOnlyTheBackgroundBlurs) {
     EXPECT_LT(largestDifferenceInColumns(image, sharp, 0, edge - 1), 2e-3);
 }
 
-// A bright object in focus hardly leaks into the blurred background beside it. For comparison: a gather with equal
-// weights over a disk of radius R adds to a column the fraction of the disk that lies beyond the edge. The mean over
-// the columns within R of the edge is 2/(3π) of the bright radiance. The test allows a quarter of this mean, and three
-// quarters for scheuermann, whose pre-blurred copy mixes object and background before taps are weighted. Without the
-// weights, scheuermann's copy and taps together would leak more than the gather.
+// A bright object in focus hardly leaks into the blurred background beside it. A gather with equal weights over a disk
+// of radius R would add to each column the fraction of the disk that lies beyond the edge. Over the columns within R of
+// the edge, the mean would be 2/(3π) of the bright radiance. The test allows a quarter of this mean. For scheuermann it
+// allows three quarters, because its pre-blurred copy mixes object and background before taps are weighted.
 TEST_P(PostProcesses, aSharpObjectDoesNotLeakIntoTheBlurredBackground) {
     constexpr float bright = 4;
     const auto small = boards(
@@ -152,12 +151,12 @@ TEST_P(PostProcesses, aSharpObjectDoesNotLeakIntoTheBlurredBackground) {
 }
 
 TEST_P(PostProcesses, whatLiesBehindABlendedSurfaceIsBlurredAsThatSurface) {
-    // A pane in focus stands in front of a blurred, striped background. The stripes stay sharp through the pane,
-    // because Scheuermann's second pass writes the pane's depth.
+    // A pane in focus stands in front of a blurred, striped background. Without separate blur of blended surfaces, the
+    // stripes stay sharp through the pane, because the pane's depth determines the blur.
     std::vector<Board> list = {{2, {-0.4, 0}, {0.4, 1}, {0.2f, 0.6f, 0.3f, 0.5f}}};
     for (int i = -8; i < 8; ++i) list.push_back({9, {0.8 * i, 0}, {0.2, 9}, {0.9f, 0.2f, 0.1f, 1}});
     const auto small = boards(list, glm::vec3(0.5f));
-    // blurs the background by 10 px, within the range of a blur field at a quarter of the resolution
+    // blurs the background by 10 px, which images of a quarter of the resolution can still represent
     small->view.lens.blurScale = 4;
     std::string method = GetParam();
     if (method.find("transparency-buckets") != std::string::npos) GTEST_SKIP() << "buckets blur the pane separately";
@@ -182,7 +181,7 @@ TEST_P(PostProcesses, brightPixelsLeaveNoHoles) {
     }
 }
 
-// Without a background, alpha is the coverage: the image composited over a sky equals the image with that sky, since
+// Without a background, alpha is the coverage. The image composited over a sky equals the image with that sky, since
 // the methods are linear in radiance.
 TEST_P(PostProcesses, aTransparentBackgroundKeepsCoverage) {
     const glm::vec3 sky(0.4f, 0.25f, 0.1f);
@@ -202,8 +201,8 @@ TEST_P(PostProcesses, aTransparentBackgroundKeepsCoverage) {
         image.pixels[i + 3] = 1;
     }
     EXPECT_TRUE(partly);
-    // Three features are not linear: ten-bit storage, a bias by luminance, and negative lobes of the kernel, which are
-    // clamped at black without a sky but stay positive on top of a sky.
+    // Three features are not linear in radiance: ten-bit storage, a bias by luminance, and negative lobes of the
+    // kernel. Lobes are clamped at black without a sky, but stay positive on top of a sky.
     const std::string method = GetParam();
     const bool rough =
         method.find("r10g10b10a2") != std::string::npos || method.find("resolution") != std::string::npos;
@@ -214,8 +213,8 @@ TEST_P(PostProcesses, aTransparentBackgroundKeepsCoverage) {
 
 using CircularNearField = PostProcesses;
 
-// A light just in front of the focus keeps its narrow blur beside a strongly blurred board, because the colour of each
-// pixel is premultiplied by its own blur.
+// A bright square just in front of the focal plane keeps its narrow blur beside a strongly blurred board. The default
+// weights each pixel in proportion to its own blur; near-field=coverage does not, and spreads the square.
 TEST_P(CircularNearField, lightsThatAreHardlyBlurredKeepOutOfWideBlurs) {
     const auto small = boards(
         {{0.9, {-0.12, 0}, {0.08, 0.2}, {0, 0, 0, 1}}, {1.8, {0.1, 0}, {0.02, 0.02}, {9, 9, 9, 1}}}, glm::vec3(0));
@@ -239,7 +238,7 @@ TEST_P(CircularNearField, lightsThatAreHardlyBlurredKeepOutOfWideBlurs) {
 INSTANTIATE_TEST_SUITE_P(Forms, CircularNearField, testing::Values("circular:near-field=coverage", "circular"),
                          [](const auto& instance) { return instance.index == 0 ? "coverage" : "premultiplied"; });
 
-// With ten bits per channel, an image without blur is the pinhole image, clipped at 1 and rounded to 1023 steps.
+// With ten bits per channel, an image without blur is the pinhole image, clipped at 1 and rounded to steps of 1/1023.
 TEST_F(PostProcessesAlone, tenBitsHoldTheWholeImage) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
@@ -248,15 +247,14 @@ TEST_F(PostProcessesAlone, tenBitsHoldTheWholeImage) {
     double squared = 0;  // sum of squared errors; unit: steps of 1/1023
     for (std::size_t i = 0; i < floats.pixels.size(); ++i)
         squared += std::pow(1023 * (double(tenBits.pixels[i]) - std::min(double(floats.pixels[i]), 1.0)), 2);
-    // the RMS error of rounding is 1/√12 step; alpha has none, and half floats add a little
+    // Rounding has an RMS error of 1/√12 steps. Alpha has no error, and half floats add a little.
     const double error = std::sqrt(squared / static_cast<double>(floats.pixels.size()));
     EXPECT_GT(error, 0.7 / std::sqrt(12.0));
     EXPECT_LT(error, 1.3 / std::sqrt(12.0));
 }
 
-// A bias by luminance does not brighten edges as much as a constant bias does. A bright, blurred board over black shows
-// its coverage. A constant bias doubles the coverage; a bias by luminance increases it in proportion to the fraction
-// of the disk that the board fills.
+// A blend bias brightens blurred edges, here of a bright board over black. A constant bias of 2 doubles the coverage c.
+// A bias by luminance only multiplies it by 1 + c.
 TEST_F(PostProcessesAlone, biasByLuminanceLeavesEdges) {
     const auto small = boards({{1, {-0.3, 0}, {0.3, 0.5}, {4, 4, 4, 1}}}, glm::vec3(0));
     small->view.lens.blurScale = 24 / (0.05 * (1.0 / 1 - 1.0 / 2) * 96 / 0.72);

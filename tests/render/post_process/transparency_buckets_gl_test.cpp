@@ -1,5 +1,5 @@
-// Tests of alpha-blended surfaces that post-process methods blur separately from the surfaces behind them, in groups of
-// surfaces called buckets.
+// Tests alpha-blended surfaces that post-process methods blur separately from the surfaces behind them. Surfaces of
+// similar blur are blurred together, as a "bucket".
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ protected:
     static void TearDownTestSuite() { context_.reset(); }
     static std::unique_ptr<GlContext> context_;
 
-    // Returns the image by the method under test with at most `count` buckets.
+    // Returns the image by the tested method with at most `count` buckets, which are groups of blended surfaces.
     static Image inBuckets(const SmallWorld& small, int count) {
         const std::string method = GetParam();
         const char* separator = method.find(':') == std::string::npos ? ":" : ",";
@@ -38,19 +38,19 @@ double metresOf(double column, double depth) {
     return (column - 48) / 96 * 0.72 * depth;
 }
 
-// Returns a board at `depth` that covers all rows of the columns from `left` to `right`.
+// Returns a board at `depth` that covers the image columns from `left` to `right` in full height.
 Board boardOver(double left, double right, double depth, const glm::vec4& color) {
     const double begin = metresOf(left, depth);
     const double end = metresOf(right, depth);
     return {depth, {0.5 * (begin + end), 0}, {0.5 * (end - begin), 2 * depth}, color};
 }
 
-// Scales the blur to a diameter of `diameter` px at `depth`, with the focus at 2 m.
+// Scales the lens's blur to a diameter of `diameter` px at `depth`. The focus distance is 2 m.
 void blurAt(SmallWorld& small, double depth, double diameter) {
     small.view.lens.blurScale = diameter / (0.05 * std::abs(1.0 / 2 - 1 / depth) * 96 / 0.72);
 }
 
-// Returns the image `a` with the colour `b` composited over it, with an opacity for each column.
+// Returns the image `a` with the colour `b` composited over it. `opacity` gives the opacity in each column.
 Image laidOver(const Image& a, const glm::vec3& b, const std::function<double(int)>& opacity) {
     Image result = a;
     for (int y = 0; y < a.height; ++y)
@@ -79,7 +79,7 @@ TEST_P(BlendedSurfaces, aSharpPaneLeavesTheWallItsBlur) {
         laidOver(inBuckets(*without, 1), glm::vec3(paneColor), [](int x) { return x < 48 ? 0.5 : 0; });
     for (const int buckets : {1, 8})
         EXPECT_LT(largestDifferenceInColumns(inBuckets(*with, buckets), expected), 2e-3) << buckets;
-    // Without buckets, the wall stays sharp behind the pane.
+    // Without separate blur (0 buckets), the wall stays sharp behind the pane.
     EXPECT_GT(largestDifferenceInColumns(inBuckets(*with, 0), expected, 12, 36), 0.05);
 }
 
@@ -100,7 +100,8 @@ TEST_P(BlendedSurfaces, aBlurredPaneLeavesStripesSharp) {
         laidOver(sharp, glm::vec3(paneColor), [&](int x) { return 0.5 * shareOfDisk((x + 0.5 - 48) / radius); });
     EXPECT_LT(largestDifferenceInColumns(image, expected, 0, 34), 2e-3);
     EXPECT_LT(largestDifferenceInColumns(image, expected, 62), 2e-3);
-    // Two Gaussians approximate a disk to a few hundredths, and Scheuermann's taps do not form a disk.
+    // Kernels of two Gaussians approximate a disk with an error of a few hundredths. Scheuermann's taps do not form a
+    // disk.
     const bool circular = std::string(GetParam()).starts_with("circular");
     EXPECT_LT(largestDifferenceInColumns(image, expected, 34, 62), circular ? 0.02 : 0.1);
     EXPECT_GT(largestDifferenceInColumns(inBuckets(*with, 0), expected, 62), 0.1);
@@ -114,7 +115,7 @@ TEST_P(BlendedSurfaces, whatStandsBeforeAPaneHidesItAndLeavesNoHalo) {
     const Image image = inBuckets(*with, 1);
     const Image expected =
         laidOver(inBuckets(*boards({board}, sky), 0), glm::vec3(paneColor), [](int x) { return x < 48 ? 0 : 0.5; });
-    // the reduced image of method scheuermann leaks a little light
+    // method scheuermann leaks a little light, because it reads a low-resolution image
     const bool circular = std::string(GetParam()).starts_with("circular");
     EXPECT_LT(largestDifferenceInColumns(image, expected), circular ? 2e-3 : 0.03);
 }
@@ -140,8 +141,8 @@ TEST_P(BlendedSurfaces, costNothingWhereThereAreNone) {
     EXPECT_EQ(inBuckets(*small, 8).pixels, inBuckets(*small, 0).pixels);
 }
 
-// Blur passes that cover only the pixels that a bucket can reach give the same image as passes over the entire image.
-// In the second scene, an invisible board extends the bucket to the entire image.
+// Blur passes that cover only the pixels that a bucket (group of blended surfaces) can reach give the same image as
+// passes over the entire image. In the second scene, an invisible board extends the bucket to the entire image.
 TEST_P(BlendedSurfaces, areBlurredAsInAWholeImage) {
     const Board wall = boardOver(-90, 40, 9, {0.9f, 0.2f, 0.1f, 1});
     for (const double depth : {1.2, 2.0, 6.0}) {
@@ -167,7 +168,7 @@ TEST_P(BlendedSurfaces, haveTheirOwnBlur) {
     EXPECT_LT(largestDifferenceInColumns(inBuckets(*with, 1), expected), 2e-3);
 }
 
-// Returns the RMS difference, ignoring a border in which post-process methods lack light from outside the image.
+// Returns the RMS difference without a border, where post-process methods lack light from outside the image.
 double rootMeanSquareInside(const Image& a, const Image& b, int border) {
     double sum = 0;
     for (int y = border; y < a.height - border; ++y)

@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// An object of a test's plan, with its blur in px. Plans list objects from front to back.
+// An object of a test plan and its blur in px. Plans list objects from front to back.
 struct Flat {
     double blur = 0;
     bool blended = true;
@@ -63,14 +63,14 @@ TEST(TransparencyBuckets, passOverOpaqueObjects) {
 TEST(TransparencyBuckets, leaveOutWhatMayBeSeenThroughAnother) {
     FramePlan plan = planOf({{-9}, {0, false, true}, {5}, {9}});
     EXPECT_EQ(transparencyBuckets(plan, 8), (Buckets{{0}}));
-    moveRight(plan.objects[2]);  // the object is now beside the transmitting object
+    moveRight(plan.objects[2]);  // object 2 is now beside the transmitting object
     EXPECT_EQ(transparencyBuckets(plan, 8), (Buckets{{2}, {0}}));
     plan.objects[2].transmits = true;
     EXPECT_EQ(transparencyBuckets(plan, 8), (Buckets{{0}}));
 }
 
-// Objects outside the buckets are drawn before all buckets. An object that lies behind a blended object outside the
-// buckets must therefore stay outside, too. In a bucket, it would be drawn over that blended object.
+// Blended surfaces are blurred in groups (buckets), which are drawn last. If a blended object is in no bucket, an
+// object behind it must not be in a bucket either, since it would be drawn over that blended object.
 TEST(TransparencyBuckets, keepTheOrderOfWhatTheyLeaveOut) {
     FramePlan plan = planOf({{0, false, true}, {3}, {6}});
     moveRight(plan.objects[2]);
@@ -103,7 +103,7 @@ TEST(TransparencyBuckets, reachAsFarAsTheirBlur) {
     EXPECT_EQ(reach.width, 500 + 2 * (10 + 24));
     EXPECT_EQ(reach.y, 0);
     EXPECT_EQ(reach.height, 500);
-    plan.objects[1].coc.nearest = -60;  // in front of the focus, the largest blur of all objects counts
+    plan.objects[1].coc.nearest = -60;  // in front of the focal plane, the largest blur of all objects counts
     EXPECT_EQ(reachOf({0}, plan).x, 250 - 30 - 24);
     moveRight(plan.objects[0]);
     moveRight(plan.objects[0]);
@@ -113,7 +113,8 @@ TEST(TransparencyBuckets, reachAsFarAsTheirBlur) {
     EXPECT_EQ(reachOf({0}, plan).width, 1000);
 }
 
-// An object that reaches the camera has an infinite blur and gets its own bucket.
+// An object that reaches the camera has an infinite blur, so it is blurred separately (in a bucket without other
+// objects).
 TEST(TransparencyBuckets, partWhatReachesTheCamera) {
     FramePlan plan = planOf({{-9}, {9}});
     plan.objects[0].coc.nearest = -std::numeric_limits<double>::infinity();

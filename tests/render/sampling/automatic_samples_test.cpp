@@ -47,8 +47,8 @@ TEST(SamplesForBlur, areWholeBlocksWhereTheyAreMoreThanOne) {
                 EXPECT_TRUE(samples == 16 || samples == 32 || samples % 64 == 0) << samples;
 }
 
-// Better qualities aim at smaller errors and begin with at least as many samples. The error estimate can only add
-// samples, so the first sample count is at most the count that is used without an estimate.
+// Better qualities aim at smaller errors and begin with at least as many samples. With an error estimate, samples can
+// be added later, so the first count is at most the count that is used without an estimate.
 TEST(SamplesForBlur, followTheQuality) {
     EXPECT_GT(flipOf(Quality::draft), flipOf(Quality::good));
     EXPECT_GT(flipOf(Quality::good), flipOf(Quality::fine));
@@ -63,7 +63,8 @@ TEST(SamplesForBlur, followTheQuality) {
     }
 }
 
-// Returns a plan of one object with a blur of up to `blur` px, whose samples draw half a triangle per pixel.
+// Returns a plan of one object with a blur of up to `blur` px. In each sample, it draws half as many triangles as
+// pixels.
 FramePlan detailedPlanOf(double blur) {
     FramePlan plan = planOf(blur);
     plan.largestBlur = blur;
@@ -74,8 +75,8 @@ FramePlan detailedPlanOf(double blur) {
     return plan;
 }
 
-// With a quarter of the samples, the images of a blurred point are twice as far apart. They may be at most 1.25 px
-// apart.
+// Four positions per pixel need only a quarter of the lens samples. The copies of a blurred point are then twice as far
+// apart, and may be at most 1.25 px apart.
 TEST(FourPositions, sufficeWhereAQuarterOfTheSamplesHasNoGaps) {
     for (const std::uint32_t samples : {16u, 32u, 64u})
         for (double blur = 0.5; blur < 200; blur *= 1.1)
@@ -135,8 +136,8 @@ TEST(SamplesForBlur, leaveOutWhatHasNoBound) {
     EXPECT_EQ(samplesForBlur(plan, Quality::good), 32u);
 }
 
-// A point whose blur disk has more than 1,024 times the area of the image is visible in fewer than one of 1,024
-// samples. More samples do not help, so such a blur is ignored.
+// If a point's blur disk has more than 1,024 times the area of the image, fewer than one of 1,024 samples shows the
+// point. More samples do not help, so such a blur is ignored.
 TEST(SamplesForBlur, leaveOutWhatNoNumberResolves) {
     const FramePlan plan = planOf(0);
     const double pixels = 1.0 * plan.view.width * plan.view.height;

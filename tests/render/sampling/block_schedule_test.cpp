@@ -1,5 +1,5 @@
-// Tests of BlockSchedule: when it ends a frame, and for which final sample count it plans the blocks. The images are
-// synthetic and have a known error.
+// Tests when BlockSchedule ends a frame, and for which final sample count it plans each block of samples. The images
+// are synthetic and have a known error.
 
 #include "render/sampling/block_schedule.h"
 
@@ -13,8 +13,8 @@
 namespace defocus::engine {
 namespace {
 
-// A synthetic frame: mean images of 64 · n samples whose error is `first` · n^(−0.6). The steps from each mean to the
-// next are independent.
+// A synthetic frame. After 64 · n samples, the mean image has an error of `first` · n^(−0.6). The steps from each mean
+// image to the next are independent.
 class MadeFrame {
 public:
     explicit MadeFrame(double first) : means_(max) {
@@ -29,7 +29,7 @@ public:
         }
     }
 
-    // Returns the linear image after `samples` samples; its sRGB encoding gives the stored means.
+    // Returns the mean image after `samples` samples in linear values. `means_` holds sRGB-encoded values.
     [[nodiscard]] Image mean(std::uint32_t samples) const {
         const std::vector<double>& values = means_[samples / 64 - 1];
         Image image(size / 3, 1, 3);
@@ -53,7 +53,7 @@ FramePlan planOf(const RenderSettings& settings, std::uint32_t samples) {
     return plan;
 }
 
-// Renders blocks of `seconds` each until the schedule ends the frame.
+// Renders blocks of samples, each in `seconds` of simulated time, until the schedule ends the frame.
 BlockSchedule finished(const MadeFrame& frame, const StopSettings& stop, double seconds = 0) {
     BlockSchedule schedule(RenderSettings{}, stop);
     for (int block = 1;; ++block) {

@@ -1,5 +1,5 @@
-// Tests of the error estimate against known errors: closed forms, and half planes seen through a lens. The fraction of
-// the lens that sees a half plane is the area of a segment of the disk.
+// Tests the error estimate against known errors: closed forms, and straight edges seen through a lens. The fraction of
+// the lens that sees one side of an edge is the area of a circular segment.
 
 #include "render/sampling/error_estimate.h"
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr int lensEdgesSize = 48;
 
-// The edge that a pixel sees: a straight line across the lens, with white on one of its sides.
+// The edge that a pixel sees. It is a straight line across the lens, with white on one side.
 struct LensEdge {
     double angle;
     double offset;  // signed distance from the lens centre in lens radii, −1 … 1
@@ -40,7 +40,7 @@ Image trueLensEdges() {
     return image;
 }
 
-// Adds the samples [first, first + 64) of a sequence to the sum.
+// Adds the images of the samples [first, first + 64) of a sequence to `sum`.
 void addLensEdges(Image& sum, Sequence sequence, std::uint32_t first, std::uint32_t seed) {
     for (const LensSample& sample : lensSamples(Lens{}, sequence, first, 64, seed))
         for (int y = 0; y < lensEdgesSize; ++y)
@@ -53,7 +53,7 @@ void addLensEdges(Image& sum, Sequence sequence, std::uint32_t first, std::uint3
 }
 
 TEST(ErrorEstimate, halvesDifferByTheirErrorsPower) {
-    // The expected value is s(2m)/√(s(m)² − s(2m)²), where s(n) is the error of n samples.
+    // With the error s(n) of n samples, the expected ratio is s(2m)/√(s(m)² − s(2m)²).
     EXPECT_NEAR(errorOverDifference(3, 6), 1 / std::sqrt(std::pow(2, 2 * lensSampleExponent) - 1), 1e-12);
     EXPECT_NEAR(errorOverDifference(64, 128), errorOverDifference(1, 2), 1e-12);
 }
@@ -84,8 +84,9 @@ TEST(ErrorEstimate, anotherSizeIsRefused) {
     EXPECT_THROW(estimate.add(Image(3, 4, 3), 128), Error);
 }
 
-// For every sequence, the estimated error of edges is at least 2/3 and at most 1.8 times the true error. Edges converge
-// faster than other images, and with two of the sequences far faster at some sample counts.
+// For edges, the estimated error is at least 2/3 of the true error. It is at most 1.5 times the true error, or 1.8
+// times with halton and r2. Edges converge faster than other images, with these two sequences far faster at some sample
+// counts.
 TEST(ErrorEstimate, edgesUnderEachSequenceAreNotUnderrated) {
     const Image reference = trueLensEdges();
     for (const Sequence sequence : {Sequence::halton, Sequence::scrambledHalton, Sequence::sobol, Sequence::r2})
@@ -108,8 +109,8 @@ TEST(ErrorEstimate, edgesUnderEachSequenceAreNotUnderrated) {
         }
 }
 
-// The estimate reads only a subset of a large image's pixels. Noise of equal strength gives the same estimate at any
-// size.
+// The estimate reads only a subset of a large image's pixels. Noise of equal strength must give the same estimate for
+// any image size.
 TEST(ErrorEstimate, aMillionPixelsStandForAll) {
     const auto noise = [](int width, int height, double share) {
         Image image(width, height, 3);

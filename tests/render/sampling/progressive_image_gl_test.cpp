@@ -1,4 +1,4 @@
-// Tests that an image that is drawn block by block equals an image drawn as one block, also in the viewer.
+// Tests that an image that is drawn in blocks of samples equals an image drawn at once, also in the viewer.
 
 #include <gtest/gtest.h>
 
@@ -137,7 +137,7 @@ TEST_F(Growing, continuingIsRefusedWithinABlock) {
     EXPECT_THROW(renderer->continueWith(plan), std::exception);
 }
 
-// The viewer displays the values that an 8-bit file would contain.
+// The viewer displays the same values as an 8-bit image file would contain.
 TEST_F(Growing, displayIsTheToneMapOfTheImage) {
     ProgressiveImage image = progressive();
     image.drawFrame(small_->view, settingsOf(8));

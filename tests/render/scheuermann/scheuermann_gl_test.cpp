@@ -1,5 +1,5 @@
-// Tests of Scheuermann's gather blur: taps in the shape of the aperture, 8-bit storage as published, and blur planes
-// set by hand.
+// Tests Scheuermann's gather blur: taps in the shape of the aperture, 8-bit storage as published, and blur planes set
+// by hand.
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,8 @@ Image rendered(const World& world, const View& view, const char* method) {
     return imageOf(*renderer, planFrame(world, view, settings));
 }
 
-// Returns the bokeh of a bright square in a black wall. Both lie at one depth, so that all pixels have the same blur.
+// Returns the bokeh of a bright square that is surrounded by a black wall at the same depth, so that all pixels have
+// the same blur.
 Image bokehOf(const View& view, double depth,
               const char* method = "scheuermann:coc=thin-lens,taps=64,max-coc=unlimited") {
     const double left = (view.width - lightSide) / 2;
@@ -63,9 +64,9 @@ Image bokehOf(const View& view, double depth,
     return rendered(world, view, method);
 }
 
-// A blurred light has the shape of the aperture, upright behind the focus and rotated by 180° in front of it. The 64
-// taps are dots of a few pixels, so much light lies outside a smooth shape. Far less light lies outside the expected
-// shape than outside the opposite shape.
+// A blurred bright square has the shape of the aperture, upright behind the focal plane and rotated by 180° in front of
+// it. The 64 taps form dots of a few pixels, so no smooth shape fits exactly. Far less light lies outside the expected
+// shape than outside the same shape rotated by 180°.
 TEST_F(ScheuermannImage, showsTheShapeOfTheApertureUprightBehindTheFocusAndTurnedInFrontOfIt) {
     std::vector<std::pair<std::string, Lens>> lenses;
     const View view = bokehView(192, 144);
@@ -97,8 +98,8 @@ TEST_F(ScheuermannImage, ofARingIsDarkInTheMiddle) {
     EXPECT_LT(middle(), 0.1 * ofADisk);
 }
 
-// With 8-bit encoded colours, an object in focus is the pinhole image, clamped at white and rounded. The middle of the
-// blur's range is not exactly a byte value, so the image contains a small fraction of the pre-blurred image.
+// With 8-bit encoded colours, an image in focus is the pinhole image, clamped at white and rounded. A byte cannot
+// represent a blur of exactly zero, so a small fraction of the pre-blurred image is mixed in.
 TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
@@ -116,9 +117,9 @@ TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
     EXPECT_GT(error, 0.5 / 255 / std::sqrt(12.0));
 }
 
-// At max blur, the method as published reads only the small image, at the taps of a disk of 0.4 · 4 = 1.6 times the
-// radius. The variance of a blurred light is then the sum of the variance of the taps and the variance due to the small
-// image: pixels 4 px wide (16/12), linear interpolation (16/6) and the Gaussian (8).
+// At max blur, the published method reads only the low-resolution image, at taps in a disk of 0.4 · 4 = 1.6 times the
+// radius. The variance of a blurred square is then that of the taps plus that of the low-resolution image: pixels 4 px
+// wide (16/12), linear interpolation (16/6) and the Gaussian (8).
 TEST_F(ScheuermannImage, asPublishedReadsTheSmallImageAtItsOwnRadius) {
     View view = bokehView(192, 144);
     const Image image = bokehOf(view, 6, "scheuermann:far-blur-depth=5,blurriness-cutoff=1");
@@ -137,7 +138,8 @@ TEST_F(ScheuermannImage, asPublishedReadsTheSmallImageAtItsOwnRadius) {
         EXPECT_NEAR(moments.variance[axis], ofTheTaps[axis] + 12 + ofTheLight, 0.03 * ofTheTaps[axis]) << axis;
 }
 
-// An edge in focus has the resolved colours of a multisampled image: quarters of the display-encoded white.
+// With multisampling, an edge in focus has the colours of a resolved multisampled image, which are quarters of the
+// display-encoded white.
 TEST_F(ScheuermannImage, multisamplingSmoothsEdgesBeforeTheBlur) {
     const auto small = boards({{2, {-1, 0}, {1, 2}, {1, 1, 1, 1}}}, glm::vec3(0));
     small->view.worldFromCamera = glm::rotate(glm::dmat4(1), 0.3, glm::dvec3(0, 0, 1));
@@ -147,7 +149,7 @@ TEST_F(ScheuermannImage, multisamplingSmoothsEdgesBeforeTheBlur) {
         const Image image = postProcessed(*small, method);
         for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
             const float quarters = 4 * srgbEncode(image.pixels[i]);
-            EXPECT_NEAR(quarters, std::round(quarters), 0.1);  // with bits=8, taps are still 0.02 px apart
+            EXPECT_NEAR(quarters, std::round(quarters), 0.1);  // tolerance: with bits=8, taps are up to 0.02 px apart
             found.insert(static_cast<int>(std::round(quarters)));
         }
         return found;

@@ -37,7 +37,8 @@ TEST(BlurrinessPlanes, whereInfinityIsLessBlurredTheCutoffIsItsBlur) {
     ASSERT_LT(atInfinity, 10);
     const BlurrinessPlanes planes = blurrinessPlanes(coc, 4, 10, width);
     EXPECT_NEAR(planes.cutoff, atInfinity / 10, 1e-12);
-    // At 8 m, twice the focus distance, both the linear blur and the lens's blur are half of their values at infinity.
+    // At 8 m, twice the focus distance, the method's linear blur and the lens's blur are both half of their value at
+    // infinity.
     EXPECT_NEAR((8 - planes.focus) / (planes.far - planes.focus), 0.5 * planes.cutoff, 1e-12);
     EXPECT_NEAR(circleOfConfusion(coc, 8, width), 0.5 * atInfinity, 1e-9);
 }
@@ -62,7 +63,7 @@ TEST(BlurrinessPlanes, setByHandReplaceThoseOfTheLens) {
     EXPECT_EQ(all.focus, 5);
     EXPECT_EQ(all.far, 6);
     EXPECT_EQ(all.cutoff, 0.5);
-    // Setting the focus alone scales the near and the far plane in proportion.
+    // If only the focal plane is set, the near and the far plane are scaled in proportion.
     const BlurrinessPlanes moved = withPlanesByHand(lens, {.focus = 6});
     EXPECT_DOUBLE_EQ(moved.near, 3);
     EXPECT_DOUBLE_EQ(moved.far, 12);
@@ -70,15 +71,15 @@ TEST(BlurrinessPlanes, setByHandReplaceThoseOfTheLens) {
     EXPECT_THROW(withPlanesByHand(lens, {.far = 1.5}), Error);
 }
 
-// Points of a Poisson disk keep a min distance d and leave no gap. Disks of radius d/2 around the n points lie in a
-// disk of radius 1 + d/2. They fill at most the fraction of a hexagonal packing, π/√12 (Groemer 1960). Every point of
-// the unit disk lies within d of a sample; otherwise, a candidate there would have become a sample. Hence n·d² ≥ 1, and
-// the disks fill more than a quarter. The number of candidates is finite, so a tenth is tolerated.
+// The n points of a Poisson disk keep a min distance d. Disks of radius d/2 around them have n·d²/4 of the unit disk's
+// area. They do not overlap and lie in a disk of radius 1 + d/2, of which they fill at most π/√12 (Groemer 1960). No
+// gap is left, so disks of radius d cover the unit disk. Hence n·d² > 1, and in practice n·d²/4 > 0.3. As the number of
+// candidates is finite, gaps up to 1.1·d are tolerated.
 TEST(PoissonDisk, keepsItsDistanceAndLeavesNoGap) {
     for (const std::uint32_t count : {8u, 12u, 24u, 64u}) {
         std::vector<glm::vec2> points = poissonDisk(count);
         ASSERT_EQ(points.size(), count);
-        points.emplace_back(0);  // the centre is not a tap, but taps keep their distance to it
+        points.emplace_back(0);  // the centre is not a tap, but taps keep the min distance from it
         double min = 2;
         for (std::size_t i = 0; i < points.size(); ++i) {
             EXPECT_LE(glm::length(points[i]), 1.0f + 1e-6f);

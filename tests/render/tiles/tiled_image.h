@@ -1,5 +1,5 @@
 #pragma once
-// Fixture that assembles images from uneven tiles and compares them with undivided images.
+// Fixture that renders an image in tiles of uneven sizes and compares it with the undivided image.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ protected:
 
     static PixelRectangle wholeOf(const FramePlan& plan) { return {0, 0, plan.view.width, plan.view.height}; }
 
-    // Returns the image assembled from tiles, each of which is rendered separately. Pixels without a tile are NaN.
+    // Returns the image assembled from tiles, each of which is rendered separately. Pixels that no tile covers are NaN.
     static Image joined(Renderer& renderer, const FramePlan& plan, const std::vector<Tile>& tiles) {
         Image image(plan.view.width, plan.view.height, 4);
         std::ranges::fill(image.pixels, std::numeric_limits<float>::quiet_NaN());

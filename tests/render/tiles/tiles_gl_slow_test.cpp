@@ -1,5 +1,5 @@
-// Slow tests that frames drawn tile by tile equal undivided frames bit for bit, in each mode of levels of detail and
-// behind glass.
+// Slow tests that images drawn in tiles equal undivided images bit for bit, in each mode of levels of detail and behind
+// glass.
 
 #include "render/tiles/tiled_image.h"
 
@@ -13,7 +13,7 @@ TEST_F(Tiles, haveTheBitsOfOnePieceAtEachKindOfLevel) {
         expectTheBitsOfOnePiece(*small, planWith(*small, small->view, mode, 70), lodModeName(mode));
 }
 
-// Tiles stay exact if a transmitting object refracts parts of the image that lie outside the tile.
+// Images drawn in tiles are exact even if a transmitting object refracts parts of the image that lie outside the tile.
 TEST_F(Tiles, haveTheBitsOfOnePieceWhereGlassShowsWhatLiesElsewhere) {
     const auto small = fiveSpheres();
     Material glass;

@@ -1,4 +1,4 @@
-// Tests that frames drawn tile by tile equal undivided frames bit for bit, for all tilings, motions and blur controls.
+// Tests that images drawn in tiles equal undivided images bit for bit, for all tilings, motions and blur controls.
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,7 @@ TEST_F(Tiles, haveTheBitsOfOnePieceBeforeAMapAndBeforeNothing) {
     expectTheBitsOfOnePiece(*small, planWith(*small, small->view), "no background");
 }
 
-// Some tiles contain only a few of the blended objects; the sky behind them is transparent.
+// Some tiles contain only a few of the blended objects. The sky behind these objects is transparent.
 TEST_F(Tiles, haveTheBitsOfOnePieceWhereSurfacesBlend) {
     const auto small = fiveSpheres();
     small->world.environment.type = EnvironmentType::none;
@@ -59,7 +59,7 @@ TEST_F(Tiles, haveTheBitsOfOnePieceWhereSurfacesBlend) {
     expectTheBitsOfOnePiece(*small, plan, "blending");
 }
 
-// Tiles stay exact if objects outside the tile, or outside the image, cast shadows into it.
+// Images drawn in tiles are exact even if objects outside the tile, or outside the image, cast shadows into it.
 TEST_F(Tiles, haveTheBitsOfOnePieceWhereShadowsFallIntoThem) {
     const auto small = fiveSpheres();
     RenderSettings settings;
@@ -70,7 +70,7 @@ TEST_F(Tiles, haveTheBitsOfOnePieceWhereShadowsFallIntoThem) {
     expectTheBitsOfOnePiece(*small, plan, "shadows");
 }
 
-// An image that is divided into several rasterization cells, each with its own viewport, has no seams. It differs from
+// An image that is drawn in several rasterization cells (parts with separate viewports) has no seams. It differs from
 // an undivided image only because each cell rounds window coordinates differently.
 TEST_F(Tiles, ofSeveralCellsJoinWithoutASeam) {
     const auto small = fiveSpheres();
@@ -92,7 +92,7 @@ TEST_F(Tiles, ofSeveralCellsJoinWithoutASeam) {
         largest = std::max(largest, std::abs(difference));
         squared += difference * difference;
     }
-    // tolerance for one of 70 samples, in which a corner of the silhouette may round to another pixel
+    // In one of 70 samples, a corner of the silhouette may round to another pixel.
     EXPECT_LT(largest, 2.0 / 70);
     EXPECT_LT(std::sqrt(squared / static_cast<double>(full.pixels.size())), 1e-4);
 }

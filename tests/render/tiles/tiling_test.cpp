@@ -1,5 +1,5 @@
-// Tests of the division of a frame: bands (ranges of rows) cover the frame without overlap and fit into the available
-// memory.
+// Tests the division of a frame into bands (ranges of rows) and tiles. Bands cover the frame without overlap and fit
+// into the available memory.
 
 #include "render/tiles/tiling.h"
 
@@ -20,7 +20,7 @@ TilingNeeds needsOf(int width, int height, std::uint64_t memory) {
     return needs;
 }
 
-// Returns the bytes that the largest tile needs, including its layers and its band.
+// Returns the bytes that the largest tile needs, including the sample layers and the band that it belongs to.
 std::uint64_t bytesOf(const TilingNeeds& needs, const Tiling& tiling) {
     std::uint64_t max = 0;
     for (const Band& band : tiling.bands)
