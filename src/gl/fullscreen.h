@@ -6,7 +6,7 @@
 
 namespace defocus::engine {
 
-// Vertex shader of the programs that Fullscreen draws with.
+// Path of the vertex shader with which Fullscreen's programs are linked.
 inline constexpr const char* fullscreenShader = "include/fullscreen.vert";
 
 class Fullscreen {

@@ -73,7 +73,7 @@ std::string directivesOf(const Stage& stage) {
     return text;
 }
 
-// Joins the lines of a log, since an Error is one line.
+// Joins the lines of a log into one line, because the message of an Error is one line.
 std::string oneLine(std::string log) {
     while (!log.empty() && (log.back() == '\n' || log.back() == '\0')) log.pop_back();
     for (std::size_t at = log.find('\n'); at != std::string::npos; at = log.find('\n', at)) log.replace(at, 1, " | ");

@@ -1,5 +1,6 @@
 #pragma once
-// Mesa's shader cache on disk. Mesa maps the cache's index into memory, so a full disk ends the process with SIGBUS.
+// Turns Mesa's shader cache on disk off if the disk is nearly full. Mesa maps the cache's index into memory, so a full
+// disk would end the process with SIGBUS.
 
 #include <string>
 
