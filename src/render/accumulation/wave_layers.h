@@ -1,5 +1,5 @@
 #pragma once
-// Render target of a wave: K layers of colours and depths, one per lens sample.
+// Render target of a batch (wave) of K lens samples: K layers of colours and depths, one per sample.
 
 #include <cstdint>
 #include <optional>
