@@ -19,7 +19,7 @@ namespace defocus::engine {
 struct GpuMaterialTextures {
     std::array<const GlTexture*, materialTextureCount> slots{};
     auto operator<=>(const GpuMaterialTextures&) const = default;
-    // Returns the index of a slot's texture among the material's used textures.
+    // Returns the index, among the material's used textures, of the texture of a slot (an index into textureUses()).
     [[nodiscard]] int unit(std::size_t slot) const;
     [[nodiscard]] int count() const { return unit(materialTextureCount); }
     // Binds the textures to the units that shaders/include/material_textures.glsl reads.
@@ -28,7 +28,7 @@ struct GpuMaterialTextures {
 
 class GpuScene {
 public:
-    // `pendingBytes`: see SubmissionPacer.
+    // `pendingBytes`: max memory of pending triangles; see SubmissionPacer.
     explicit GpuScene(const World& world, std::uint64_t pendingBytes = SubmissionPacer::defaultBytes)
         : world_(&world), pacer_(pendingBytes) {}
 

@@ -43,7 +43,7 @@ public:
     // Uploads the blocks of `materials`, which are indices of the scene's materials; −1 is the default material.
     MaterialBlocks(const GpuScene& scene, std::vector<int> materials);
 
-    // Binds the block and the textures of the material with index `slot` in the list.
+    // Binds the block and the textures of the material at index `slot` of the list of materials.
     void bind(std::size_t slot) const;
     [[nodiscard]] std::size_t bytes() const { return plain_.bytes() + transformed_.bytes(); }
 
