@@ -21,7 +21,7 @@ float coordinate(const LensSample& sample, int axis) {
     return axis == 0 ? sample.lens.x : axis == 1 ? sample.lens.y : sample.time;
 }
 
-// Sorts samples by recursive bisection along alternating axes, until each part contains one sample.
+// Sorts samples by recursive bisection along alternating axes, until each part of the lens contains one sample.
 void sortIntoParts(std::span<LensSample> samples, int axis, int axes) {
     if (samples.size() < 2) return;
     const std::size_t half = samples.size() / 2;

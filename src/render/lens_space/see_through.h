@@ -15,11 +15,12 @@ class SeeThrough {
 public:
     SeeThrough(std::filesystem::path shaderFolder, std::uint32_t tileSize);
 
-    // Prepares the programs for the groups of `front`. `defines`: shader defines of `front`, rays and kernel.
+    // Prepares the programs for the groups of surfaces of `front`. `defines`: shader defines of `front`, rays and
+    // kernel.
     void prepare(const FramePlan& plan, const LensFront& front, const ShaderDefines& defines);
-    // Moves the hits of `count` records of the wave that starts at ray `firstRay` to the surfaces at which their rays
-    // stop. Rays, records and the frame's uniforms must be bound. Returns the number of searches for a next hit. Throws
-    // Error if the driver cannot search a tile's list at once.
+    // Moves the hits of `count` records of the batch of rays that starts at ray `firstRay` to the surfaces at which the
+    // rays stop. Rays, records (hits) and the frame's uniforms must be bound. Returns the number of searches for a next
+    // hit. Throws Error if the driver cannot search a tile's list at once.
     std::uint64_t resolve(LensFront& front, const RecordShading& shading, std::uint64_t count, std::uint32_t firstRay);
 
 private:
