@@ -11,7 +11,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double gapOfPositions = 1.25;  // like QualityLimits::gap, in px, for samples with four positions
+// Max gap like QualityLimits::gap, in px, for samples with four pixel positions.
+constexpr double gapOfPositions = 1.25;
 constexpr double payingTriangles = 0.1;  // min triangles per pixel and sample for which four positions save time
 // Max image size in px with four positions, whose layers are twice as wide and high.
 constexpr int maxDoubledSide = 4096;

@@ -93,7 +93,8 @@ double BlockSchedule::thresholdSamples() const {
     return levels_->samplesFor(levelShare * *aim, expected);
 }
 
-// Returns the total error from a sampling error and the level error so far, which are assumed to be independent.
+// Returns the total error from a sampling error and the mean error due to levels of detail so far, which are assumed to
+// be independent.
 double BlockSchedule::withLevels(double sampleError) const {
     return std::hypot(sampleError, levelErrorSum_ / std::max(samples_, 1u));
 }

@@ -13,8 +13,8 @@ namespace defocus::engine {
 
 class ProgressiveImage {
 public:
-    // `world` must outlive this object; its pose may change between frames. grow() draws waves of options.wave samples
-    // (0: 4); small waves help grow() to keep its time limit. Needs a current OpenGL context.
+    // `world` must outlive this object; its pose may change between frames. grow() draws options.wave samples together
+    // (0: 4); a small number helps grow() to keep its time limit. Needs a current OpenGL context.
     ProgressiveImage(const World& world, const MethodUse& use, const RendererOptions& options);
 
     // Both functions draw a complete frame, with settings.sampleCount samples or with the samples of `plan`.
@@ -28,7 +28,8 @@ public:
     // value. BlockSchedule then chooses the thresholds.
     void begin(const View& view, const RenderSettings& settings, std::uint32_t max,
                std::optional<double> targetError = {});
-    // Draws waves until about `milliseconds` have passed, at least one wave. Returns false once the image is complete.
+    // Draws batches (waves) of samples until about `milliseconds` have passed, at least one batch. Returns false once
+    // the image is complete.
     bool grow(double milliseconds);
 
     [[nodiscard]] std::uint32_t samples() const { return renderer_->samples(); }

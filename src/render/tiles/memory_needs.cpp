@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint64_t programBytes = 80u << 20;     // bytes of a software driver's compiled programs
 constexpr std::uint64_t contextBytes = 144u << 20;    // bytes of a thread: programs and pending triangles, measured
 constexpr std::uint64_t outputBytes = 16u << 20;      // bytes of the libraries that write the image, measured
-constexpr std::uint64_t occlusionTriangleBytes = 12;  // bytes per triangle of Occlusion, measured
+constexpr std::uint64_t occlusionTriangleBytes = 12;  // bytes per triangle for the occlusion test, measured
 
 std::uint64_t threeQuarters(std::uint64_t bytes) {
     return bytes / 4 * 3;
