@@ -9,9 +9,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::uint32_t pointTile = 8;                                // tile side in px
-constexpr std::uint32_t maxEntries = 40'000;                          // max list entries of a tile per dispatch
-constexpr std::size_t boundBytes = blockSamples * sizeof(glm::vec4);  // bytes of the rays' lens bounds per wave
+constexpr std::uint32_t pointTile = 8;        // tile side in px
+constexpr std::uint32_t maxEntries = 40'000;  // max list entries of a tile per dispatch
+// Bytes of the lens bounds of rays that are traced together.
+constexpr std::size_t boundBytes = blockSamples * sizeof(glm::vec4);
 
 class StochasticKernel final : public VisibilityKernel {
 public:
