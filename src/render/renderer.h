@@ -31,7 +31,7 @@ struct RenderStats {
     std::uint32_t samples = 0;
     double setupMilliseconds = 0;       // uploads and compilation of shaders
     double renderMilliseconds = 0;      // time from the end of the setup until the image is complete
-    CpuTime cpuTime;                    // CPU time of the same interval
+    CpuTime cpuTime;                    // CPU time of the interval of renderMilliseconds
     double gpuMilliseconds = 0;         // measured by timer queries; excludes vertex work with software drivers
     std::uint64_t trianglesDrawn = 0;   // triangles in the plan, summed over all samples
     std::uint64_t trianglesHidden = 0;  // triangles of the plan that were skipped because they are hidden
@@ -44,7 +44,7 @@ struct RenderStats {
     StopReason stopped = StopReason::sampleCount;  // why the frame ended
     std::optional<double> estimatedError;          // RMSE (see StopSettings); nullopt: not estimated
     std::vector<MethodFigure> figures;             // statistics that are specific to the method
-    std::vector<PassTime> passes;                  // in order of execution; empty if not measured
+    std::vector<PassTime> passes;                  // passes in order of execution; empty if not measured
 };
 
 // Compensated sum of the samples of one block, RGBA; the result is `sum` + `compensation`. A block has 64 samples; the

@@ -47,7 +47,7 @@ struct ComplexBlurInfo {
     KernelConstants constants = KernelConstants::fitted;
     ComplexStorage storage = ComplexStorage::half;
     ComplexTaps taps = ComplexTaps::exact;
-    bool direct = false;  // One pass over the square instead of two passes: same image, O(radius²) taps
+    bool direct = false;  // true: one pass over the square instead of two, with O(radius²) taps; same image
     std::filesystem::path shaderFolder;
 };
 

@@ -55,7 +55,7 @@ private:
     [[nodiscard]] std::size_t waveOf(std::uint32_t sample) const;
 
     ShaderDefines defines_;
-    std::array<glm::vec4, 9> irradiance_{};  // diffuseCoefficients of the environment
+    std::array<glm::vec4, 9> irradiance_{};  // coefficients of the environment's irradiance (diffuseCoefficients)
     Buffer frameBlock_;
     Buffer lightingBlock_;  // empty if shaders contain the lighting as constants
     Buffer samples_;        // GpuSample of each lens sample
@@ -63,7 +63,7 @@ private:
     Buffer waves_;         // WaveBlock (shaders/include/shading.glsl) of each batch of samples
     Buffer sampleShifts_;  // one vec4 per lens sample: offset of the sky in the image
     Buffer bandShifts_;
-    Buffer sampleBands_;  // SampleBlock of shaders/accumulation/layer_light.glsl
+    Buffer sampleBands_;  // SampleBlock (shaders/accumulation/layer_light.glsl) of each block of samples
     bool countsInAlpha_ = false;
     bool usesOwnBlur_ = false;
     std::uint32_t layerCount_ = 1;

@@ -41,8 +41,8 @@ public:
     void start(const ShaderDefines& defines);
     void add(const DividedRun& run) { runs_.push_back(run); }
     [[nodiscard]] bool empty() const { return runs_.empty(); }
-    // Writes the small triangles. The buffers of the undivided triangles, the frame's triangles and, if vertices are
-    // lit, the first triangle of each vertex must be bound at storage binding points 1, 2 and 3.
+    // Writes the small triangles. The buffers of the undivided triangles, of the frame's triangles and, if lighting is
+    // computed per vertex, of the first triangle of each vertex must be bound at storage binding points 1, 2 and 3.
     void makeTriangles(const Buffer& bases) const;
     // Both functions write the vertices of the small triangles to the buffer that holds the vertices of the undivided
     // triangles: makeClips() their clip positions, makeAttributes() their attributes.

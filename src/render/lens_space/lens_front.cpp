@@ -153,8 +153,8 @@ void LensFront::addLevel(std::uint32_t objectIndex, const LevelDraw& level, doub
     vertexCount_ += vertices.count;
 }
 
-// Assigns ranges of vertices and triangles to the divided triangles. Their vertices follow the vertices of all levels,
-// and their triangles follow the undivided triangles.
+// Assigns ranges of vertices and triangles to the small triangles into which triangles are divided. The new vertices
+// follow the vertices of all levels, and the small triangles follow the triangles that are not divided.
 void LensFront::addDivisions() {
     std::uint32_t bases = 0;
     std::uint32_t triangles = 0;
@@ -221,7 +221,7 @@ void LensFront::pose(std::uint32_t part) {
     };
     makeClips(clips_, part);
     if (moving) makeClips(clipsAtEnd_, part + 1);
-    // Light moving surfaces at the middle of this part of the exposure.
+    // Moving surfaces are shaded as they are at the middle of this part of the exposure.
     makeVertices(attributes_, attributeBytes, true, part, moving ? 0.5f : 0.0f);
     divided_.makeAttributes(bases_, attributes_);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

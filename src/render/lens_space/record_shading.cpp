@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t groupBytes = 4 * sizeof(std::uint32_t);     // matches shaders/lens_space/groups.glsl
+constexpr std::size_t groupBytes = 4 * sizeof(std::uint32_t);     // element size in shaders/lens_space/groups.glsl
 constexpr std::size_t dispatchBytes = 3 * sizeof(std::uint32_t);  // DispatchIndirectCommand of OpenGL
 
 }  // namespace
@@ -69,7 +69,7 @@ void RecordShading::shadeVertices(const LensFront& front) {
 
 void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint32_t firstRay) {
     if (list_.bytes() < count * sizeof(std::uint32_t)) {
-        list_ = Buffer();  // free the old buffer first: memory may not hold both buffers
+        list_ = Buffer();  // free the old buffer first: memory may not hold old and new buffers
         list_ = Buffer(count * sizeof(std::uint32_t));
     }
 

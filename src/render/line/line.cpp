@@ -208,7 +208,7 @@ private:
         const Places places{rays, rays + jobRanges * jobs, slots};
         const std::size_t bytes = sizeof(Counters) + places.states * rangeBytes + slots * slotBytes;
         if (output_.bytes() < bytes) {
-            output_ = Buffer();  // free the old buffer first: memory may not hold both buffers
+            output_ = Buffer();  // free the old buffer first: memory may not hold old and new buffers
             output_ = storage(bytes, "the lines of a wave");
         }
 

@@ -85,7 +85,7 @@ public:
     // drawn.
     [[nodiscard]] bool culls() const { return !tested_.empty(); }
 
-    // Any number of threads may call the functions below. Each needs a current OpenGL context.
+    // Any number of threads may call the functions below. Each thread needs a current OpenGL context.
 
     // Classifies the pieces (groups of triangles) as visible or hidden in sample `sample`, all of whose triangles were
     // drawn into layer `layer` of `depths`.

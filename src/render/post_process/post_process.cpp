@@ -123,7 +123,7 @@ private:
         const bool same = sum_ && sum_->info().width == view.width && sum_->info().height == view.height &&
                           sum_->info().format == format && pinhole_->hasOwnBlur() == plan_.usesOwnBlur;
         if (!same) {
-            layer_.reset();  // free the old layer and sum first: memory may not hold old and new
+            layer_.reset();  // free the old layer and sum first: memory may not hold the old and new ones
             sum_.reset();
             layer_.emplace(WaveLayersInfo{view.width, view.height, 1, format});
             sum_.emplace(LayerSumInfo{view.width, view.height, format, options_.shaderFolder});
