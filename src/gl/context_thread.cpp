@@ -49,7 +49,7 @@ void ContextThread::work(std::promise<void> started) {
         task = {};  // destroy the task's captures now, because a task on another thread may wait for their destruction
         lock.lock();
     }
-    context_.reset();  // on this thread, where the context is current
+    context_.reset();  // destroy the context on this thread, where it is current
 }
 
 }  // namespace defocus::engine

@@ -20,7 +20,7 @@ using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 struct ProgramInfo {
     std::vector<std::string> shaders;  // paths under shaders/; stage by extension: .vert .tesc .tese .geom .frag .comp
     ShaderDefines defines;
-    std::filesystem::path overrideFolder;  // folder of replacements; empty: embedded shaders only
+    std::filesystem::path overrideFolder;  // folder whose shaders replace embedded shaders; empty: none
 };
 
 class Program {

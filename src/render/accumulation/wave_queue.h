@@ -18,7 +18,7 @@ namespace defocus::engine {
 
 // Numbers of threads, batches (waves) and samples that are drawn at once.
 struct WaveShape {
-    std::uint32_t threads = 1;  // threads that draw; 1: the caller's thread
+    std::uint32_t threads = 1;  // number of threads that draw; 1: only the caller's thread
     std::uint32_t targets = 1;  // batches in memory per thread; with 2, a thread draws one while the other is summed
     std::uint32_t samples = 1;  // samples per batch, a power of two, at most blockSamples
     [[nodiscard]] std::uint32_t waves() const { return threads * targets; }
@@ -81,8 +81,8 @@ private:
     WaveFrame frame_;
     WaveShape shape_;
     std::vector<Place> places_;
-    std::uint32_t started_ = 0;                                  // batches that were passed to threads
-    std::uint32_t returned_ = 0;                                 // batches that next() has returned
+    std::uint32_t started_ = 0;                                  // number of batches that were passed to threads
+    std::uint32_t returned_ = 0;                                 // number of batches that next() has returned
     std::shared_future<WaveVisibility::Value> blockVisibility_;  // visible triangles in the block of the latest batch
     std::shared_ptr<std::atomic<bool>> abandoned_;               // set when the remaining batches are not needed
     std::size_t bytes_ = 0;

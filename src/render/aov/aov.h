@@ -1,5 +1,6 @@
 #pragma once
-// Arbitrary output variables (AOVs): per-pixel data of the nearest surface at the pixel's centre in a pinhole view.
+// Draws arbitrary output variables (AOVs): per-pixel data of the nearest surface at the pixel's centre in a pinhole
+// view.
 
 #include <filesystem>
 #include <optional>

@@ -82,9 +82,9 @@ public:
 
 private:
     enum class ScreenDoor {
-        open,         // all pixels draw the same level
-        coarseShare,  // pixels with the coarser level in a boundary sample, which mixes two levels
-        fineShare,    // pixels with the finer level in a boundary sample
+        open,         // all pixels draw the same level of detail
+        coarseShare,  // draws the coarser level's pixels in a boundary sample, which mixes two levels
+        fineShare,    // draws the finer level's pixels in a boundary sample
     };
 
     struct Draw {  // one primitive of an object at one level of detail

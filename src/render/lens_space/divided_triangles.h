@@ -1,5 +1,5 @@
 #pragma once
-// Triangles that the lens-space methods divide, because the circle of confusion C is not linear inside them. Each
+// Divides triangles for the lens-space methods, because the circle of confusion C is not linear inside them. Each
 // triangle of an object becomes n² small triangles, with C evaluated at their corners. All triangles of an object are
 // divided equally, so that no gaps open between them.
 

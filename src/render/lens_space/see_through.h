@@ -1,7 +1,8 @@
 #pragma once
-// Cut-out and alpha-blended surfaces in the lens-space methods. After the visibility kernel, each ray that hits such a
-// surface stops there or goes on, depending on alpha at the hit (shaders/lens_space/let_through.comp). Rays that go on
-// find their next hit (behind.comp), until all rays have stopped.
+// Lets rays of the lens-space methods pass through cut-out and alpha-blended surfaces. After the visibility kernel,
+// each ray that hits such a surface stops there or goes on, depending on alpha at the hit
+// (shaders/lens_space/let_through.comp). Rays that go on find their next hit (behind.comp), until all rays have
+// stopped.
 //
 // Behind such a surface, a line sample continues as point samples, one from each shading point on the surface. This
 // approximation is not published: Tzeng et al. 2012 draw only opaque surfaces.

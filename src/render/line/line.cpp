@@ -223,7 +223,8 @@ private:
         return readCounters();
     }
 
-    // Runs the deferred jobs until all are complete. Each dispatch runs as many jobs as there are states.
+    // Runs the deferred jobs (each is one line in one tile) until all are complete. Each dispatch runs as many jobs as
+    // there are saved states.
     void finishJobs(const Places& places) {
         const std::uint32_t count = readCounters().laterJobs;
         for (std::uint32_t first = 0; first < count; first += static_cast<std::uint32_t>(places.slots)) {

@@ -1,6 +1,6 @@
 #pragma once
-// Fraction of a line's light that passes through a part of the line; same as shaders/line/weights.glsl, for tests and
-// tables.
+// Computes the fraction of a line's light that passes through a part of the line, like shaders/line/weights.glsl, for
+// tests and tables. The line crosses the lens; its light is the light of a narrow sector of the lens.
 //
 // Lines through the lens centre are denser near the centre, so a part of a line is weighted by its distance from the
 // centre. For a disk and p from −1 to 1, part [p₁, p₂] has the fraction κ(p₁, p₂) = (p₂|p₂| − p₁|p₁|)/2 (Tzeng et al.

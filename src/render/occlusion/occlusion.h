@@ -78,8 +78,8 @@ public:
     // `world` must outlive this object.
     explicit Occlusion(const World& world) : world_(&world) {}
 
-    // Prepares culling for `plan`, which must exist until the last draw. Culling is off with few triangles, and if the
-    // lens or motion rules out the test.
+    // Prepares culling for `plan`, which must exist until the last draw. Nothing is culled if there are few triangles,
+    // or if the lens or motion makes the test impossible.
     void prepare(const FramePlan& plan, const std::vector<OccludableDraw>& draws);
     // Returns whether hidden triangles are culled. If so, all triangles of the first sample of each block must be
     // drawn.

@@ -1,6 +1,6 @@
 #pragma once
-// Image changes that are caused only by a change of levels of detail: two plans of one view and pose that differ only
-// in levels, and the pixels that show the difference.
+// Finds image changes that are caused only by a change of levels of detail: makes two plans of one view and pose that
+// differ only in levels, and finds the pixels that show the difference.
 
 #include <optional>
 #include <vector>

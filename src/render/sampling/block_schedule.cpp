@@ -10,11 +10,12 @@ namespace defocus::engine {
 
 namespace {
 
-// Max level error relative to the intended error. The total error is then at most √(1 + 0.5²) = 1.12 times the intended
-// error.
+// Max error due to levels of detail, relative to the intended error. The total error is then at most √(1 + 0.5²) = 1.12
+// times the intended error.
 constexpr double levelShare = 0.5;
-constexpr double withoutLevelError = 4;  // factor on the expected number of samples if the level error is unknown
-constexpr double blockTolerance = 0.7;   // s after the time limit at which an unfinished block is stopped
+// Factor on the expected number of samples if the error due to levels is unknown.
+constexpr double withoutLevelError = 4;
+constexpr double blockTolerance = 0.7;  // s after the time limit at which an unfinished block is stopped
 constexpr double maxThresholdSamples = 1e8;
 constexpr double maxLevelPower = 1.4;
 // Sample count of the first error estimate, which needs two blocks.

@@ -1,12 +1,12 @@
 #pragma once
-// Schedules the blocks of a frame whose number of lens samples is not known in advance. After each block, it decides
-// whether another block follows and with which settings. The schedule holds no image and makes no OpenGL calls; still
-// images and the window both use it.
+// Schedules the blocks of a frame whose number of lens samples is not known in advance. After each block of 64 samples,
+// it decides whether another block follows and with which settings. The schedule holds no image and makes no OpenGL
+// calls; still images and the window both use it.
 //
 // The error due to levels of detail cannot be estimated from differences between blocks that draw the same levels, so
-// it is measured before the first block (LevelError). Thresholds are chosen so that this error is less than half the
-// intended error: the target, or the error at the expected number of samples. Without this measurement, thresholds are
-// the defaults for four times the expected samples.
+// it is measured before the first block (LevelError). The thresholds that select levels are chosen so that this error
+// is less than half the intended error: the target, or the error at the expected number of samples. Without this
+// measurement, thresholds are the defaults for four times the expected samples.
 
 #include <functional>
 #include <optional>

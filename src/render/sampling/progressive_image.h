@@ -1,7 +1,7 @@
 #pragma once
-// Image of an interactive window. While the scene moves, each frame is drawn completely with few samples. While nothing
-// moves, blocks of 64 lens samples are added to the same sum. Each block has the level-of-detail thresholds for the
-// number of samples in the sum, so levels get finer as the sampling error decreases.
+// Renders the image of an interactive window. While the scene moves, each frame is drawn completely with few samples.
+// While nothing moves, blocks of 64 lens samples are added to the same sum. Each block has the level-of-detail
+// thresholds for the number of samples in the sum, so levels get finer as the sampling error decreases.
 
 #include <memory>
 #include <optional>

@@ -112,7 +112,7 @@ Tile trialTile(const FramePlan& plan) {
     return {{cell.left, cell.top, cell.width, 1}, cell};
 }
 
-// Returns the bytes of the layer, shadow maps and sums of the tile `trial`.
+// Returns the bytes of the layer, the shadow maps and the accumulation buffers of the tile `trial`.
 std::uint64_t trialBytes(const TilingNeeds& needs, const Tile& trial) {
     return pixelsOf(trial.cell.width, trial.cell.height) * needs.layerPixel + needs.layerMaps +
            pixelsOf(trial.area.width, trial.area.height) * sumPixelBytes;
