@@ -67,7 +67,7 @@ std::vector<Layer> numberLayers(const std::vector<Layer>& layers) {
     return found;
 }
 
-// Returns the RGBA texture `sum` plus its compensation.
+// Returns the RGBA texture `sum` plus the texture `compensation`.
 Image total(const GlTexture& sum, const GlTexture& compensation) {
     Image image = readBack(sum, 4);
     const Image lost = readBack(compensation, 4);

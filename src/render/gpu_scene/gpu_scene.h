@@ -55,7 +55,7 @@ private:
 
     const World* world_;
     SubmissionPacer pacer_;
-    std::vector<GpuMesh> meshes_;  // one per mesh of the world; without levels if no frame has used it
+    std::vector<GpuMesh> meshes_;  // per mesh of the world; without levels until a frame uses the mesh
     std::map<std::tuple<int, bool, float>, GlTexture> textures_;  // textures, keyed by the arguments of texture()
     std::set<GpuMaterialTextures> textureSets_;                   // distinct values of texturesOf()
     // Entry i: textures of material i − 1; entry 0: of the default material. Null if no frame has used the material.

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t clipBytes = 4 * sizeof(float);
 constexpr std::size_t ownBlurBytes = 2 * sizeof(float);
 // Mesa's software driver ends the loops of a thread after a total of 65,535 iterations.
-constexpr std::uint32_t maxTilesAtOnce = 50'000;   // tiles per dispatch that a thread tests a triangle against
+constexpr std::uint32_t maxTilesAtOnce = 50'000;   // max tiles against which a thread tests a triangle
 constexpr std::uint32_t maxSortedAtOnce = 65'536;  // max list entries that one dispatch sorts: 136 x 256 iterations
 constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // element size in shaders/lens_space/shade_vertices.comp
 constexpr std::size_t attributeBytes = 20 * sizeof(float);   // element size in shaders/lens_space/attributes.vert

@@ -16,7 +16,7 @@
 
 namespace defocus::engine {
 
-// Ray; matches shaders/lens_space/rays.glsl.
+// Ray through a lens point and a pixel; matches shaders/lens_space/rays.glsl.
 struct GpuRay {
     glm::vec4 lensAndPixel{0};
     glm::vec4 values{0};

@@ -88,7 +88,7 @@ private:
     ShaderDefines defines_;
     Program program_;
     Buffer boundBlock_;
-    Buffer tests_;              // TestBlock of shaders/stochastic/visible.comp
+    Buffer tests_;              // uniform block TestBlock of shaders/stochastic/visible.comp
     std::uint64_t groups_ = 0;  // number of workgroups so far; each traces one ray per pixel of a tile
     RecordBuffer records_;
 };

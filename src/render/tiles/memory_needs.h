@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-// A request's limits on memory and layers.
+// Limits that a request sets on memory, on samples drawn together and on threads.
 struct DrawLimits {
     std::optional<std::uint64_t> memory;  // max bytes of the process; nullopt: 3/4 of the free memory
     std::uint32_t wave = 0;               // lens samples drawn together; 0: as many as fit into memory
