@@ -1,5 +1,5 @@
 #pragma once
-// Full-screen triangle for passes that compute a value at each pixel.
+// Draws a full-screen triangle, for passes that compute a value at each pixel.
 
 #include "gl/buffer.h"
 #include "gl/program.h"

@@ -63,8 +63,8 @@ std::string expanded(const std::string& path, const std::filesystem::path& overr
     return result;
 }
 
-// Returns the #version and #extension directives of a stage. The extensions let a shader before the geometry stage
-// write gl_Layer.
+// Returns the #version and #extension directives of a shader stage. The extensions let a shader before the geometry
+// stage write gl_Layer.
 std::string directivesOf(const Stage& stage) {
     std::string text = "#version 450 core\n";
     if (stage.type == GL_VERTEX_SHADER || stage.type == GL_TESS_EVALUATION_SHADER)

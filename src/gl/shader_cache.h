@@ -6,11 +6,11 @@
 
 namespace defocus::engine {
 
-// Turns the cache off for this process if its folder has less than 16 MiB of free space. Call it before the process
-// creates its first context; later calls do nothing.
+// Turns the cache off for this process if the cache's folder has less than 16 MiB of free space. Call it before the
+// process creates its first context; later calls do nothing.
 void protectShaderCache();
 
-// Returns the warning that protectShaderCache has turned the cache off; empty if it hasn't.
+// Returns the warning that protectShaderCache has turned the cache off; empty if the cache is on.
 std::string shaderCacheWarning();
 
 }  // namespace defocus::engine

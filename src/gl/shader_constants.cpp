@@ -42,7 +42,7 @@ constexpr ShaderConstant constants[] = {
     {"int", "waveSamples", "1"},        // samples that a pass adds; a constant, so that drivers unroll the loop
     {"int", "tableEntries", "1"},       // max number of objects or materials counted separately in a pixel
 
-    // Constants of surfaces
+    // Constants of a surface's material and mesh
     {"bool", "lit", "false", "LIT"},
     {"bool", "coarseLevel", "false", "COARSE_LEVEL"},
     {"bool", "transmissive", "false", "TRANSMISSIVE"},
@@ -59,7 +59,7 @@ constexpr ShaderConstant constants[] = {
     {"bool", "alphaTested", "false"},
     {"bool", "alphaBlended", "false"},
     {"bool", "choosesByAlpha", "false",
-     "CHOOSES_BY_ALPHA"},                // alpha decides which lens samples show or count a fragment
+     "CHOOSES_BY_ALPHA"},                // alpha decides in which lens samples a fragment is visible
     {"bool", "letsLightPass", "false"},  // true if a shadow caster transmits light
     {"bool", "vertexColors", "false"},
     {"bool", "colorRanges", "false", "COLOR_RANGES"},

@@ -87,7 +87,7 @@ private:
     Target meanTarget_;
     // Programs that add layers to the sum, keyed by their defines, which may change from frame to frame.
     std::map<ShaderDefines, Program> addLayers_;
-    // Programs for lens cells, keyed by the numbers of blur classes in front of and behind the focus plane.
+    // Programs that blur by lens cells, keyed by the numbers of blur classes in front of and behind the focus plane.
     std::map<std::pair<int, int>, CellPasses> cellPasses_;
     // Kept after the latest block that was blurred by lens cells, because the next frame often has the same blur
     // classes.

@@ -17,9 +17,9 @@ namespace defocus::engine {
 
 struct CircularComponent {
     double decay;      // decay a of F(x), per squared radius
-    double frequency;  // b of F(x), radians per squared radius
-    double cosine;     // A, weight of the real part
-    double sine;       // B, weight of the imaginary part
+    double frequency;  // frequency b of F(x), radians per squared radius
+    double cosine;     // weight A of the real part of F(x)
+    double sine;       // weight B of the imaginary part of F(x)
 };
 
 inline constexpr int circularKernelLimit = 9;        // max components of circularKernel()
@@ -56,7 +56,7 @@ double circularProfile(std::span<const CircularComponent> kernel, double squared
 // Quadrature node for functions f of r² over the square: ∫f dA = Σ weight·f(squaredRadius).
 struct RadialNode {
     double squaredRadius;
-    double weight;  // area
+    double weight;  // area that the node stands for
 };
 
 // Returns quadrature nodes over the square [−extent, extent]², for functions of r² that are smooth except for a jump at

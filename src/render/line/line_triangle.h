@@ -13,7 +13,7 @@
 
 namespace defocus::engine {
 
-struct LensVertex {  // clip space
+struct LensVertex {  // vertex in clip space
     double x = 0;
     double y = 0;
     double w = 0;

@@ -12,7 +12,7 @@ namespace defocus::engine {
 struct LineLight {
     double backward = 1;             // length of the part with p < 0 relative to the part with p > 0
     double forwardShare = 0.5;       // fraction of the light with p > 0
-    double sphericalAberration = 0;  // Lens::sphericalAberration
+    double sphericalAberration = 0;  // coefficient of spherical aberration (Lens::sphericalAberration)
     double obstruction = 0;          // obstructed fraction of the lens area
 };
 

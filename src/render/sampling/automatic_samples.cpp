@@ -20,7 +20,7 @@ constexpr double maxDoubledPixels = 4 << 20;
 constexpr std::uint32_t minSpread = 64;  // min samples for smooth penumbrae and motion
 
 struct QualityLimits {
-    double flip;        // target error
+    double flip;        // target error, as FLIP
     double firstGap;    // max distance in px between a blurred point's images in neighbouring samples
     double gap;         // like firstGap, for frames whose error is not estimated while they are drawn
     std::uint32_t min;  // min number of samples

@@ -125,8 +125,8 @@ void BlockSchedule::predict() {
         if (const double flip = estimatedFlip().value_or(0); flip > 0)
             expected_ = samples_ * std::pow(flip / *targetFlip_, 1 / lensSampleExponent);
     } else if (const double error = estimate_.error().value_or(0); stop_.targetError && error > 0) {
-        // The squares of sampling error and level error sum to the square of the target. The sampling error is allowed
-        // to be at least 44 % of the target.
+        // The squares of the sampling error and of the error due to levels of detail sum to the square of the target.
+        // The sampling error is allowed to be at least 44 % of the target.
         const double levels = std::min(withLevels(0), 0.9 * *stop_.targetError);
         const double aim = std::sqrt(*stop_.targetError * *stop_.targetError - levels * levels);
         expected_ = samples_ * std::pow(error / aim, 1 / lensSampleExponent);

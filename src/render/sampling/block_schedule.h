@@ -38,8 +38,8 @@ struct LevelError {
 class BlockSchedule {
 public:
     BlockSchedule() = default;
-    // `settings` are the settings of the frame; their number of samples is ignored. `levels` is nullopt if the level
-    // error was not measured or level of detail is off.
+    // `settings` are the settings of the frame; their number of samples is ignored. `levels` is nullopt if the error
+    // due to levels of detail was not measured, or if level of detail is off.
     BlockSchedule(const RenderSettings& settings, const StopSettings& stop, std::optional<LevelError> levels = {});
     // Returns the schedule of a frame with an automatic number of samples. It ends once the estimated FLIP is below the
     // FLIP of `quality`. `expected`: first prediction of the number of samples. Level-of-detail thresholds are the

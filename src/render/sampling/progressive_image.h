@@ -21,8 +21,8 @@ public:
     void drawFrame(const View& view, const RenderSettings& settings);
     void drawFrame(FramePlan plan);
 
-    // Starts an image that grow() refines up to `max` samples, rounded up to complete blocks. The thresholds of a block
-    // are the defaults for the number of samples in the sum after this block.
+    // Starts an image that grow() refines up to `max` samples, rounded up to complete blocks of 64. The level-of-detail
+    // thresholds of a block are the defaults for the number of samples in the sum after this block.
     //
     // With `targetError`, for methods that sum blocks, the image is complete once its estimated error is below this
     // value. BlockSchedule then chooses the thresholds.
@@ -41,7 +41,9 @@ public:
     [[nodiscard]] const FramePlan& plan() const { return plan_; }  // plan of the latest frame or block
     [[nodiscard]] const GlTexture* texture() { return renderer_->imageTexture(); }
     [[nodiscard]] RenderStats stats() const { return renderer_->stats(); }
-    [[nodiscard]] double millisecondsPerSample() const { return millisecondsPerSample_; }  // time in the latest grow()
+    [[nodiscard]] double millisecondsPerSample() const {
+        return millisecondsPerSample_;
+    }  // measured in the latest grow()
 
 private:
     void planBlock();

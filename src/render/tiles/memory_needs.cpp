@@ -62,8 +62,8 @@ std::uint64_t sceneBytes(const World& world, const FramePlan& plan) {
     return bytes;
 }
 
-// Returns the needs of the frame and the memory that is available to the process now. `drawn` is the size of layers and
-// sums that will be replaced; `heldByDevice` is the size of the scene on a GPU; both in bytes.
+// Returns the needs of the frame and the memory that is available to the process now. `drawn`: bytes of layers and
+// accumulation buffers that will be replaced; `heldByDevice`: bytes of the scene on a GPU.
 TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLimits& limits, std::uint64_t limit,
                          std::uint64_t drawn = 0, std::uint64_t heldByDevice = 0) {
     TilingNeeds needs;

@@ -152,7 +152,7 @@ MergedFrame mergeParts(const std::vector<fs::path>& paths) {
         parts, {}, [](const NamedPart& named) { return std::pair(named.part.range.first, named.part.range.end); });
     checkComplete(parts);
 
-    // Add the blocks in order.
+    // Add the blocks in sample order.
     MergedFrame merged;
     merged.metadata = parts.front().part.metadata;
     BlockMerge merge;

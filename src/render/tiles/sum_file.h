@@ -25,8 +25,8 @@ struct FramePart {
     Metadata metadata;  // metadata of the full frame
 };
 
-// `path` must end in .exr. Both functions throw Error, with the path in its message, if the file cannot be read or
-// written.
+// `path` must end in .exr. writePart() and readPart() throw Error, with the path in its message, if the file cannot be
+// written or read.
 void writePart(const std::filesystem::path& path, const FramePart& part);
 FramePart readPart(const std::filesystem::path& path);
 
