@@ -1,5 +1,6 @@
 #pragma once
-// Fills a new buffer from front to back. Joins small parts in main memory, because each transfer to the GPU takes time.
+// Fills a new GPU buffer from front to back. Appended pieces are joined in main memory and transferred together,
+// because each transfer to the GPU takes time.
 
 #include <cstddef>
 #include <span>
@@ -27,7 +28,7 @@ private:
 
     Buffer buffer_;
     std::size_t written_ = 0;         // bytes already in buffer_
-    std::vector<std::byte> pending_;  // following bytes that are not in buffer_ yet
+    std::vector<std::byte> pending_;  // appended bytes that are not in buffer_ yet
 };
 
 }  // namespace defocus::engine

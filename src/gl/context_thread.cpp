@@ -46,10 +46,10 @@ void ContextThread::work(std::promise<void> started) {
         tasks_.pop_front();
         lock.unlock();
         task();
-        task = {};  // destroy the captures now: a task on another thread may wait for that
+        task = {};  // destroy the task's captures now, because a task on another thread may wait for their destruction
         lock.lock();
     }
-    context_.reset();  // on this thread, where the context is current
+    context_.reset();  // destroy the context on this thread, where it is current
 }
 
 }  // namespace defocus::engine

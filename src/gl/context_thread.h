@@ -20,13 +20,13 @@ class ContextThread {
 public:
     // `context` must not be current on any thread. Throws Error if it cannot become current on the new thread.
     explicit ContextThread(std::unique_ptr<GlContext> context);
-    // Waits for the running task and discards the tasks after it.
+    // Waits for the running task and discards the tasks that have not started.
     ~ContextThread();
     ContextThread(const ContextThread&) = delete;
     ContextThread& operator=(const ContextThread&) = delete;
 
-    // Runs `task` after all earlier tasks. The future returns the task's result or its exception; it throws
-    // std::future_error if the task is discarded.
+    // Runs `task` on this thread, after all earlier tasks. The returned future gives the task's result or rethrows its
+    // exception. If the task is discarded, the future throws std::future_error.
     template <typename Task>
     std::future<std::invoke_result_t<Task>> add(Task task) {
         std::packaged_task<std::invoke_result_t<Task>()> packaged(std::move(task));

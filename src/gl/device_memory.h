@@ -1,5 +1,5 @@
 #pragma once
-// Free memory of the current context's device, if its driver reports it.
+// Queries the free memory of the current context's device, if the driver reports it.
 
 #include <cstdint>
 #include <functional>
@@ -11,8 +11,8 @@ namespace defocus::engine {
 // main memory.
 std::optional<std::uint64_t> freeDeviceMemory();
 
-// Same as freeDeviceMemory, with the driver's answers from callbacks: `has` tests for an extension; `query` returns the
-// first value of glGetIntegerv(name). Returns nullopt if the driver reports no plausible value.
+// Same as freeDeviceMemory, but with callbacks instead of the driver: `has` tests for an extension; `query` returns the
+// first value of glGetIntegerv(name). Returns nullopt if `query` returns no plausible value.
 std::optional<std::uint64_t> freeDeviceMemoryOf(const std::function<bool(const char* extension)>& has,
                                                 const std::function<int(unsigned name)>& query);
 

@@ -1,5 +1,6 @@
 #pragma once
-// A point in the commands of a context. Other contexts that share objects can wait for it before they use results.
+// Fence (GL sync object): a point in the commands of a context. Other contexts that share objects can wait until the
+// GPU has reached this point before they use results of the commands.
 
 #include <epoxy/gl.h>
 
@@ -26,8 +27,8 @@ public:
         if (sync_ != nullptr) glDeleteSync(sync_);
     }
 
-    // Blocks the thread until the commands before the fence are complete, at most `maxNanoseconds`. Returns false after
-    // the maximum time. An empty fence is complete. Needs a current context.
+    // Blocks the thread until the commands before the fence are complete, for at most `maxNanoseconds`. Returns false
+    // if they are not complete by then. An empty fence counts as complete. Needs a current context.
     bool wait(GLuint64 maxNanoseconds) const;
     // Blocks the thread until the commands before the fence are complete. Throws Error if the driver fails.
     void wait() const;

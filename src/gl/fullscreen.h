@@ -1,12 +1,12 @@
 #pragma once
-// Full-screen triangle for passes that compute a value at each pixel.
+// Draws a full-screen triangle, for passes that compute a value at each pixel.
 
 #include "gl/buffer.h"
 #include "gl/program.h"
 
 namespace defocus::engine {
 
-// Vertex shader of the programs that Fullscreen draws with.
+// Path of the vertex shader with which Fullscreen's programs are linked.
 inline constexpr const char* fullscreenShader = "include/fullscreen.vert";
 
 class Fullscreen {

@@ -1,6 +1,6 @@
 #pragma once
-// Limits the amount of submitted but unfinished draw calls. Mesa's llvmpipe keeps all submitted triangles in memory
-// until its rasterizer reaches them, which can take gigabytes. GPU drivers need no limit.
+// Limits the number of triangles that are submitted but not yet drawn. Mesa's llvmpipe keeps all submitted triangles in
+// memory until its rasterizer reaches them, which can take gigabytes. GPU drivers need no limit.
 
 #include <cstdint>
 #include <deque>
@@ -9,7 +9,7 @@
 
 namespace defocus::engine {
 
-// Memory of one pending triangle in llvmpipe, measured.
+// Memory of one pending triangle in llvmpipe, in bytes, measured.
 inline constexpr std::uint64_t pendingTriangleBytes = 224;
 
 class SubmissionPacer {

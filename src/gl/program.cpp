@@ -63,8 +63,8 @@ std::string expanded(const std::string& path, const std::filesystem::path& overr
     return result;
 }
 
-// Returns the #version and #extension directives of a stage. The extensions let a shader before the geometry stage
-// write gl_Layer.
+// Returns the #version and #extension directives of a shader stage. The extensions let a shader before the geometry
+// stage write gl_Layer.
 std::string directivesOf(const Stage& stage) {
     std::string text = "#version 450 core\n";
     if (stage.type == GL_VERTEX_SHADER || stage.type == GL_TESS_EVALUATION_SHADER)
@@ -73,7 +73,7 @@ std::string directivesOf(const Stage& stage) {
     return text;
 }
 
-// Joins the lines of a log, since an Error is one line.
+// Joins the lines of a log into one line, because the message of an Error is one line.
 std::string oneLine(std::string log) {
     while (!log.empty() && (log.back() == '\n' || log.back() == '\0')) log.pop_back();
     for (std::size_t at = log.find('\n'); at != std::string::npos; at = log.find('\n', at)) log.replace(at, 1, " | ");

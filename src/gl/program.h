@@ -20,7 +20,7 @@ using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 struct ProgramInfo {
     std::vector<std::string> shaders;  // paths under shaders/; stage by extension: .vert .tesc .tese .geom .frag .comp
     ShaderDefines defines;
-    std::filesystem::path overrideFolder;  // folder of replacements; empty: embedded shaders only
+    std::filesystem::path overrideFolder;  // folder whose shaders replace embedded shaders; empty: none
 };
 
 class Program {
@@ -37,14 +37,16 @@ private:
     GlHandle<destroyProgram> handle_;
 };
 
-// Returns a shader's source with its preamble and with includes expanded, for tests and messages.
+// Returns a shader's source with its preamble (#version, macros and constants) and with includes expanded, for tests
+// and messages.
 std::string shaderText(const std::string& path, const ShaderDefines& defines,
                        const std::filesystem::path& overrideFolder);
 
-// Returns whether vertex shaders may write gl_Layer, by GL_ARB_shader_viewport_layer_array or
+// Returns whether vertex shaders may write gl_Layer: whether the driver has GL_ARB_shader_viewport_layer_array or
 // GL_AMD_vertex_shader_layer.
 bool vertexShaderMayPickLayer();
-// Returns whether tessellation evaluation shaders may write gl_Layer, by GL_ARB_shader_viewport_layer_array.
+// Returns whether tessellation evaluation shaders may write gl_Layer: whether the driver has
+// GL_ARB_shader_viewport_layer_array.
 bool tessellationMayPickLayer();
 
 }  // namespace defocus::engine

@@ -22,7 +22,7 @@ fs::path pathIn(const char* variable) {
     return value == nullptr ? fs::path() : fs::path(value);
 }
 
-// Returns the folder that Mesa uses (src/util/disk_cache_os.c); empty if there is none.
+// Returns the folder of Mesa's shader cache, chosen as Mesa does (src/util/disk_cache_os.c); empty if there is none.
 fs::path cacheFolder() {
     for (const char* variable : {"MESA_SHADER_CACHE_DIR", "MESA_GLSL_CACHE_DIR", "XDG_CACHE_HOME"})
         if (const fs::path folder = pathIn(variable); !folder.empty()) return folder / "mesa_shader_cache";
@@ -30,7 +30,7 @@ fs::path cacheFolder() {
     return home.empty() ? home : home / ".cache" / "mesa_shader_cache";
 }
 
-// Returns the folder, or its nearest existing ancestor.
+// Returns `folder` if it exists, else its nearest existing ancestor.
 fs::path existing(fs::path folder) {
     std::error_code fault;
     while (!fs::exists(folder, fault) && folder.has_parent_path() && folder != folder.parent_path())

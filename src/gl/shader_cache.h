@@ -1,15 +1,16 @@
 #pragma once
-// Mesa's shader cache on disk. Mesa maps the cache's index into memory, so a full disk ends the process with SIGBUS.
+// Turns Mesa's shader cache on disk off if the disk is nearly full. Mesa maps the cache's index into memory, so a full
+// disk would end the process with SIGBUS.
 
 #include <string>
 
 namespace defocus::engine {
 
-// Turns the cache off for this process if its folder has less than 16 MiB of free space. Call it before the process
-// creates its first context; later calls do nothing.
+// Turns the cache off for this process if the cache's folder has less than 16 MiB of free space. Call it before the
+// process creates its first context; later calls do nothing.
 void protectShaderCache();
 
-// Returns the warning that protectShaderCache has turned the cache off; empty if it hasn't.
+// Returns the warning that protectShaderCache has turned the cache off; empty if the cache is on.
 std::string shaderCacheWarning();
 
 }  // namespace defocus::engine

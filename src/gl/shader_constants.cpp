@@ -20,9 +20,9 @@ struct ShaderConstant {
 
 // Shaders branch on these constants with `if`, and compilers drop the branches that are never taken.
 constexpr ShaderConstant constants[] = {
-    // Constants of a frame
-    {"int", "blockSamples", "64"},     // lens samples per block of the accumulated sum
-    {"int", "positionsPerAxis", "1"},  // pixels of a layer per pixel of the image, along each axis
+    // Constants of a frame: lens, environment, lights and accumulation
+    {"int", "blockSamples", "64"},     // lens samples that are summed as one block
+    {"int", "positionsPerAxis", "1"},  // width of an image pixel, in pixels of a sample's layer
     {"int", "environmentType", "0"},
     {"int", "backgroundType", "0"},
     {"float", "environmentLevels", "0.0"},    // coarsest mip level of the environment map
@@ -30,19 +30,19 @@ constexpr ShaderConstant constants[] = {
     {"bool", "multipleScattering", "false"},
     {"int", "lightCount", "0"},
     {"int", "maxLights", "1"},         // length of the lights' uniform arrays
-    {"bool", "usesOwnBlur", "false"},  // surfaces have blur modifiers
+    {"bool", "usesOwnBlur", "false"},  // true if surfaces have modifiers of their blur
     {"bool", "chromatic", "false"},
     {"bool", "cocControls", "false"},
     {"bool", "aberrations", "false"},
     {"float", "catEye", "0.0"},
     {"float", "layerLargest", "0.0"},  // colours in a layer are clamped to this value; 0: no clamping
     {"bool", "startsBlock", "false"},
-    {"bool", "keepsNearest", "false"},  // depth layer: also keep the nearest depth
-    {"bool", "sumsAlpha", "false"},     // data layer: also add alpha, the coverage
-    {"int", "waveSamples", "1"},        // samples that the pass adds; drivers unroll the loop over a constant number
+    {"bool", "keepsNearest", "false"},  // depth layer: also keeps the nearest depth
+    {"bool", "sumsAlpha", "false"},     // data layers: also sums alpha, the coverage
+    {"int", "waveSamples", "1"},        // samples that a pass adds; a constant, so that drivers unroll the loop
     {"int", "tableEntries", "1"},       // max number of objects or materials counted separately in a pixel
 
-    // Constants of surfaces
+    // Constants of a surface's material and mesh
     {"bool", "lit", "false", "LIT"},
     {"bool", "coarseLevel", "false", "COARSE_LEVEL"},
     {"bool", "transmissive", "false", "TRANSMISSIVE"},
@@ -59,8 +59,8 @@ constexpr ShaderConstant constants[] = {
     {"bool", "alphaTested", "false"},
     {"bool", "alphaBlended", "false"},
     {"bool", "choosesByAlpha", "false",
-     "CHOOSES_BY_ALPHA"},                // alpha decides which lens samples show or count a fragment
-    {"bool", "letsLightPass", "false"},  // the shadow caster transmits light
+     "CHOOSES_BY_ALPHA"},                // alpha decides in which lens samples a fragment is visible
+    {"bool", "letsLightPass", "false"},  // true if a shadow caster transmits light
     {"bool", "vertexColors", "false"},
     {"bool", "colorRanges", "false", "COLOR_RANGES"},
     {"bool", "levelColorRange", "false"},
@@ -68,12 +68,12 @@ constexpr ShaderConstant constants[] = {
     {"int", "textureCount", "1"},
     {"int[19]", "textureUnits", "int[](-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1)"},
     {"bool", "passesOwnBlur", "false", "PASSES_OWN_BLUR"},  // the fragment stage reads the blur modifiers
-    {"bool", "coarseShare", "false"},                       // blend of two levels: draws the coarser level's pixels
-    {"bool", "fineShare", "false"},                         // blend of two levels: draws the finer level's pixels
+    {"bool", "coarseShare", "false"},  // sample that mixes two levels of detail: draws the coarser level's pixels
+    {"bool", "fineShare", "false"},    // sample that mixes two levels of detail: draws the finer level's pixels
 
-    // Constants of poses
+    // Constants of poses, in which vertex shaders place moving, skinned and morphed objects
     {"bool", "moving", "false", "MOVING"},
-    {"int", "lastPose", "0"},  // index of the pose at the shutter's closing
+    {"int", "lastPose", "0"},  // index of the pose at the end of the exposure
     {"bool", "cameraMoves", "false"},
     {"int", "skinInfluences", "0"},
     {"bool", "morphed", "false"},
@@ -93,7 +93,7 @@ constexpr ShaderConstant constants[] = {
     {"int[]", "shadowFirst", "int[](-1)"},
     {"int[]", "shadowFaces", "int[](0)"},
 
-    // Constants of lens cells
+    // Constants for blurring each sample's image by its lens cell, the part of the lens that the sample stands for
     {"int", "cellsInFront", "0"},
     {"int", "cellsBehind", "0"},
     {"float", "minCellVariance", "0.0"},
@@ -111,8 +111,8 @@ constexpr ShaderConstant constants[] = {
     {"bool", "countsOnly", "false", "COUNTS_ONLY"},
     {"bool", "lineSamples", "false"},
     {"int", "segmentCapacity", "1"},
-    {"bool", "shortIntervals", "false"},  // stores the interval of a segment in 16 bits
-    {"bool", "areaWeights", "true"},      // weights parts of lines by κ (weights.glsl), not only by length
+    {"bool", "shortIntervals", "false"},  // true: the interval of a line segment is stored in 16 bits
+    {"bool", "areaWeights", "true"},      // true: parts of lines are weighted by κ (weights.glsl), else by length
     {"bool", "lightsVertices", "false", "LIGHTS_VERTICES"},
     {"int", "maxShadingPoints", "1"},
 

@@ -1,5 +1,5 @@
 #pragma once
-// Constants that all shaders can use.
+// Declares the constants that shaders read, with the values of a program or their defaults.
 
 #include <string>
 

@@ -18,8 +18,8 @@ public:
     explicit Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth = nullptr);
     // Attaches each layer of an array texture (at most 8) as a colour attachment.
     static Target ofLayers(const GlTexture& array);
-    // Attaches a 2D texture and the first `layers` layers of an array texture of equal size: at most 8 colour
-    // attachments.
+    // Attaches a 2D texture and the first `layers` layers of an array texture of equal size, at most 8 colour
+    // attachments in total.
     static Target ofImageAndLayers(const GlTexture& image, const GlTexture& array, int layers);
     // Attaches only layer `layer` and mip level `level` of each array texture; their sizes must be equal.
     static Target ofLayer(const std::vector<const GlTexture*>& colors, std::uint32_t layer, int level = 0);
@@ -38,7 +38,7 @@ private:
     void create();
     void addColor(const GlTexture& color, std::optional<std::uint32_t> layer, int level = 0);
     void finish(const GlTexture* depth);
-    void drawAllColors() const;  // makes drawing write all colour attachments
+    void drawAllColors() const;  // selects all colour attachments as draw buffers
 
     GlHandle<destroyFramebuffer> handle_;
     GLsizei colors_ = 0;

@@ -24,7 +24,7 @@ struct TextureInfo {
     TextureFormat format = TextureFormat::rgba32f;
     int width = 1;
     int height = 1;
-    int layers = 0;   // 0: 2D texture; ≥ 1: 2D array
+    int layers = 0;   // number of layers of a 2D array; 0: 2D texture
     int levels = 1;   // number of mip levels
     int samples = 1;  // samples per pixel; above 1: a multisampled 2D texture, without layers, levels and filtering
 };

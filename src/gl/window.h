@@ -78,9 +78,9 @@ public:
     // If `on`, covers the window's current screen; otherwise restores the previous position and size.
     void setFullscreen(bool on);
 
-    // Both sizes are read during the same poll(), so that they match.
+    // size() and framebufferSize() are read during the same poll(), so that they match.
     [[nodiscard]] glm::ivec2 size() const { return size_; }                        // size in window units
-    [[nodiscard]] glm::ivec2 framebufferSize() const { return framebufferSize_; }  // in px; 0 x 0 while minimised
+    [[nodiscard]] glm::ivec2 framebufferSize() const { return framebufferSize_; }  // size in px; 0 x 0 while minimised
     [[nodiscard]] double contentScale() const;  // scale for text and controls; 1 on a standard screen
 
     // Binds the window's framebuffer and clears it to the display-encoded `color`.

@@ -16,8 +16,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Min total of pixel positions, over all samples, at which the error of a trial (a frame of less than one block) is
-// estimated. With fewer positions, the image of half the samples is too rough for an estimate.
+// Min number of pixel positions, summed over all samples, for which the error of a trial (a frame of fewer than 64
+// samples) is estimated. With fewer positions, the image of half the samples is too rough for an estimate.
 constexpr std::uint32_t minAssessed = 32;
 
 }  // namespace
@@ -61,8 +61,8 @@ void FrameRun::startAutomatic(const RenderSettings& settings, const StopSettings
     startAbout(firstSamples(plan_, automatic_->quality));
 }
 
-// Starts a frame as good as about `samples` samples with one pixel position each. Draws fewer than 64 samples as a
-// trial, more in blocks. plan_ must be a plan of the frame, with any number of samples.
+// Starts a frame of the quality of about `samples` samples with one pixel position each. Fewer than 64 samples are
+// drawn as a trial, more in blocks of 64. plan_ must be a plan of the frame, with any number of samples.
 void FrameRun::startAbout(double samples) {
     const RenderSettings settings = withSamples(automatic_->settings, plan_, samples, automatic_->choosesPositions);
     if (settings.sampleCount >= blockSamples) {
@@ -77,8 +77,8 @@ void FrameRun::startAbout(double samples) {
 }
 
 // Measures the error due to levels of detail: renders a few samples at coarse levels, at fine levels and at full
-// detail, and compares the images. Returns nullopt with --lod off, and if the measurement takes half of the time limit.
-// The cheapest images come first, so that a short limit ends the measurement before it draws full detail.
+// detail, and compares the images. Returns nullopt with --lod off, or if the measurement takes more than half of the
+// time limit. The cheapest images come first, so that a short limit ends the measurement before full detail is drawn.
 std::optional<LevelError> FrameRun::measuredLevels(const RenderSettings& settings, const StopSettings& stop) {
     if (settings.lod == LodMode::off) return {};
     const auto drawn = [&](const RenderSettings& with) -> std::optional<Image> {
@@ -124,7 +124,8 @@ void FrameRun::startBlock(bool first) {
     plan_ = std::move(plan);
 }
 
-// Draws one wave. A driver queues draws, so the time of a frame is known only after glFinish.
+// Draws one batch (wave) of samples. With a time limit, waits until the GPU has drawn them, because a driver queues
+// draws.
 bool FrameRun::advanceRenderer() {
     const bool more = renderer_->advance();
     if (timed_) glFinish();
@@ -153,8 +154,8 @@ bool FrameRun::advance() {
     return true;
 }
 
-// Ends the trial. Returns false if the trial's error is small enough. Otherwise starts the frame again, with more
-// samples.
+// Ends the trial, a frame of fewer than 64 samples. Returns false if the trial's error is small enough. Otherwise
+// starts the frame again, with more samples.
 bool FrameRun::endTrial() {
     const bool assessed = trial_->samples() == samples();
     const bool halved = trial_->samples() > 0;

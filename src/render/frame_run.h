@@ -14,8 +14,8 @@
 
 namespace defocus::engine {
 
-// Throws UsageError for a target error or time limit if `method` does not sum blocks (Method::sumsBlocks), or if motion
-// needs one pose per sample, because the number of samples is not known in advance.
+// Throws UsageError for a target error or time limit if `method` cannot add blocks of samples (Method::sumsBlocks), or
+// if motion needs one pose per sample, because the number of samples is not known in advance.
 void checkStop(const StopSettings& stop, const Method& method, const ShutterSettings& shutter);
 
 class FrameRun {
@@ -64,14 +64,14 @@ private:
         Quality quality;
         bool choosesPositions;
     };
-    std::optional<Automatic> automatic_;  // nullopt: the number of samples is given, or stop conditions end the frame
+    std::optional<Automatic> automatic_;  // nullopt: the number of samples is not automatic
     // Estimates the error of a trial: a complete frame of fewer samples than a block, with an automatic number of
     // samples. If the error exceeds the limit of the quality setting, the frame is drawn again with more samples.
     // nullopt: the frame is no trial.
     std::optional<ErrorEstimate> trial_;
     FramePlan plan_;
     double planMilliseconds_ = 0;
-    RenderStats before_;  // sums over all blocks before the latest one
+    RenderStats before_;  // statistics of all blocks before the latest, summed
     bool timed_ = false;  // the frame has a time limit
     std::chrono::steady_clock::time_point blockBegin_;
     std::chrono::steady_clock::time_point begin_;

@@ -7,7 +7,7 @@
 
 namespace defocus::engine {
 
-// Returns `asked`; for LayerFormat::automatic, the format that the world's radiance needs.
+// Returns `asked`, or, if `asked` is LayerFormat::automatic, the format that the world's radiance needs.
 LayerFormat chosenLayerFormat(const World& world, LayerFormat asked);
 
 // Returns the defines for shaders that write or read `format`, which must not be LayerFormat::automatic.

@@ -26,7 +26,7 @@ struct MethodSetting {
     double max = 0;
     bool integer = true;        // numeric setting: the value must be an integer
     std::string onlyWith = {};  // e.g. "resolve=published": only allowed with this setting
-    bool ofTheScene = false;    // true: no value suits all scenes; benchmarks skip this setting
+    bool ofTheScene = false;    // true: each scene needs its own value; benchmarks skip this setting
     bool keyed = false;         // numeric setting: a shot may animate the value with keys; see valueAt
 };
 
@@ -36,7 +36,7 @@ using MethodSettings = std::map<std::string, std::string>;
 struct RendererOptions {
     LayerFormat layerFormat = LayerFormat::automatic;
     std::uint32_t wave = 0;                  // lens samples drawn together (a wave); 0: as many as fit into waveBytes
-    std::uint64_t waveBytes = 160ull << 20;  // max memory of the layers of all waves that are drawn at once
+    std::uint64_t waveBytes = 160ull << 20;  // max memory of all layers that are drawn at once
     std::uint32_t threads = 1;               // threads that draw (Method::usesThreads), each with a context of its own
     std::uint64_t pendingBytes = SubmissionPacer::defaultBytes;  // max memory of pending triangles of a software driver
     bool geometryShaderLayers = false;                           // true: always select layers in a geometry shader
@@ -51,7 +51,7 @@ struct Method {
     std::string name;
     std::string description;
     bool needsGl = true;          // true: needs a current OpenGL context
-    bool usesLensSamples = true;  // false: ignores the plan's lens samples (post-process methods)
+    bool usesLensSamples = true;  // false: ignores the plan's lens samples, as post-process methods do
     bool shadesAsLit = true;      // false: images match other methods only for unlit, opaque surfaces
     bool showsThrough = true;     // false: draws transmitting surfaces as opaque
     bool blursCells = false;      // true: blurs each sample's image to fill gaps between samples (plan/lens_cells/)

@@ -18,7 +18,7 @@ class GlTexture;
 
 struct PassTime {
     std::string name;
-    double milliseconds = 0;  // GPU time, summed over all waves of the frame
+    double milliseconds = 0;  // GPU time, summed over the frame
 };
 
 // Statistic that is specific to a method.
@@ -31,7 +31,7 @@ struct RenderStats {
     std::uint32_t samples = 0;
     double setupMilliseconds = 0;       // uploads and compilation of shaders
     double renderMilliseconds = 0;      // time from the end of the setup until the image is complete
-    CpuTime cpuTime;                    // CPU time of the same interval
+    CpuTime cpuTime;                    // CPU time of the interval of renderMilliseconds
     double gpuMilliseconds = 0;         // measured by timer queries; excludes vertex work with software drivers
     std::uint64_t trianglesDrawn = 0;   // triangles in the plan, summed over all samples
     std::uint64_t trianglesHidden = 0;  // triangles of the plan that were skipped because they are hidden
@@ -44,7 +44,7 @@ struct RenderStats {
     StopReason stopped = StopReason::sampleCount;  // why the frame ended
     std::optional<double> estimatedError;          // RMSE (see StopSettings); nullopt: not estimated
     std::vector<MethodFigure> figures;             // statistics that are specific to the method
-    std::vector<PassTime> passes;                  // in order of execution; empty if not measured
+    std::vector<PassTime> passes;                  // passes in order of execution; empty if not measured
 };
 
 // Compensated sum of the samples of one block, RGBA; the result is `sum` + `compensation`. A block has 64 samples; the
@@ -57,10 +57,11 @@ struct BlockSum {
 
 // Limits on the samples that are drawn together.
 struct WaveLimit {
-    std::uint32_t samples = 0;  // max samples in memory, of all waves that are drawn at once; 0: RendererOptions::wave
-    std::uint32_t perWave = 0;  // max samples per wave, so that a wave takes little time; 0: no limit
+    std::uint32_t samples = 0;  // max samples whose layers are in memory at once; 0: RendererOptions::wave
+    std::uint32_t perWave = 0;  // max samples drawn together, so that one advance() takes little time; 0: no limit
     std::uint32_t threads = 0;  // max threads that draw; 0: RendererOptions::threads
-    // Returns the max samples per wave for methods that draw one wave at a time. `otherwise`: max if `samples` is 0.
+    // Returns the max number of samples drawn together, for methods that draw one batch (wave) of samples at a time.
+    // `otherwise`: the max if `samples` is 0.
     [[nodiscard]] std::uint32_t withDefault(std::uint32_t otherwise) const {
         const std::uint32_t max = samples > 0 ? samples : otherwise;
         return perWave > 0 && (max == 0 || max > perWave) ? perWave : max;
@@ -73,7 +74,8 @@ public:
 
     // Starts a frame. `plan` is copied; it must have been made for this renderer's World.
     virtual void start(const FramePlan& plan) = 0;
-    // Draws one wave of samples and adds it to the sum. Returns false once the sum contains all samples of the plan.
+    // Draws one batch (wave) of samples and adds it to the sum. Returns false once the sum contains all samples of the
+    // plan.
     virtual bool advance() = 0;
     // Returns the number of samples in the sum.
     [[nodiscard]] virtual std::uint32_t samples() const = 0;
@@ -81,11 +83,11 @@ public:
     [[nodiscard]] virtual std::uint32_t sampleTotal() const = 0;
     // Returns the sum divided by samples(): linear, premultiplied RGBA, row 0 at the top. Needs at least one sample.
     [[nodiscard]] virtual Image image() = 0;
-    // Returns the sum of the latest wave's block, which may be incomplete; nullopt for methods that do not sum lens
-    // samples.
+    // Returns the sum of the latest block of 64 samples, which may be incomplete; nullopt for methods that do not sum
+    // lens samples.
     [[nodiscard]] virtual std::optional<BlockSum> blockSum() { return {}; }
-    // Returns the depth in m of the first sample of the latest wave, +∞ where no surface writes depth; nullopt for
-    // methods that do not sum lens samples. Not available for plans with a tile.
+    // Returns the depth in m of the first sample of the latest batch (wave), +∞ where no surface writes depth; nullopt
+    // for methods that do not sum lens samples. Not available for plans with a tile.
     [[nodiscard]] virtual std::optional<Image> sampleDepth() { return {}; }
     // Returns the data layers (RenderSettings::layers) of all samples so far; nullopt without layers, and for methods
     // that draw none (Method::drawsLayers).
@@ -94,9 +96,10 @@ public:
 
     // Adds the samples of `plan`, which must have the same view, to the sum as further blocks. All samples of earlier
     // plans must have been drawn and form complete blocks of 64. Methods that do not sum blocks (Method::sumsBlocks)
-    // start a new frame. Afterwards, times in stats() cover only `plan`; triangles and samples are totals.
+    // start a new frame instead. Afterwards, the times in stats() cover only `plan`; triangles and samples are totals.
     virtual void continueWith(const FramePlan& plan) { start(plan); }
-    // Limits the number of samples per wave from the next start() on. The image is the same for any limit.
+    // Limits the number of samples that are drawn together, from the next start() on. The image is the same for any
+    // limit.
     virtual void setWave(const WaveLimit& /*limit*/) {}
     // Returns image() as a texture with row 0 at the bottom, valid until the next call of a member; nullptr for methods
     // without OpenGL.

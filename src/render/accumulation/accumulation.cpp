@@ -26,18 +26,19 @@ namespace defocus::engine {
 
 namespace {
 
-// Max samples per wave. The image's error may be estimated at each multiple of this number, so waves must not cross a
-// multiple.
+// Max samples that are drawn together, as one batch (wave). The image's error may be estimated after each multiple of
+// this number of samples, so a batch must not extend across a multiple.
 constexpr std::uint32_t maxWave = 16;
-// Max samples per wave if several threads draw. Small waves divide the samples evenly between threads.
+// Max samples per batch (wave) if several threads draw. Small batches divide the samples evenly between threads.
 constexpr std::uint32_t maxSharedWave = 4;
-// Max triangles per wave of more than 4 samples with a software driver. The driver keeps all triangles of a wave in
-// memory and frees this memory after each wave. The page faults of the next wave can take longer than the draw.
+// Max triangles per batch (wave) of more than 4 samples with a software driver. The driver keeps all triangles of a
+// batch in memory and frees this memory after each batch. The page faults of the next batch can take longer than
+// drawing it.
 constexpr std::uint64_t maxWaveTriangles = 400'000;
-constexpr std::uint64_t minWaveOfTriangles = 4;  // min samples per wave; sums of smaller waves cost more than they save
+constexpr std::uint64_t minWaveOfTriangles = 4;  // min samples per batch, because each batch needs a pass that sums it
 
-// Returns the max number of layers in memory: the number set by `limit` or by `options`, else as many as fit into
-// RendererOptions::waveBytes.
+// Returns the max number of layers in memory, each the image of one sample: the number set by `limit` or by `options`,
+// else as many as fit into RendererOptions::waveBytes.
 std::uint64_t maxLayers(const Scene& scene, const FramePlan& plan, const RendererOptions& options,
                         const WaveLimit& limit, LayerFormat format) {
     const std::uint32_t asked = limit.samples > 0 ? limit.samples : options.wave;
@@ -46,18 +47,18 @@ std::uint64_t maxLayers(const Scene& scene, const FramePlan& plan, const Rendere
     const std::uint64_t pixels =
         std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} * static_cast<std::uint32_t>(window.layerHeight);
     const std::uint64_t layerBytes =
-        pixels * layerPixelBytes(format) * (plan.usesTransmission ? 2 : 1) +  // the backdrop is a copy of all layers
+        pixels * layerPixelBytes(format) * (plan.usesTransmission ? 2 : 1) +  // transmission needs a copy of all layers
         shadowMapBytes(scene, plan) + pixels * LensLayers::layerBytes(plan.settings.layers);
     return std::max<std::uint64_t>(1, options.waveBytes / layerBytes);
 }
 
-// Returns the division of the plan's samples into waves and threads, for at most `layers` layers in memory.
+// Returns how the plan's samples are divided into batches (waves) and threads, with at most `layers` layers in memory.
 WaveShape chosenShape(const FramePlan& plan, const RendererOptions& options, const WaveLimit& limit,
                       std::uint64_t layers) {
     const std::uint64_t samples = std::max<std::uint64_t>(1, plan.samples.size());
     std::uint64_t longest = limit.perWave > 0 ? limit.perWave : maxWave;
-    // With several pixel positions, a frame may have few samples. Its error is estimated after half of them, so no wave
-    // may be longer than that.
+    // With several pixel positions per sample, a frame may have few samples. Its error is estimated after half of the
+    // samples, so a batch has at most half of them.
     if (plan.settings.positions > 1) longest = std::min(longest, std::max<std::uint64_t>(1, samples / 2));
     if (currentIsSoftware()) {
         const std::uint64_t triangles = std::max<std::uint64_t>(1, plan.trianglesDrawn);
@@ -71,13 +72,14 @@ WaveShape chosenShape(const FramePlan& plan, const RendererOptions& options, con
     if (shape.threads <= 1) {
         shape.samples = power(std::min({layers, samples, longest, std::uint64_t{maxWave}}));
     } else {
-        const std::uint64_t even = std::max<std::uint64_t>(1, samples / (4 * shape.threads));  // four waves per thread
+        // Four batches per thread.
+        const std::uint64_t even = std::max<std::uint64_t>(1, samples / (4 * shape.threads));
         shape.samples = power(std::min({layers / shape.waves(), even, longest, std::uint64_t{maxSharedWave}}));
     }
     return shape;
 }
 
-// Returns an image with only the top left position of each pixel. `axis`: number of positions along each axis.
+// Returns the values at the top left position within each pixel. `axis`: number of positions along each axis.
 Image ofFirstPositions(Image drawn, int axis) {
     if (axis == 1) return drawn;
     Image result(drawn.width / axis, drawn.height / axis, 1);
@@ -86,8 +88,8 @@ Image ofFirstPositions(Image drawn, int axis) {
     return result;
 }
 
-// Whether each sample's image is blurred to fill gaps between samples (lens cells). `automatic` decides by the size of
-// the blur in the frame (automatic_cells.h).
+// Whether each sample's image is blurred by its lens cell, the part of the lens that the sample stands for, to fill
+// gaps between samples. `automatic` decides by the size of the blur in the frame (automatic_cells.h).
 enum class CellUse { never, always, automatic };
 
 class AccumulationRenderer final : public Renderer {
@@ -99,7 +101,7 @@ public:
 
     void start(const FramePlan& plan) override {
         clock_.beginSetup();
-        waves_.stop();  // the waves of the previous frame use its plan
+        waves_.stop();  // batches of the previous frame refer to its plan
         setPlan(plan);
         prepareSums();
         samplesBefore_ = 0;
@@ -208,7 +210,8 @@ private:
 
     [[nodiscard]] bool blursCells() const { return cells_.classes() > 0; }
 
-    // Divides the samples into waves, and reallocates the sums if their size or format has changed.
+    // Divides the samples into batches (waves), clears the accumulation buffers, and reallocates them if their size or
+    // format has changed.
     void prepareSums() {
         const LayerFormat format = chosenLayerFormat(scene_.world(), options_.layerFormat);
         shape_ =
@@ -221,7 +224,7 @@ private:
         const bool same = sum_ && sum_->info() == info && drawnLayers_ == layers && countsSamples_ == countsSamples;
         if (!same) {
             layers_.reset();
-            sum_.reset();  // free the old sums first, because memory may not suffice for both
+            sum_.reset();  // free the old buffers first: memory may not hold old and new buffers
             sum_.emplace(info);
             if (!layers.empty())
                 layers_.emplace(layers, countsSamples, glm::ivec2(info.width, info.height), options_.shaderFolder);
@@ -231,9 +234,9 @@ private:
         sum_->reset({window.left, window.bottom});
     }
 
-    // Returns whether the environment is drawn into the layers. An environment that is not a map is usually composited
-    // when the layers are added to the sum. It must be drawn if it is visible through a transmitting surface, or if
-    // alpha marks blended surfaces for the blur of lens cells.
+    // Returns whether the environment is drawn into the layers. Environments that are not maps are usually composited
+    // when the layers are added to the sum. They must be drawn if they are visible through a transmitting surface, or
+    // if alpha marks blended surfaces for the blur by lens cells.
     [[nodiscard]] bool drawsSky() const {
         const EnvironmentType type = scene_.world().environment.type;
         return !plan_.needsAlpha &&
@@ -255,19 +258,19 @@ private:
     CellUse cellUse_;
     GpuScene scene_;
     FramePlan plan_;
-    LensCells cells_;                  // lens cells of plan_; without blur classes, images are not blurred
+    LensCells cells_;                  // lens cells of plan_; with 0 blur classes, samples' images are not blurred
     std::uint32_t samplesBefore_ = 0;  // samples in the sum when plan_ was started
     FrameUniforms frame_;
     WaveShape shape_;
     std::optional<LayerSum> sum_;
-    std::vector<Layer> drawnLayers_;  // data layers that layers_ sums
+    std::vector<Layer> drawnLayers_;  // data layers, such as depth, that layers_ sums
     bool countsSamples_ = false;      // whether layers_ counts the samples of each pixel
     mutable std::optional<LensLayers> layers_;
     mutable FrameClock clock_;
     mutable GpuTimer sumTimer_;
     RenderStats stats_;
-    const WaveTargets* latest_ = nullptr;  // layers of the latest wave
-    mutable WaveQueue waves_;              // last, because its threads use the members above
+    const WaveTargets* latest_ = nullptr;  // layers of the latest batch of samples
+    mutable WaveQueue waves_;              // last member, because its threads use the other members
 };
 
 }  // namespace

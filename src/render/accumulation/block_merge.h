@@ -1,7 +1,7 @@
 #pragma once
-// Combines the block sums of a frame, which may come from several machines, into the frame's image. The merge uses the
-// same GPU passes as a single run, so the image is bit-identical to the image of a single run if all GPUs and drivers
-// are equal.
+// Combines the sums of a frame's blocks of 64 samples, which may come from several machines, into the frame's image.
+// The merge uses the same GPU passes as a single run, so the image is bit-identical to the image of a single run if all
+// GPUs and drivers are equal.
 
 #include <optional>
 
@@ -11,9 +11,9 @@ namespace defocus::engine {
 
 class BlockMerge {
 public:
-    // Adds the frame's next block; blocks must be added in sample order. All blocks are RGBA of equal size and hold 64
-    // samples, except the last, which may hold fewer. Needs a current OpenGL 4.5 context. Throws Error for a wrong size
-    // or number of samples.
+    // Adds the sum of the frame's next block; blocks must be added in sample order. All sums are RGBA of equal size, of
+    // 64 samples, except for the last, which may be of fewer. Needs a current OpenGL 4.5 context. Throws Error for a
+    // wrong size or number of samples.
     void add(const BlockSum& block);
     // Returns the mean of all samples of the blocks added so far, at least one block.
     [[nodiscard]] Image image();

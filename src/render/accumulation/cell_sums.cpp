@@ -15,20 +15,20 @@ int tiles(int pixels) {
     return (pixels + tileSide - 1) / tileSide;
 }
 
-constexpr int maxDrawn = 7;  // max class sums that are colour attachments; equals the max of drawnClasses in cells.glsl
+constexpr int maxDrawn = 7;  // max blur classes with a colour attachment; equals the max of drawnClasses in cells.glsl
 
 // Side in px of the largest point sprites, a multiple of the side of the point sprites of any blur class.
 constexpr int largestPoint = 4 << (maxCellClasses - 1);
 
-// Returns the size of the grid of blur class 0, whose squares have the size of a pixel. Squares are centred on pixel
-// corners, so the grid has more columns and rows than the image.
+// Returns the number of columns and rows of squares for blur class 0, whose squares have the size of a pixel. Squares
+// are centred on pixel corners, so there are more columns and rows than in the image.
 glm::ivec2 squaresOf(const TextureInfo& image) {
     const auto whole = [](int pixels) { return (pixels / largestPoint + 1) * largestPoint; };
     return {whole(image.width), whole(image.height)};
 }
 
 // Allocates a texture for means over squares of pixels, for all blur classes; meansOrigin() returns the position of
-// each class.
+// each class in the texture.
 GlTexture meanImages(TextureFormat format, const glm::ivec2& squares, int classes) {
     GlTexture texture({.format = format,
                        .width = classes > 1 ? squares.x + squares.x / 2 : squares.x,

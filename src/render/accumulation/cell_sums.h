@@ -1,6 +1,7 @@
 #pragma once
-// Sums the pixels of a block of samples separately by blur class, the rounded size of a lens cell's blur
-// (plan/lens_cells/lens_cells.h), and returns the block's image with each class blurred.
+// Sums the pixels of a block of 64 samples separately by blur class, and returns the block's image with each class
+// blurred. The blur class of a pixel is the rounded size of its blur by the sample's lens cell, the part of the lens
+// that the sample stands for (plan/lens_cells/lens_cells.h).
 //
 // The classes are composited from the farthest to the nearest: behind the focus plane from more to less blur, then
 // sharp pixels, then in front of the focus plane from less to more blur. Each class is averaged only over the samples
@@ -27,19 +28,21 @@ struct CellPasses {
 
 class CellSums {
 public:
-    // `blockSums` are the two textures between which the block's sum alternates from wave to wave. `cells` must have at
-    // least one blur class. `passes` must have been built for the same classes and must outlive this object.
+    // `blockSums`: two textures; each batch (wave) of samples reads the block's sum from one and writes it to the
+    // other. `cells` must have at least one blur class. `passes` must have been built for the same classes and must
+    // outlive this object.
     CellSums(const LensCells& cells, const GlTexture (&blockSums)[2], const CellPasses& passes);
 
-    // Returns the defines with which shaders/accumulation/add_layers_to_cells.frag fills the sums of the blur classes.
+    // Returns the defines of shaders/accumulation/add_layers_to_cells.frag, which adds layers to the sums of the blur
+    // classes.
     [[nodiscard]] const ShaderDefines& defines() const { return passes_->defines; }
-    // Binds the targets and textures for program `addLayers`. `to` is the index in `blockSums` of the texture that is
-    // written together with the class sums.
+    // Binds the targets and textures for program `addLayers`. `to`: index of the texture of `blockSums` that is written
+    // together with the sums of the blur classes.
     void bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur, bool startsBlock,
                        int to) const;
-    // Writes the block's sum with blurred cells to `target`; its compensation attachment becomes 0. `sum` is the
-    // block's sum without blur. If `samples` > 0, divides by `samples`; if 0, divides by the pixel's alpha; if < 0,
-    // does not divide.
+    // Blurs each blur class of the block's sum and writes the result to `target`; the target's compensation attachment
+    // becomes 0. `sum` is the block's sum without blur. If `samples` > 0, the result is divided by `samples`; if 0, by
+    // the pixel's alpha; if < 0, it is not divided.
     void blurInto(const Target& target, const GlTexture& sum, float samples = -1);
     [[nodiscard]] bool fits(const LensCells& cells) const {
         return cells.inFront == inFront_ && cells.behind == behind_;
@@ -50,14 +53,14 @@ private:
     int inFront_;
     int behind_;
     const CellPasses* passes_;
-    GlTexture sums_;           // one layer per blur class, in the order given in shaders/include/cells.glsl
+    GlTexture sums_;           // sums: one layer per blur class, in the order given in shaders/include/cells.glsl
     Target addingTargets_[2];  // attachments: one of the block's two sums, then layers of sums_
     GlTexture held_;           // per tile: bit mask of the blur classes in the tile
     GlTexture spread_;         // per tile: bit masks of the blur classes whose means are read and written in the tile
     Target spreadTarget_;
     // Means over squares of pixels, for each blur class. shownMeans_: visible radiance; openMeans_: number of samples
-    // that no nearer class covers. Layer 0 holds the classes in front of the focus plane, and layer 1 the classes
-    // behind it. The classes of a layer are side by side.
+    // in which no nearer class covers the pixel. Layer 0 holds the classes in front of the focus plane, and layer 1 the
+    // classes behind it. The classes of a layer are side by side.
     glm::ivec2 squares_;  // columns and rows of the finest grid, whose squares have the size of a pixel
     GlTexture shownMeans_, openMeans_;
     Target meanTargets_[2];

@@ -1,9 +1,11 @@
 #pragma once
-// The compensated sum of the layers of all samples.
+// Sums the layers of all samples of a frame (a layer is the image of one lens sample), with compensation of rounding
+// errors.
 //
 // Layers are added in sample order, with Neumaier's compensation, to the sum of a block of 64 samples. Complete blocks
-// are added to the frame's sum in the same way. The result is bit-identical for every wave size K, and if blocks are
-// rendered on several machines. The mean is a divided copy; the sum itself is never divided.
+// are added to the frame's sum in the same way. The result is bit-identical for any number K of samples that are drawn
+// together, and if blocks are rendered on several machines. The mean is a divided copy; the sum itself is never
+// divided.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -23,7 +25,7 @@
 namespace defocus::engine {
 
 struct LayerSumInfo {
-    int width = 1;  // size of the sums in px of the image
+    int width = 1;  // width of the accumulation buffers, in pixels of the image
     int height = 1;
     LayerFormat format = LayerFormat::rgba16f;  // format of the layers; not LayerFormat::automatic
     std::filesystem::path shaderFolder = {};
@@ -34,19 +36,20 @@ class LayerSum {
 public:
     explicit LayerSum(const LayerSumInfo& info);
 
-    // Clears all sums. `first` is the pixel of the layers that corresponds to the lower left pixel of the sums.
+    // Clears the accumulation buffers. `first`: the layers' pixel that is added to the lower left pixel of the buffers.
     void reset(const glm::ivec2& first = {0, 0});
-    // Blurs all further blocks by lens cells. All samples so far must form complete blocks. reset() turns the blur off.
+    // Blurs all further blocks by lens cells, the parts of the lens that samples stand for. All samples so far must
+    // form complete blocks of 64. reset() turns the blur off.
     void blurCells(const LensCells& cells);
     // Composites layers [0, count) over the environment and adds them to the sum. The layers contain samples [first,
-    // first + count) of `frame`, which must belong to the same block.
+    // first + count) of `frame`, which must be in one block of 64 samples.
     void add(const WaveLayers& layers, const FrameUniforms& frame, std::uint32_t first, std::uint32_t count);
     [[nodiscard]] std::uint32_t samples() const { return samples_; }
-    // Returns the sum of the latest wave's block, which may be incomplete. Needs at least one sample.
+    // Returns the sum of the latest block of 64 samples, which may be incomplete. Needs at least one sample.
     [[nodiscard]] BlockSum block();
-    // Adds a block that was summed on another machine; the result is bit-identical to drawing it here. All samples so
-    // far must form complete blocks. `block` is RGBA, of the size of the sums, with 64 samples; the frame's last block
-    // may have fewer.
+    // Adds a block that was summed on another machine; the result is bit-identical to drawing the block here. All
+    // samples so far must form complete blocks. `block` is RGBA, has the size of the accumulation buffers and contains
+    // 64 samples, or fewer if it is the frame's last block.
     void addBlock(const BlockSum& block);
     // Computes the mean of all samples so far, at least one, unless the mean is already up to date.
     void makeMean();
@@ -69,10 +72,10 @@ private:
         int current = 0;  // index of the copy with the latest values
     };
     // Returns the index of the copy of block_ that holds the block's sum. If `asAdded` is true and lens cells are used,
-    // draws the blurred sum, which is added to the frame's sum, into the other copy and returns that copy's index.
+    // blurs the sum by the lens cells into the other copy and returns the other copy's index.
     int latestBlock(bool asAdded);
     void addBlockTo(Sum& frame, int block, bool startsFrame);
-    // Writes copy `latest` of a sum to mean_, divided by `divisor`; 0 divides by the pixel's alpha.
+    // Writes copy `latest` of a sum to mean_, divided by `divisor`, or by the pixel's alpha if `divisor` is 0.
     void divide(const Sum& total, int latest, float divisor);
 
     LayerSumInfo info_;
@@ -84,9 +87,10 @@ private:
     Target meanTarget_;
     // Programs that add layers to the sum, keyed by their defines, which may change from frame to frame.
     std::map<ShaderDefines, Program> addLayers_;
-    // Programs for lens cells, keyed by the numbers of blur classes in front of and behind the focus plane.
+    // Programs that blur by lens cells, keyed by the numbers of blur classes in front of and behind the focus plane.
     std::map<std::pair<int, int>, CellPasses> cellPasses_;
-    // Kept after the latest block with lens cells, because the next frame often has the same blur classes.
+    // Kept after the latest block that was blurred by lens cells, because the next frame often has the same blur
+    // classes.
     std::optional<CellSums> cells_;
     bool blursCells_ = false;
     double cellBlur_ = 0;

@@ -35,15 +35,15 @@ ImageFormat imageFormat(TextureFormat format) {
     return format == TextureFormat::rgba16f ? ImageFormat{GL_RGBA16F, "rgba16f"} : ImageFormat{GL_RGBA32F, "rgba32f"};
 }
 
-// Returns the colour attachments that the layers need, in order. The first colour attachment is the picture.
+// Returns the outputs (slots) that the data layers need, in order. They follow colour attachment 0, the image's colour.
 std::vector<Slot> slotsOf(const std::vector<Layer>& layers, bool countsSamples) {
     std::vector<Slot> slots;
     const auto add = [&](bool wanted, const char* name, TextureFormat format) {
         if (wanted) slots.push_back({name, format});
     };
     const bool coc = has(layers, Layer::coc);
-    // The coverage is the mean alpha of a slot. NUMBER_SLOT has no alpha, so object and material layers alone also need
-    // DEPTH_SLOT.
+    // The coverage is the mean alpha of an output. NUMBER_SLOT has no alpha, so DEPTH_SLOT is added if the only layers
+    // are those of objects or materials.
     const auto isNumber = [](Layer layer) { return layer == Layer::objects || layer == Layer::materials; };
     const bool onlyNumbers = !layers.empty() && std::ranges::all_of(layers, isNumber);
     add(countsSamples || onlyNumbers || coc || has(layers, Layer::depth), "DEPTH_SLOT",
@@ -67,7 +67,7 @@ std::vector<Layer> numberLayers(const std::vector<Layer>& layers) {
     return found;
 }
 
-// Returns the RGBA texture `sum` plus its compensation.
+// Returns the RGBA texture `sum` plus the texture `compensation`.
 Image total(const GlTexture& sum, const GlTexture& compensation) {
     Image image = readBack(sum, 4);
     const Image lost = readBack(compensation, 4);
@@ -109,7 +109,7 @@ NumberCounts readCounts(const GlTexture& table) {
         for (std::size_t x = 0; x < width; ++x)
             for (std::size_t e = 0; e < entries; ++e) {
                 const std::uint32_t value = raw[e * pixels + row * width + x];
-                if (value == 0) break;  // the first 0 ends the list; later entries are undefined
+                if (value == 0) break;  // the first 0 ends the pixel's list; later entries are undefined
                 counts.values[(y * width + x) * entries + e] = value;
             }
     }

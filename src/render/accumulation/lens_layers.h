@@ -1,6 +1,6 @@
 #pragma once
-// Draws and sums the data layers of a frame (defocus/layers.h) in the same lens samples as the picture. The picture's
-// pass writes them as further colour attachments.
+// Draws and sums the data layers of a frame, such as depth and normals (defocus/layers.h), for the same lens samples as
+// the image. The pass that draws the image also writes the data layers, to further colour attachments.
 
 #include <filesystem>
 #include <glm/vec2.hpp>
@@ -18,24 +18,24 @@
 
 namespace defocus::engine {
 
-// Data layers of a wave, which are drawn together with its picture.
+// Data layers of a batch (wave) of samples, which are drawn in the same pass as the colours.
 class WaveDataLayers {
 public:
-    // `picture` has the colours and depths of the wave. With `countsSamples`, the number of samples differs between
-    // pixels.
+    // `picture` holds the colours and depths of the batch (wave). `countsSamples`: the number of samples differs
+    // between pixels.
     WaveDataLayers(const std::vector<Layer>& layers, bool countsSamples, const WaveLayers& picture);
 
-    // Clears the layers and binds them together with the picture's layers.
+    // Clears the data layers and binds them together with the colours and depths.
     void begin() const;
-    // Binds the layers together with the picture's layers.
+    // Binds the data layers together with the colours and depths.
     void bind() const { target_.bind(); }
-    // Returns the texture of an output of shaders/accumulation/layers.frag. `slot` is the output's define, such as
+    // Returns the texture of an output of shaders/accumulation/layers.frag. `slot` is the output's macro, such as
     // "NORMAL_SLOT".
     [[nodiscard]] const GlTexture& of(const std::string& slot) const { return textures_.at(slot); }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    std::map<std::string, GlTexture> textures_;  // textures, keyed by the name of the slot
+    std::map<std::string, GlTexture> textures_;  // textures of the outputs, keyed by macro
     Target target_;
 };
 
@@ -47,14 +47,14 @@ public:
 
     // Returns the defines of the surface pass whose fragment shader is accumulation/layers.frag.
     [[nodiscard]] static ShaderDefines defines(const std::vector<Layer>& layers, bool countsSamples);
-    // Return bytes per pixel: of the data layers of one lens sample, and of the sums over all samples.
+    // Both functions return bytes per pixel: of the data layers of one lens sample, and of the sums over all samples.
     [[nodiscard]] static std::uint64_t layerBytes(const std::vector<Layer>& layers);
     [[nodiscard]] static std::uint64_t sumBytes(const std::vector<Layer>& layers);
     // Returns whether the layers count objects or materials. If so, the surface pass writes their indices.
     [[nodiscard]] static bool countNumbers(const std::vector<Layer>& layers);
 
     void reset() { samples_ = 0; }
-    // Adds the layers of samples [first, first + count); see LayerSum::add.
+    // Adds the data layers of samples [first, first + count); see LayerSum::add.
     void add(const WaveDataLayers& wave, const FrameUniforms& frame, std::uint32_t first, std::uint32_t count);
     // Returns the means of all samples so far, at least one. `camera`: position of the camera in m.
     [[nodiscard]] LayerImages images(const glm::dvec3& camera) const;
@@ -86,9 +86,9 @@ private:
     std::vector<Layer> layers_;
     glm::ivec2 size_;
     std::filesystem::path shaderFolder_;
-    std::map<std::string, SlotSum> slots_;  // sums, keyed by the name of the slot
+    std::map<std::string, SlotSum> slots_;  // sums of the outputs, keyed by macro
     std::map<Layer, Table> tables_;
-    Target sums_;  // framebuffer for the sums; its colour is never written
+    Target sums_;  // framebuffer of the summing passes; its colour is never written
     GlTexture unused_;
     std::map<std::string, Program> programs_;
     Fullscreen fullscreen_;

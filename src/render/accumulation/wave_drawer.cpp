@@ -36,7 +36,7 @@ void WaveDrawer::prepare(const WaveFrame& frame, std::size_t targets) {
     const bool sameTargets = sameFormat && !targets_.empty() && targets_.size() == targets &&
                              targets_.front().picture.info() == frame.layers;
     if (!sameTargets) {
-        targets_.clear();  // free the old layers first, because memory may not suffice for both
+        targets_.clear();  // free the old layers first: memory may not hold old and new layers
         targets_.reserve(targets);
         while (targets_.size() < targets) targets_.emplace_back(frame);
     }
@@ -94,7 +94,7 @@ std::uint64_t WaveDrawer::drawOpaque(std::uint32_t first, std::uint32_t count, c
     return surfaces_->drawOpaqueVisible(first, count, to.picture.depths(), layer, *occlusion_, visibility);
 }
 
-// Draws the sky into the picture's layers, but not into the data layers.
+// Draws the sky into the layers of colours, but not into the data layers.
 void WaveDrawer::drawSky(std::uint32_t first, std::uint32_t count, const WaveTargets& to) {
     if (to.data) to.picture.target().bind();
     surfaces_->drawSky(first, count);

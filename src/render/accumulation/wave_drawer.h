@@ -1,5 +1,6 @@
 #pragma once
-// Draws waves of lens samples in one OpenGL context: owns all objects that contexts cannot share, and the layers.
+// Draws batches (waves) of lens samples in one OpenGL context. Owns the layers and all OpenGL objects that contexts
+// cannot share.
 
 #include <filesystem>
 #include <optional>
@@ -14,7 +15,7 @@
 
 namespace defocus::engine {
 
-// Inputs that all waves of a frame share. `plan` and `uniforms` must exist until the last wave is drawn.
+// Inputs that all batches (waves) of a frame share. `plan` and `uniforms` must exist until the last batch is drawn.
 struct WaveFrame {
     const FramePlan* plan = nullptr;
     const FrameUniforms* uniforms = nullptr;
@@ -26,7 +27,7 @@ struct WaveFrame {
     bool drawsSky = false;              // the environment is drawn into the layers
 };
 
-// Layers of one wave. `data` has values only with RenderSettings::layers.
+// Layers of one batch (wave) of samples. `data` is set only if RenderSettings::layers names data layers.
 struct WaveTargets {
     explicit WaveTargets(const WaveFrame& frame);
     [[nodiscard]] std::size_t bytes() const { return picture.bytes() + (data ? data->bytes() : 0); }
@@ -41,13 +42,13 @@ public:
     WaveDrawer(const GpuScene& scene, const Occlusion& occlusion, const RendererOptions& options,
                std::uint64_t pendingBytes);
 
-    // Prepares the programs and draws of a frame, and targets for `targets` waves. The plan's data must be in the
-    // scene's buffers and textures.
+    // Prepares the programs and draws of a frame, and the layers of `targets` batches (waves) of samples. The plan's
+    // data must be in the scene's buffers and textures.
     void prepare(const WaveFrame& frame, std::size_t targets);
     // Returns the draws for Occlusion::prepare, which must be called before draw() if hidden triangles are skipped.
     [[nodiscard]] std::vector<OccludableDraw> opaqueDraws() const { return surfaces_->opaqueDraws(); }
-    // Draws samples [first, first + count) into the layers of target `target`. Returns the number of hidden triangles
-    // that it skipped.
+    // Draws samples [first, first + count) into the layers with index `target`. Returns the number of hidden triangles
+    // that were skipped.
     std::uint64_t draw(std::uint32_t first, std::uint32_t count, std::size_t target, WaveVisibility visibility);
     void freeTargets() { targets_.clear(); }
     [[nodiscard]] const WaveTargets& target(std::size_t index) const { return targets_[index]; }
@@ -69,7 +70,7 @@ private:
     std::filesystem::path shaderFolder_;
     SubmissionPacer pacer_;
     WaveFrame frame_;
-    // Inputs for which the passes and the targets were made.
+    // Settings for which the passes and the layers were made.
     LayerFormat format_ = LayerFormat::automatic;
     std::vector<Layer> drawnLayers_;
     bool countsSamples_ = false;

@@ -1,5 +1,5 @@
 #pragma once
-// Render target of a wave: K layers of colours and depths, one per lens sample.
+// Render target of a batch (wave) of K lens samples: K layers of colours and depths, one per sample.
 
 #include <cstdint>
 #include <optional>
@@ -11,10 +11,10 @@
 namespace defocus::engine {
 
 struct WaveLayersInfo {
-    int width = 1;  // px
+    int width = 1;  // width of the layers in px
     int height = 1;
     std::uint32_t count = 1;                    // number of layers, 1 … 64
-    LayerFormat format = LayerFormat::rgba16f;  // not LayerFormat::automatic
+    LayerFormat format = LayerFormat::rgba16f;  // format of the layers; not LayerFormat::automatic
     bool operator==(const WaveLayersInfo&) const = default;
 };
 

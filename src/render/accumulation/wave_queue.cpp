@@ -5,7 +5,8 @@
 
 namespace defocus::engine {
 
-// A WaveDrawer and the thread that owns its context. Without a thread, tasks run at once in the caller's context.
+// WaveDrawer and the thread that owns its OpenGL context. Without a thread, tasks run immediately in the caller's
+// context.
 class WaveQueue::Lane {
 public:
     Lane(std::unique_ptr<ContextThread> thread, const GpuScene& scene, const Occlusion& occlusion,
@@ -26,7 +27,7 @@ public:
         packaged();
         return packaged.get_future();
     }
-    // Only tasks may use the drawer, except for its targets.
+    // Returns the drawer. Outside tasks, only the drawer's layers (targets) may be used.
     [[nodiscard]] WaveDrawer& drawer() { return *drawer_; }
     [[nodiscard]] bool hasThread() const { return thread_ != nullptr; }
 
@@ -56,8 +57,8 @@ WaveQueue::~WaveQueue() {
     stop();
 }
 
-// Ensures at least `threads` lanes, each with a thread and a context of its own. Makes only one lane, in the caller's
-// context, if `threads` is 1 or contexts cannot share objects.
+// Ensures at least `threads` lanes (WaveDrawers), each with a thread and an OpenGL context of its own. Makes only one
+// lane, in the caller's context, if `threads` is 1 or contexts cannot share objects.
 void WaveQueue::makeLanes(std::uint32_t threads) {
     const bool several = threads > 1;
     if (several != severalContexts_) lanes_.clear();
@@ -118,7 +119,7 @@ DrawnWave WaveQueue::next() {
             &laneOf(wave).drawer().target(wave % places / active_)};
 }
 
-// Gives wave number `wave` to its thread.
+// Passes batch (wave) number `wave` to the thread that draws it.
 void WaveQueue::draw(std::uint32_t wave) {
     const std::uint32_t first = wave * shape_.samples;
     const std::uint32_t count =
@@ -136,8 +137,8 @@ void WaveQueue::draw(std::uint32_t wave) {
         });
 }
 
-// Returns the wave's access to its block's classification of hidden triangles. `firstSample`: first sample of the wave.
-// Must be called in the order of waves.
+// Returns a batch's (wave's) access to the classification of hidden triangles that all batches of a block share.
+// `firstSample`: first sample of the batch. Must be called in the order of samples.
 WaveVisibility WaveQueue::visibilityFor(std::uint32_t firstSample) {
     if (firstSample % blockSamples != 0) return {{}, blockVisibility_};
     std::promise<WaveVisibility::Value> made;

@@ -1,7 +1,8 @@
 #pragma once
-// Draws the waves of a frame, in the caller's OpenGL context or in several threads with contexts of their own, and
-// returns them in the order of their samples. Software drivers process vertices in the thread that calls OpenGL, so
-// that several threads use more cores. The layers of a wave do not depend on the thread that draws it.
+// Draws the samples of a frame in batches (waves), in the caller's OpenGL context or in several threads with contexts
+// of their own, and returns the batches in the order of their samples. Software drivers process vertices in the thread
+// that calls OpenGL, so that several threads use more cores. The layers of a batch do not depend on the thread that
+// draws it.
 
 #include <atomic>
 #include <cstdint>
@@ -15,16 +16,16 @@
 
 namespace defocus::engine {
 
-// Numbers of waves and samples that are in memory at once.
+// Numbers of threads, batches (waves) and samples that are drawn at once.
 struct WaveShape {
-    std::uint32_t threads = 1;  // threads that draw; 1: the caller's thread
-    std::uint32_t targets = 1;  // waves in memory per thread: 2, so that a thread does not wait for a wave's sum
-    std::uint32_t samples = 1;  // samples per wave, a power of two, at most blockSamples
+    std::uint32_t threads = 1;  // number of threads that draw; 1: only the caller's thread
+    std::uint32_t targets = 1;  // batches in memory per thread; with 2, a thread draws one while the other is summed
+    std::uint32_t samples = 1;  // samples per batch, a power of two, at most blockSamples
     [[nodiscard]] std::uint32_t waves() const { return threads * targets; }
 };
 
 struct DrawnWave {
-    std::uint32_t first = 0;  // first sample, as an index within the plan
+    std::uint32_t first = 0;  // index of the first sample in the plan
     std::uint32_t count = 0;
     std::uint64_t hiddenTriangles = 0;  // triangles that were skipped because they are hidden
     const WaveTargets* layers = nullptr;
@@ -38,19 +39,19 @@ public:
     WaveQueue(const WaveQueue&) = delete;
     WaveQueue& operator=(const WaveQueue&) = delete;
 
-    // Abandons the waves of the previous frame and prepares the waves of `frame`, whose data must be in the scene's
-    // buffers and textures.
+    // Abandons the batches (waves) of the previous frame and prepares those of `frame`, whose data must be in the
+    // scene's buffers and textures.
     void prepare(const WaveFrame& frame, const WaveShape& shape);
-    // Returns the next wave, at most `shape.samples` samples of one block. Its layers can be read in the current
-    // context until the next call. The plan must have samples left. Throws Error if a thread failed.
+    // Returns the next batch (wave), at most `shape.samples` samples of one block. The batch's layers can be read in
+    // the current context until the next call. The plan must have samples left. Throws Error if a thread failed.
     DrawnWave next();
-    // Abandons the waves that have not been returned.
+    // Abandons the batches (waves) that have not been returned.
     void stop();
 
-    // Returns GPU times of the frame's passes, summed over all threads. Waits for the waves that are being drawn.
+    // Returns GPU times of the frame's passes, summed over all threads. Waits for the batches that are being drawn.
     [[nodiscard]] std::vector<PassTime> times();
     void resetTimes();
-    [[nodiscard]] std::size_t bytes() const { return bytes_; }       // bytes of all threads after prepare()
+    [[nodiscard]] std::size_t bytes() const { return bytes_; }       // graphics memory of all threads, after prepare()
     [[nodiscard]] std::uint32_t threads() const { return active_; }  // threads that draw the frame
     [[nodiscard]] std::uint32_t layers() const { return active_ * shape_.targets * shape_.samples; }  // layers in use
 
@@ -60,10 +61,10 @@ private:
         std::uint64_t hiddenTriangles = 0;
         Fence complete;
     };
-    // A wave in memory. Wave number w of a frame uses place w mod places_.size().
+    // Memory of a batch (wave). Batch number w of a frame uses places_[w mod places_.size()].
     struct Place {
         std::future<Drawn> drawn;
-        Fence summed;  // complete when the layers may be overwritten
+        Fence summed;  // complete when the layers have been summed and may be overwritten
     };
 
     void makeLanes(std::uint32_t threads);
@@ -80,10 +81,10 @@ private:
     WaveFrame frame_;
     WaveShape shape_;
     std::vector<Place> places_;
-    std::uint32_t started_ = 0;                                  // waves of the frame that were given to a thread
-    std::uint32_t returned_ = 0;                                 // waves of the frame that next() has returned
-    std::shared_future<WaveVisibility::Value> blockVisibility_;  // visible triangles, for the block of the latest wave
-    std::shared_ptr<std::atomic<bool>> abandoned_;               // set when the frame's remaining waves are not needed
+    std::uint32_t started_ = 0;                                  // number of batches that were passed to threads
+    std::uint32_t returned_ = 0;                                 // number of batches that next() has returned
+    std::shared_future<WaveVisibility::Value> blockVisibility_;  // visible triangles in the block of the latest batch
+    std::shared_ptr<std::atomic<bool>> abandoned_;               // set when the remaining batches are not needed
     std::size_t bytes_ = 0;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-// Arbitrary output variables (AOVs): per-pixel data of the nearest surface at the pixel's centre in a pinhole view.
+// Draws arbitrary output variables (AOVs): per-pixel data of the nearest surface at the pixel's centre in a pinhole
+// view.
 
 #include <filesystem>
 #include <optional>
@@ -12,10 +13,10 @@ namespace defocus::engine {
 
 struct AovImages {
     Image depth;  // depth in m along the view axis; +∞ for pixels without a surface
-    // Signed circle of confusion in px, > 0 behind the focus plane. Pixels without a surface have the value at infinite
-    // depth.
+    // Signed diameter of the circle of confusion in px, > 0 behind the focus plane. Pixels without a surface have the
+    // value at infinite depth.
     Image coc;
-    Image level;  // fractional level λ of the object; −1 for pixels without a surface
+    Image level;  // fractional level of detail λ of the object; −1 for pixels without a surface
 };
 
 // Draws AOVs into textures (r32f, row 0 at the bottom) for successive frames of one world. Needs a current OpenGL
@@ -24,8 +25,8 @@ class AovPass {
 public:
     explicit AovPass(const World& world, std::filesystem::path shaderFolder = {});
 
-    // Draws the AOVs of one frame. Blended surfaces count as opaque, and each object is drawn at the integer level
-    // nearest to its fractional level λ.
+    // Draws the AOVs of one frame. Blended surfaces count as opaque, and each object is drawn at the integer level of
+    // detail nearest to its fractional level λ.
     void draw(const FramePlan& plan);
     // Draws the visible edges of the triangles of the latest draw(), coloured by level λ (viridis), in premultiplied
     // RGBA.
@@ -52,11 +53,11 @@ private:
 // Returns the AOVs of one frame.
 AovImages renderAovs(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder = {});
 
-// Level λ at which colour maps of levels saturate.
+// Level of detail λ at which colour maps of levels saturate.
 inline constexpr float coarsestShownLevel = 8;
 
-// Maps levels λ to linear RGB by viridis: level 0 is dark violet, level 8 and above is yellow. Pixels without a surface
-// (−1) are black.
+// Maps levels of detail λ to linear RGB by viridis: level 0 is dark violet, level 8 and above is yellow. Pixels without
+// a surface (−1) are black.
 Image levelColourMap(const Image& level);
 
 }  // namespace defocus::engine

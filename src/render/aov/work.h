@@ -1,7 +1,7 @@
 #pragma once
-// Rasterization work of a frame: the number of triangles that cover each pixel, summed over all lens samples. Source:
-// the heat maps of Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization, Figure
-// 7.
+// Measures the rasterization work of a frame: the number of triangles that cover each pixel, summed over all lens
+// samples. Source: the heat maps of Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic
+// Rasterization, Figure 7.
 
 #include <filesystem>
 

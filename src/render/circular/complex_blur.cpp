@@ -23,7 +23,7 @@ constexpr int reduction = 8;  // each reduction step writes the max of 8 x 8 tex
 constexpr GLint firstComponentLocation = 15;
 constexpr GLint bracketLocation = 16;
 constexpr int maxFittedInHalf = 5;     // max components of fitted kernels in half float
-constexpr int maxPublishedInHalf = 3;  // same for Niemitalo's kernels, whose large weights amplify rounding
+constexpr int maxPublishedInHalf = 3;  // max components of Niemitalo's kernels, whose large weights amplify rounding
 constexpr double outermostTap = 2;     // max tap offset in radii: radius + 1/2 px, for radii ≥ 1/2 px
 constexpr int bracketSteps = 4096;
 constexpr int publishedTaps = 8;  // taps on each side of the centre
@@ -219,7 +219,7 @@ void ComplexBlur::blur(const GlTexture& field, const GlTexture& radius, const st
             const Scissor scissor(columns);
             fullscreen_.draw(group.horizontal);
         }
-        // Filter along columns; later groups add to the result.
+        // Filter along columns; later groups of components add to the result.
         resultTarget_.bind();
         for (GLuint i = 0; i < sums_.size(); ++i) sums_[i].attach(i);
         radius.attach(8);

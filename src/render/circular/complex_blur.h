@@ -19,7 +19,8 @@ namespace defocus::engine {
 // Storage format of the complex sums between the row pass and the column pass.
 enum class ComplexStorage {
     float32,
-    // half float; kernels of more than five components (Niemitalo's: three) use float32 because of rounding errors
+    // half float; kernels of more than five components (three for Niemitalo's kernels) use float32 because of rounding
+    // errors
     half,
     rgb10A2,  // sums mapped to [0, 1] (see Bracket), after division of radiance and weight by their max
 };
@@ -46,7 +47,7 @@ struct ComplexBlurInfo {
     KernelConstants constants = KernelConstants::fitted;
     ComplexStorage storage = ComplexStorage::half;
     ComplexTaps taps = ComplexTaps::exact;
-    bool direct = false;  // One pass over the square instead of two passes: same image, O(radius²) taps
+    bool direct = false;  // true: one pass over the square instead of two, with O(radius²) taps; same image
     std::filesystem::path shaderFolder;
 };
 
@@ -63,7 +64,8 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    // Components [first, first + count), filtered by one pair of passes. The number of render targets limits `count`.
+    // Components [first, first + count) of the kernel, filtered by one pair of passes. The number of render targets
+    // limits `count`.
     struct Group {
         int first = 0;
         int count = 0;
@@ -87,8 +89,8 @@ private:
     Fullscreen fullscreen_;
 };
 
-// Mapping to [0, 1] of a component's sum over n taps with real or imaginary parts G and pixel values J in [0, 1]
-// (Garcia's appendix): I′ = (ΣG·J/n − offset·ΣJ/n)/scale. `offset` is the min of G.
+// Mapping to [0, 1] of a sum over n taps with pixel values J in [0, 1] and weights G, the real or imaginary parts of a
+// component (Garcia's appendix): I′ = (ΣG·J/n − offset·ΣJ/n)/scale. `offset` is the min of G.
 //
 // If the taps do not depend on the radius, scale = Σ(G − offset)/n as published, so that I′ is 1 for a white field.
 // Otherwise `scale` is max G − min G over all radii, which also bounds I′ to [0, 1] but leaves the upper half unused.

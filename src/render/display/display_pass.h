@@ -17,7 +17,7 @@ namespace defocus::engine {
 enum class DisplayOverlay {
     none,
     coc,    // circle of confusion: orange in front of the focus plane, blue behind
-    level,  // level λ of objects, dark violet (0) to yellow (8)
+    level,  // level of detail λ of objects, dark violet (0) to yellow (8)
     work,   // triangles per pixel and lens sample: black (0) to pale yellow (maxShownWork), logarithmic
 };
 
@@ -33,8 +33,8 @@ struct DisplaySettings {
     double differenceGain = 4;
 
     [[nodiscard]] bool needsAovs() const {
-        return overlay == DisplayOverlay::coc || overlay == DisplayOverlay::level || focusPeaking ||
-               focusPlane || wireframe;
+        return overlay == DisplayOverlay::coc || overlay == DisplayOverlay::level || focusPeaking || focusPlane ||
+               wireframe;
     }
 };
 

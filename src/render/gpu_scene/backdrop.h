@@ -1,5 +1,5 @@
 #pragma once
-// Background of a transmitting surface: a copy of the layers, made just before the surface is drawn into the layers.
+// Copies the background of a transmitting surface: the layers, just before the surface is drawn into them.
 
 #include "gl/texture.h"
 

@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Sums of colour and number of visible texels (w), for squares of texels.
+// Sums over squares of texels: the colours of the visible texels (xyz) and the number of these texels (w).
 struct SumLevel {
     int width = 0, height = 0;
     std::vector<glm::vec4> sums;
@@ -30,7 +30,8 @@ SumLevel shownTexels(const TextureImage& image, float cutoff) {
     return level;
 }
 
-// Returns the level with half the width and height, rounded up. If a side is odd, the texels at its border count twice.
+// Returns the sums over squares of twice the side. If a side has an odd number of squares, those at its border count
+// twice.
 SumLevel halved(SumLevel& fine) {
     SumLevel coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}};
     for (int y = 0; y < coarse.height; ++y)

@@ -1,5 +1,5 @@
 #pragma once
-// Textures of cut-outs (glTF's alphaMode MASK) whose mip levels preserve coverage and colour.
+// Prepares the textures of cut-outs (glTF's alphaMode MASK), so that their mip levels preserve coverage and colour.
 
 #include <cstdint>
 #include <vector>

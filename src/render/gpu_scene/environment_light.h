@@ -1,5 +1,6 @@
 #pragma once
-// Irradiance from an environment, as coefficients of a polynomial that shaders/include/environment.glsl evaluates.
+// Computes the irradiance from an environment, as coefficients of a polynomial that shaders/include/environment.glsl
+// evaluates.
 
 #include <array>
 #include <glm/vec4.hpp>

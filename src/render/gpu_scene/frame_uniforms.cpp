@@ -49,8 +49,8 @@ static_assert(sizeof(GpuFrame) <= everyDriversBlock && sizeof(GpuLighting) <= ev
 GpuLight gpuLight(const PlacedLight& placed) {
     const Light& light = placed.light;
     const glm::vec3 direction(glm::normalize(placed.direction));
-    // The falloff of a spot light's cone is a linear ramp between the cosines of its angles, which the shader squares
-    // (KHR_lights_punctual).
+    // A spot light's cone attenuates by the square of a linear ramp between the cosines of its outer and inner angles
+    // (KHR_lights_punctual). The shader computes the square.
     const float inner = std::cos(light.innerConeAngle);
     const float outer = std::cos(light.outerConeAngle);
     const float scale = 1.0f / std::max(inner - outer, 1e-4f);
@@ -97,8 +97,8 @@ GlTexture specularAlbedoTexture() {
     return texture;
 }
 
-// Returns whether shaders may contain the lighting as constants: it is the same in every frame, and there are few
-// lights. Constants for many lights would make shaders too long.
+// Returns whether shaders may contain the lighting as constants: whether the lighting is the same in every frame, and
+// there are few lights. Constants for many lights would make shaders too long.
 bool staysLitAlike(const World& world) {
     return world.lights.size() <= maxConstantLights && (world.scene->clips.empty() || world.pose.lights.empty());
 }
@@ -131,7 +131,8 @@ std::string lightingText(const GpuLighting& block, std::size_t lightCount) {
                        lights);
 }
 
-// Byte offset between the uniforms of successive waves: the max GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT of all drivers.
+// Byte offset between the uniforms of successive batches (waves) of samples: the max GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT
+// of all drivers.
 constexpr std::size_t waveStride = 256;
 
 bool barrelCuts(const FramePlan& plan) {
@@ -258,8 +259,8 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     waves_ = Buffer::of(std::span<const glm::vec4>(waves));
 }
 
-// Uploads SampleBlock of shaders/accumulation/layer_light.glsl for each block of samples: colour weights and the
-// changes of b (in the circle of confusion C = a + b·w) by the wavelength, then lens points.
+// Uploads SampleBlock of shaders/accumulation/layer_light.glsl for each block of samples: the colour weights of each
+// sample's wavelength and the wavelength's change of b (in the circle of confusion C = a + b·w), then lens points.
 void FrameUniforms::uploadBands(const FramePlan& plan, const std::vector<float>& bandShifts) {
     bandShifts_ = Buffer();
     sampleBands_ = Buffer();

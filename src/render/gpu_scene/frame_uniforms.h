@@ -1,6 +1,6 @@
 #pragma once
-// Shader inputs shared by the passes of a frame: camera, lens, lights and environment as uniforms; lens samples as
-// per-instance attributes.
+// Uploads the shader inputs that all passes of a frame share: camera, lens, lights and environment as uniforms; lens
+// samples as per-instance attributes.
 
 #include <array>
 #include <glm/vec4.hpp>
@@ -12,18 +12,18 @@
 
 namespace defocus::engine {
 
-inline constexpr std::uint32_t blockSamples = 64;  // lens samples per block of the sum
+inline constexpr std::uint32_t blockSamples = 64;  // lens samples per block; the frame's sum is the sum of its blocks
 
 // Lens sample as per-instance vertex attributes.
 struct GpuSample {
     glm::vec4 lensAndJitter;  // xy: lens point (u, k·v), k = image width / height; zw: subpixel jitter (NDC)
-    glm::vec4 eyeAndSample;   // xy: lens point in m; z: index of the sample in the frame; w: its layer
+    glm::vec4 eyeAndSample;   // xy: lens point in m; z: index of the sample in the frame; w: layer it is drawn into
 };
 
 class FrameUniforms {
 public:
-    // Uploads the inputs of one frame. `layerCount` is K, the number of samples per wave: sample i is drawn into layer
-    // (i mod 64) mod K.
+    // Uploads the inputs of one frame. `layerCount` is K, the number of samples that are drawn together: sample i is
+    // drawn into layer (i mod 64) mod K.
     void upload(const World& world, const FramePlan& plan, std::uint32_t layerCount);
 
     // Returns the defines that shaders/include/frame.glsl and environment.glsl need for this frame.
@@ -31,10 +31,10 @@ public:
     // Binds the uniform blocks and the environment map for samples from `firstSample` to the end of its block of 64
     // samples.
     void bind(std::uint32_t firstSample) const;
-    // Binds only the uniforms that differ between waves, for the wave that contains `sample`.
+    // Binds only the uniforms that differ between batches (waves) of samples, for the batch that contains `sample`.
     void bindWave(std::uint32_t sample) const;
     [[nodiscard]] const Buffer& samples() const { return samples_; }
-    // Returns one SampleMoment per lens sample, as a vec3; empty if nothing moves.
+    // Returns one SampleMoment (position in the exposure) per lens sample, as a vec3; empty if nothing moves.
     [[nodiscard]] const Buffer& moments() const { return moments_; }
     // Returns one float per lens sample: the change of b in the circle of confusion C = a + b·w (depth w) for the
     // sample's wavelength. Empty without chromatic aberration.
@@ -44,7 +44,7 @@ public:
     [[nodiscard]] bool countsInAlpha() const { return countsInAlpha_; }
     // Returns whether surfaces have blur modifiers (factor and offset of their blur).
     [[nodiscard]] bool usesOwnBlur() const { return usesOwnBlur_; }
-    [[nodiscard]] std::uint32_t layerCount() const { return layerCount_; }  // number of samples per wave
+    [[nodiscard]] std::uint32_t layerCount() const { return layerCount_; }  // number of samples drawn together
     [[nodiscard]] std::size_t bytes() const;
 
 private:
@@ -55,20 +55,20 @@ private:
     [[nodiscard]] std::size_t waveOf(std::uint32_t sample) const;
 
     ShaderDefines defines_;
-    std::array<glm::vec4, 9> irradiance_{};  // diffuseCoefficients of the environment
+    std::array<glm::vec4, 9> irradiance_{};  // coefficients of the environment's irradiance (diffuseCoefficients)
     Buffer frameBlock_;
     Buffer lightingBlock_;  // empty if shaders contain the lighting as constants
     Buffer samples_;        // GpuSample of each lens sample
     Buffer moments_;
-    Buffer waves_;         // WaveBlock (shaders/include/shading.glsl) of each wave
+    Buffer waves_;         // WaveBlock (shaders/include/shading.glsl) of each batch of samples
     Buffer sampleShifts_;  // one vec4 per lens sample: offset of the sky in the image
     Buffer bandShifts_;
-    Buffer sampleBands_;  // SampleBlock of shaders/accumulation/layer_light.glsl
+    Buffer sampleBands_;  // SampleBlock (shaders/accumulation/layer_light.glsl) of each block of samples
     bool countsInAlpha_ = false;
     bool usesOwnBlur_ = false;
     std::uint32_t layerCount_ = 1;
     GlTexture environmentMap_;
-    GlTexture specularAlbedos_;  // SpecularAlbedoTable
+    GlTexture specularAlbedos_;  // albedos of specular reflection (SpecularAlbedoTable)
 };
 
 }  // namespace defocus::engine

@@ -13,14 +13,15 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t largestSharing = std::size_t{1} << 16;  // max bytes; larger meshes have buffers of their own
-constexpr std::size_t sharedBytes = std::size_t{1} << 20;     // max bytes; larger shared buffers accept no further mesh
+// Max bytes of a mesh that shares buffers; larger meshes do not.
+constexpr std::size_t largestSharing = std::size_t{1} << 16;
+constexpr std::size_t sharedBytes = std::size_t{1} << 20;  // bytes from which shared buffers accept no further mesh
 
-// A mesh is far from its origin on an axis if its centre's coordinate is at least this multiple of half its largest
-// side.
+// A mesh is far from its origin on an axis if the coordinate of its bounding box's centre is at least this multiple of
+// half the box's largest side.
 constexpr double farFromOrigin = 4;
 
-constexpr float rangeRounding = 1e-3f;  // tolerance in 1/255 when rounding outwards
+constexpr float rangeRounding = 1e-3f;  // tolerance when rounding outwards, in units of 1/255
 
 // Colours of level 0 are in [0, 1]; 16-bit fixed point is exact for files with 8 or 16 bits. Colours of coarser levels
 // are fitted and may lie outside [0, 1].
@@ -102,7 +103,8 @@ AttributeSet attributesOf(const Pyramid& pyramid, const std::vector<bool>& level
     return set;
 }
 
-// Returns a mesh whose data follow `extent` vertices and indices in shared buffers. Adds the mesh's data to `extent`.
+// Returns a mesh whose data are placed in shared buffers behind the vertices and indices counted in `extent`. Adds the
+// counts of the mesh to `extent`.
 GpuMesh placed(const Pyramid& pyramid, const std::vector<bool>& levels, Extent& extent) {
     GpuMesh mesh;
     mesh.origin = meshOrigin(pyramid.bounds);
@@ -215,7 +217,7 @@ public:
         return members_.empty() ? 0 : bytesOf(members_.front().second.attributes, extent_);
     }
 
-    // Moves the members, with their buffers, to `meshes`.
+    // Uploads the batch's meshes to buffers that they share, and moves the meshes to `meshes`.
     void upload(const World& world, std::vector<GpuMesh>& meshes) {
         if (members_.empty()) return;
         const auto buffers = std::make_shared<MeshBuffers>();

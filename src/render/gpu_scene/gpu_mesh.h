@@ -1,6 +1,6 @@
 #pragma once
-// Meshes on the GPU. Small meshes with the same attributes share buffers, because a buffer of its own takes more time
-// and memory than the vertices of a small mesh.
+// Uploads meshes to the GPU. Small meshes with the same attributes share buffers, because separate buffers take more
+// time and memory than the vertices of a small mesh.
 
 #include <array>
 #include <glm/vec3.hpp>
@@ -19,7 +19,7 @@ namespace defocus::engine {
 
 // Buffers of one or more meshes.
 struct MeshBuffers {
-    std::array<Buffer, attributeLocationCount> vertices;  // index: AttributeLocation
+    std::array<Buffer, attributeLocationCount> vertices;  // vertex buffers, indexed by AttributeLocation
     Buffer indices;
     [[nodiscard]] std::size_t bytes() const;
 };
@@ -54,7 +54,7 @@ struct GpuMesh {
     [[nodiscard]] bool has(AttributeLocation location) const { return (attributes & only(location)) != 0; }
 };
 
-// A mesh to upload, with a flag for each level that frames need.
+// Mesh to upload, with one flag per level of detail: true for levels that frames need.
 struct MeshUpload {
     std::size_t mesh = 0;
     std::vector<bool> levels;
@@ -64,8 +64,9 @@ struct MeshUpload {
 void uploadMeshes(const World& world, std::span<const MeshUpload> uploads, std::vector<GpuMesh>& meshes);
 
 // Returns the point to which a mesh's positions in the buffer are relative: per axis 0 if the bounding box is near 0,
-// else the box's centre. Thus single precision suffices for meshes far from their origin. On axes with an offset, p −
-// origin is exact, because p is between half and twice the origin (Sterbenz 1974, Floating-Point Computation).
+// else the box's centre. Thus single precision suffices for meshes far from their origin. On axes where the point is
+// not 0, position − point is exact, because the position is between half and twice the point (Sterbenz 1974,
+// Floating-Point Computation).
 glm::dvec3 meshOrigin(const Bounds& bounds);
 
 // Returns for each vertex the range of the vertex colours of all triangles at this vertex; `indices` is a triangle

@@ -1,5 +1,5 @@
 #pragma once
-// Poses of an object in the layout of shaders/include/posing.glsl.
+// Converts the poses of an object to the layout of shaders/include/posing.glsl.
 
 #include <glm/vec4.hpp>
 
@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 struct GpuPoses {
     TexelBuffer texels;     // RGBA32F; empty if the object has a single matrix
-    glm::ivec4 layout{0};   // value of GpuObject::posing
+    glm::ivec4 layout{0};   // layout of the texels; value of GpuObject::posing
     std::size_t count = 1;  // number of poses
     bool skinned = false;
     bool moving = false;

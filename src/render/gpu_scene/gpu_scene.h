@@ -19,7 +19,7 @@ namespace defocus::engine {
 struct GpuMaterialTextures {
     std::array<const GlTexture*, materialTextureCount> slots{};
     auto operator<=>(const GpuMaterialTextures&) const = default;
-    // Returns the index of a slot's texture among the material's used textures.
+    // Returns the index, among the material's used textures, of the texture of a slot (an index into textureUses()).
     [[nodiscard]] int unit(std::size_t slot) const;
     [[nodiscard]] int count() const { return unit(materialTextureCount); }
     // Binds the textures to the units that shaders/include/material_textures.glsl reads.
@@ -28,7 +28,7 @@ struct GpuMaterialTextures {
 
 class GpuScene {
 public:
-    // `pendingBytes`: see SubmissionPacer.
+    // `pendingBytes`: max memory of pending triangles; see SubmissionPacer.
     explicit GpuScene(const World& world, std::uint64_t pendingBytes = SubmissionPacer::defaultBytes)
         : world_(&world), pacer_(pendingBytes) {}
 
@@ -55,7 +55,7 @@ private:
 
     const World* world_;
     SubmissionPacer pacer_;
-    std::vector<GpuMesh> meshes_;  // one per mesh of the world; without levels if no frame has used it
+    std::vector<GpuMesh> meshes_;  // per mesh of the world; without levels until a frame uses the mesh
     std::map<std::tuple<int, bool, float>, GlTexture> textures_;  // textures, keyed by the arguments of texture()
     std::set<GpuMaterialTextures> textureSets_;                   // distinct values of texturesOf()
     // Entry i: textures of material i − 1; entry 0: of the default material. Null if no frame has used the material.

@@ -10,7 +10,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr GLuint materialBinding = 2;  // uniform block in shaders/include/frame.glsl
+constexpr GLuint materialBinding = 2;  // binding of the material's block in shaders/include/frame.glsl
 
 constexpr float minAttenuation = 1e-6f;  // lower bound of a colour channel before its logarithm
 

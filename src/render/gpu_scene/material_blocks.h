@@ -1,6 +1,6 @@
 #pragma once
-// Uniform blocks of materials. Only materials with transforms of texture coordinates have a block that contains these
-// transforms, because few materials have them and they are larger than all other values. A separate block for the
+// Uploads the uniform blocks of materials. Only materials that transform texture coordinates have a block with these
+// transforms, because few materials do and the transforms are larger than all other values. A separate block for the
 // transforms, together with the blocks of lights and shadows, would exceed the limit of Mesa 22.3's Vulkan driver
 // (lavapipe).
 
@@ -28,7 +28,8 @@ struct GpuMaterial {
     glm::vec4 through;
 };
 
-// Uniform block of a material with transforms; matches shaders/include/frame.glsl (std140) with UV_TRANSFORMS.
+// Uniform block of a material that transforms texture coordinates; matches shaders/include/frame.glsl (std140) with
+// UV_TRANSFORMS.
 struct GpuTransformedMaterial {
     GpuMaterial material;
     std::array<glm::vec4, 2 * materialTextureCount> uvRows;
@@ -43,7 +44,7 @@ public:
     // Uploads the blocks of `materials`, which are indices of the scene's materials; −1 is the default material.
     MaterialBlocks(const GpuScene& scene, std::vector<int> materials);
 
-    // Binds the block and the textures of the material with index `slot` in the list.
+    // Binds the block and the textures of the material at index `slot` of the list of materials.
     void bind(std::size_t slot) const;
     [[nodiscard]] std::size_t bytes() const { return plain_.bytes() + transformed_.bytes(); }
 

@@ -119,7 +119,7 @@ void ShadowMaps::prepare(const FramePlan& plan, const FrameUniforms& frame) {
     if (!maps_ || maps_.info().width != plan.shadows.size || maps_.info().layers != layers ||
         static_cast<bool>(tintedMaps_) != tinted) {
         target_ = Target();
-        maps_ = GlTexture();  // free the old maps first: memory may not hold both
+        maps_ = GlTexture();  // free the old maps first: memory may not hold old and new maps
         tintedMaps_ = GlTexture();
         const auto mapsOf = [&](TextureFormat format) {
             return GlTexture(

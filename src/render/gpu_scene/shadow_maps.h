@@ -1,6 +1,6 @@
 #pragma once
-// Shadow maps of a wave of lens samples (plan/shadows.h): one layer for each combination of sample, light point and
-// map. The shadow casters are drawn at the levels of detail that the plan has selected.
+// Draws the shadow maps of a batch (wave) of lens samples (plan/visible/shadows.h): one layer for each combination of
+// sample, light point and map. The shadow casters are drawn at the levels of detail that the plan has selected.
 
 #include <optional>
 
@@ -19,12 +19,12 @@ public:
     // Allocates the maps of `plan`, which may be without shadows. `frame` must hold the uniforms of `plan` and exist
     // until the last draw().
     void prepare(const FramePlan& plan, const FrameUniforms& frame);
-    // Draws the maps of samples [first, first + count), which must form one wave. Changes the render target.
+    // Draws the maps of samples [first, first + count), which must be one batch (wave). Changes the render target.
     void draw(std::uint32_t first, std::uint32_t count);
     // Returns the defines that shaders need to read the maps; empty without shadows.
     [[nodiscard]] const ShaderDefines& defines() const { return defines_; }
-    // Binds the maps for drawing the samples from `sample` to the end of its wave. The program that reads the maps must
-    // be in use.
+    // Binds the maps for drawing the samples from `sample` to the end of its batch (wave). The program that reads the
+    // maps must be in use.
     void bind(std::uint32_t sample) const;
     [[nodiscard]] std::size_t bytes() const {
         return maps_.bytes() + tintedMaps_.bytes() + projections_.bytes() + casters_.bytes();

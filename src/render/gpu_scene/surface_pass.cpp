@@ -246,7 +246,7 @@ void SurfacePass::bindFrame() {
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
 }
 
-// Adds the lens samples to a vertex array.
+// Adds the per-instance attributes of the lens samples to a vertex array.
 void SurfacePass::addSamples(VertexArray& array) const {
     const auto add = [&](GLuint location, GLint components, const Buffer& buffer, std::size_t offset,
                          std::size_t stride) {
@@ -274,7 +274,7 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
         setObject(objects_[item.object]);
         bound_.object = item.object;
     }
-    if (info_.writesNumbers) {  // the default material, −1, follows all others
+    if (info_.writesNumbers) {  // the default material, −1, gets the last index
         const auto last = static_cast<int>(scene_->world().scene->materials.size());
         glUniform1f(materialNumberLocation, static_cast<float>((item.material >= 0 ? item.material : last) + 1));
     }
@@ -409,7 +409,8 @@ void SurfacePass::drawSurfaces(std::uint32_t first, std::uint32_t count) {
 void SurfacePass::drawCasters(std::uint32_t first, std::uint32_t count, int slot, bool tinted) {
     shadowSlot_ = slot;
     if (!tinted) return drawSurfaces(first, count);
-    // Keep the max depth per colour channel: depth is reversed, so this is the nearest surface that hides the channel.
+    // Keep the max depth per colour channel: depth is reversed, so this is the nearest surface that blocks the
+    // channel's light.
     bindSolid(GL_GREATER);
     glEnable(GL_BLEND);
     glBlendEquation(GL_MAX);

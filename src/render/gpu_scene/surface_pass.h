@@ -1,8 +1,8 @@
 #pragma once
 // Draws the surfaces of a FramePlan with one shader program per set of material features. A primitive needs at most two
-// instanced draws per wave, because its level of detail changes at most once within a wave. Two more draws are needed
-// if the sample at the change draws both levels in different pixels. A level with culled clusters needs one draw per
-// index range.
+// instanced draws per batch (wave) of samples, because its level of detail changes at most once within a batch. Two
+// more draws are needed if the sample at the change draws both levels in different pixels. A level with culled clusters
+// needs one draw per index range.
 
 #include <array>
 #include <map>
@@ -23,7 +23,8 @@ struct SurfacePassInfo {
     std::string fragmentShader;  // path under shaders/
     ShaderDefines defines;       // defines of the pass, such as the layer format
     SurfaceLook look = SurfaceLook::seenThrough;
-    bool stochasticAlpha = false;    // BlendRun::stochastic uses stochastic alpha; false: blended surfaces are sorted
+    // Surfaces of BlendRun::stochastic are drawn with stochastic alpha; false: sorted and blended.
+    bool stochasticAlpha = false;
     bool readsOwnBlur = false;       // the fragment shader reads the blur modifiers of surfaces
     bool readsPosition = false;      // the fragment shader reads the positions of surfaces even without shadows
     bool vertexShaderLayers = true;  // false: geometry shaders select the layer
@@ -40,8 +41,8 @@ public:
     SurfacePass(const GpuScene& scene, SubmissionPacer& pacer, SurfacePassInfo info)
         : scene_(&scene), pacer_(&pacer), info_(std::move(info)) {}
 
-    // Prepares the draws and programs of `plan`. `shadows` are the maps of the same plan to read, or to draw for
-    // SurfaceLook::caster; null without shadows. `frame` and `shadows` must exist until the last draw.
+    // Prepares the draws and programs of `plan`. `shadows`: shadow maps of the plan, which lit surfaces read and
+    // SurfaceLook::caster draws; null without shadows. `frame` and `shadows` must exist until the last draw.
     void prepare(const FramePlan& plan, const FrameUniforms& frame, const ShadowMaps* shadows = nullptr);
     // Draws the opaque, alpha-tested and stochastically transparent surfaces of samples [first, first + count), front
     // to back.
@@ -49,9 +50,9 @@ public:
     // Returns the draws of drawOpaque, for Occlusion::prepare.
     [[nodiscard]] std::vector<OccludableDraw> opaqueDraws() const;
     // Draws the same image as drawOpaque, but skips hidden triangles if there are enough of them. `occlusion` must have
-    // been prepared with opaqueDraws(). Sample `first` is drawn with layer `layer` of `depths`, later samples with the
-    // layers after it. The wave with the block's first sample sets `block`; other waves wait until it is set. Returns
-    // the number of skipped triangles.
+    // been prepared with opaqueDraws(). Layer `layer` of `depths` is the depth buffer of sample `first`; the layers
+    // after it are those of the later samples. The batch (wave) with the first sample of a block of 64 sets `block`,
+    // the block's visible triangles; other batches wait until it is set. Returns the number of skipped triangles.
     std::uint64_t drawOpaqueVisible(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
                                     std::uint32_t layer, const Occlusion& occlusion, WaveVisibility& block);
     // Draws sorted alpha-blended and transmitting surfaces, in FramePlan::blendOrder. `colors` is the render
@@ -81,9 +82,9 @@ public:
 
 private:
     enum class ScreenDoor {
-        open,         // all pixels draw the same level
-        coarseShare,  // pixels with the coarser level in a boundary sample, which mixes two levels
-        fineShare,    // pixels with the finer level in a boundary sample
+        open,         // all pixels draw the same level of detail
+        coarseShare,  // draws the coarser level's pixels in a boundary sample, which mixes two levels
+        fineShare,    // draws the finer level's pixels in a boundary sample
     };
 
     struct Draw {  // one primitive of an object at one level of detail
@@ -119,7 +120,7 @@ private:
         std::optional<std::size_t> materialSlot;
     };
 
-    // Programs of a pass, keyed by the defines of their draws. All draws of a frame have the same defines of the pass.
+    // Programs of a pass with the same defines of the pass, keyed by the defines of their draws.
     using Programs = std::map<std::string, Program>;
 
     void uploadMaterials();
@@ -168,7 +169,7 @@ private:
     std::vector<GpuPoses> poses_;  // poses, one entry per object
     std::map<int, std::size_t> materialSlots_;
     std::vector<Draw> opaque_;
-    std::vector<Draw> dissolved_;  // parts of stochastically transparent primitives
+    std::vector<Draw> dissolved_;  // draws of stochastically transparent parts of primitives
     Buffer partIndices_;           // indices of BlendRun::triangles
     bool marksBlended_ = false;
     std::vector<Draw> translucent_;  // sorted alpha-blended or transmitting; farthest first

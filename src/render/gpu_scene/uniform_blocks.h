@@ -1,5 +1,5 @@
 #pragma once
-// Uniform blocks of one type in one buffer, aligned so that each can be bound separately.
+// Stores uniform blocks of one type in one buffer, aligned so that each block can be bound separately.
 
 #include <cstring>
 #include <vector>

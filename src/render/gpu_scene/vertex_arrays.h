@@ -1,5 +1,5 @@
 #pragma once
-// Vertex arrays of a pass over meshes. Meshes with the same vertex format share a vertex array.
+// Caches the vertex arrays of a pass that draws meshes. Meshes with the same vertex format share a vertex array.
 
 #include <functional>
 #include <map>

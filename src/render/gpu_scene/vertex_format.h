@@ -1,5 +1,5 @@
 #pragma once
-// Vertex attributes of meshes: shader locations, and which attributes a mesh has.
+// Lists the vertex attributes of meshes, with their shader locations and their layout in buffers.
 
 #include <epoxy/gl.h>
 

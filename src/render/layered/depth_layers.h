@@ -1,6 +1,6 @@
 #pragma once
-// The scene as seen from the lens centre, as depth layers (Everitt 2001, Interactive Order-Independent Transparency):
-// in each pixel, layer 0 is the nearest surface, layer 1 the next surface behind it, and so on.
+// Draws the scene, as seen from the lens centre, into depth layers (Everitt 2001, Interactive Order-Independent
+// Transparency): in each pixel, layer 0 is the nearest surface, layer 1 the next surface behind it, and so on.
 //
 // Surfaces that are hidden from all lens points are omitted (the umbra of Lee, Eisemann and Seidel 2010, Real-Time Lens
 // Blur Effects and Focus Control). Such a surface is behind the pixel's nearest surface, and the parallax between the

@@ -25,8 +25,9 @@ int borderOf(const FramePlan& plan) {
     return plan.usesLens ? static_cast<int>(std::min<double>(std::ceil(largest / 2) + 1, max)) : 0;
 }
 
-// Returns the number of samples per wave: `asked`, or, if `asked` is 0, as many as fit into RendererOptions::waveBytes.
-// At most `run`, the number of consecutive samples with the same pinhole, and a power of two, so that it divides `run`.
+// Returns the number of samples that are drawn together (a wave): `asked`, or, if `asked` is 0, as many as fit into
+// RendererOptions::waveBytes. The result is at most `run`, the number of consecutive samples with the same pinhole, and
+// a power of two, so that it divides `run`.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked, LayerFormat format,
                          std::uint32_t run) {
     const std::uint64_t pixels =
@@ -130,7 +131,7 @@ private:
                                     .blended = plan_.usesBlending,
                                     .shaderFolder = options_.shaderFolder};
         if (!layers_ || !(layers_->info() == depth)) {
-            layers_.reset();  // free the old layers first, because memory may not suffice for both
+            layers_.reset();  // free the old layers first: memory may not hold old and new layers
             layers_.emplace(scene_, depth);
         }
         const LensRaysInfo rays{.width = view.width,
@@ -196,7 +197,7 @@ private:
     }
 
     RendererOptions options_;
-    std::uint32_t wave_;  // requested samples per wave; 0: as many as fit into waveBytes
+    std::uint32_t wave_;  // requested number of samples drawn together; 0: as many as fit into waveBytes
     GpuScene scene_;
     FramePlan plan_;      // positions in the pixel are relative to the layers of the sample's pinhole
     FramePlan pinholes_;  // one sample per pinhole; image widened by the border

@@ -31,8 +31,8 @@ public:
     // Needs a current OpenGL context.
     explicit LensRays(const LensRaysInfo& info);
 
-    // Prepares tracing of `plan`. `frame` must have been uploaded for `plan` with K layers (K samples per wave), and
-    // must exist until the last trace().
+    // Prepares tracing of `plan`. `frame` must have been uploaded for `plan` with K layers (K samples are drawn
+    // together), and must exist until the last trace().
     void prepare(const FramePlan& plan, const FrameUniforms& frame);
     // Computes bounds of the blurs that each pixel's rays may hit in `layers`. Call it after each DepthLayers::peel.
     void bound(const DepthLayers& layers);

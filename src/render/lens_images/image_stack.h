@@ -20,7 +20,7 @@ class ImageStack {
 public:
     static constexpr std::size_t maxImages = 64;
 
-    // Image that contributes to a mean.
+    // Image that contributes to a mean, and its position.
     struct Part {
         std::uint32_t image = 0;
         glm::ivec2 corner{0};  // pixel of the image that coincides with the mean's lower left pixel

@@ -1,5 +1,5 @@
 #pragma once
-// Triangles that the lens-space methods divide, because the circle of confusion C is not linear inside them. Each
+// Divides triangles for the lens-space methods, because the circle of confusion C is not linear inside them. Each
 // triangle of an object becomes n² small triangles, with C evaluated at their corners. All triangles of an object are
 // divided equally, so that no gaps open between them.
 
@@ -12,7 +12,7 @@
 
 namespace defocus::engine {
 
-// Range of triangles that are divided into `parts`² each.
+// Range of triangles, each of which is divided into `parts`² small triangles.
 struct DividedRun {
     std::uint32_t firstBase = 0;  // index in the buffer of undivided triangles
     std::uint32_t baseCount = 0;
@@ -28,22 +28,24 @@ struct DividedRun {
 // (Mesa's llvmpipe, 128 MiB).
 inline constexpr double maxSmallTriangles = 1'000'000;
 
-// Returns the number of parts n ≤ 64 into which each edge is divided, so that C deviates from linear by at most
-// `tolerance` px. n is smaller if the object's `triangles` triangles would otherwise become more than `maxTriangles`.
+// Returns the number of parts n ≤ 64 into which each edge is divided, so that the circle of confusion deviates from
+// linear by at most `tolerance` px. n is smaller if the object's `triangles` triangles would otherwise become more than
+// `maxTriangles`.
 std::uint32_t partsOfEdges(const ObjectPlan& object, std::uint64_t triangles, double tolerance, double maxTriangles);
 
 class DividedTriangles {
 public:
     explicit DividedTriangles(std::filesystem::path shaderFolder, bool lightsVertices);
 
-    // Removes all runs. `defines`: shader defines of the front end (LensFront).
+    // Removes all ranges of triangles. `defines`: shader defines of the front end (LensFront).
     void start(const ShaderDefines& defines);
     void add(const DividedRun& run) { runs_.push_back(run); }
     [[nodiscard]] bool empty() const { return runs_.empty(); }
-    // Writes the small triangles. The buffers of the undivided triangles, the frame's triangles and, if vertices are
-    // lit, the first triangle of each vertex must be bound at storage binding points 1, 2 and 3.
+    // Writes the small triangles. The buffers of the undivided triangles, of the frame's triangles and, if lighting is
+    // computed per vertex, of the first triangle of each vertex must be bound at storage binding points 1, 2 and 3.
     void makeTriangles(const Buffer& bases) const;
-    // Both functions compute the new vertices from the vertices of the undivided triangles, in the same buffer.
+    // Both functions write the vertices of the small triangles to the buffer that holds the vertices of the undivided
+    // triangles: makeClips() their clip positions, makeAttributes() their attributes.
     void makeClips(const Buffer& bases, const Buffer& clips, const Buffer& ownBlurs) const;
     void makeAttributes(const Buffer& bases, const Buffer& attributes) const;
 

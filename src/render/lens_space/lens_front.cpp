@@ -13,13 +13,13 @@ namespace {
 constexpr std::size_t clipBytes = 4 * sizeof(float);
 constexpr std::size_t ownBlurBytes = 2 * sizeof(float);
 // Mesa's software driver ends the loops of a thread after a total of 65,535 iterations.
-constexpr std::uint32_t maxTilesAtOnce = 50'000;   // tiles per dispatch that a thread tests a triangle against
-constexpr std::uint32_t maxSortedAtOnce = 65'536;  // list length that one dispatch sorts: 136 steps of 256 iterations
+constexpr std::uint32_t maxTilesAtOnce = 50'000;   // max tiles against which a thread tests a triangle
+constexpr std::uint32_t maxSortedAtOnce = 65'536;  // max list entries that one dispatch sorts: 136 x 256 iterations
 constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // element size in shaders/lens_space/shade_vertices.comp
 constexpr std::size_t attributeBytes = 20 * sizeof(float);   // element size in shaders/lens_space/attributes.vert
 
 // Returns the end of the range of rays for which a level of an object is drawn. If two levels share a boundary sample,
-// the level with more of the sample's pixels gets its ray.
+// the level with more of the sample's pixels gets the sample's ray.
 std::uint32_t endOf(const ObjectPlan& object, const LevelDraw& level, bool coarse) {
     const std::uint32_t end = level.firstSample + level.sampleCount;
     const bool shared = boundarySample(object).has_value();
@@ -33,7 +33,8 @@ std::uint32_t beginOf(const ObjectPlan& object, const LevelDraw& level, bool coa
 
 void checkDrawable(const FramePlan& plan, const World& world, const std::string& method) {
     if (plan.coc.chromatic > 0)
-        fail("method {}: axial chromatic aberration is not supported; leave it out or use --method accumulation", method);
+        fail("method {}: axial chromatic aberration is not supported; leave it out or use --method accumulation",
+             method);
     if (plan.usesLens && plan.view.lens.catEye > 0)
         fail("method {}: a cat's eye is not supported; leave it out or use --method accumulation", method);
     if (!plan.moments.empty() && world.shutter.perSample)
@@ -152,8 +153,8 @@ void LensFront::addLevel(std::uint32_t objectIndex, const LevelDraw& level, doub
     vertexCount_ += vertices.count;
 }
 
-// Assigns ranges of vertices and triangles to the divided triangles. Their vertices follow the vertices of all levels,
-// and their triangles follow the undivided triangles.
+// Assigns ranges of vertices and triangles to the small triangles into which triangles are divided. The new vertices
+// follow the vertices of all levels, and the small triangles follow the triangles that are not divided.
 void LensFront::addDivisions() {
     std::uint32_t bases = 0;
     std::uint32_t triangles = 0;
@@ -180,8 +181,8 @@ std::uint32_t LensFront::groupOf(int mesh, int material, std::uint32_t level) {
 }
 
 void LensFront::makeTriangles() {
-    // Subdivided triangles are replaced by their pieces. Convert them first: clearing firstTriangles_ then removes
-    // their entries, so that only triangles of the frame have entries.
+    // Triangles that are divided are replaced by small triangles. Convert the former first: clearing firstTriangles_
+    // then removes their entries, so that only triangles of the frame have entries.
     if (lightsVertices_) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, firstTriangles_.name());
     convertRuns(bases_, true);
     if (lightsVertices_) {
@@ -220,7 +221,7 @@ void LensFront::pose(std::uint32_t part) {
     };
     makeClips(clips_, part);
     if (moving) makeClips(clipsAtEnd_, part + 1);
-    // Light moving surfaces at the middle of this part of the exposure.
+    // Moving surfaces are shaded as they are at the middle of this part of the exposure.
     makeVertices(attributes_, attributeBytes, true, part, moving ? 0.5f : 0.0f);
     divided_.makeAttributes(bases_, attributes_);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -337,7 +338,7 @@ void LensFront::countTiles() {
     for (const TileBand& each : bands_) largest = std::max(largest, each.entries);
     const std::uint64_t bytes = std::max<std::uint64_t>(largest, 1) * sizeof(std::uint32_t);
     if (entries_.bytes() < bytes) {
-        entries_ = Buffer();  // free the old buffer first, because memory may not suffice for both
+        entries_ = Buffer();  // free the old buffer first: memory may not hold old and new lists
         entries_ = storage(bytes, "the triangles of a tile");
     }
     statistics_.bytes = entries_.bytes();

@@ -35,19 +35,21 @@ struct TileBand {
 
 struct BinStatistics {
     std::uint32_t tiles = 0;
-    std::uint64_t entries = 0;          // list entries of all tiles
-    std::uint32_t largestTile = 0;      // max list entries of a tile
-    std::uint64_t bytes = 0;            // bytes of the lists of one band
-    std::vector<std::uint32_t> counts;  // list entries of each tile
-    // Returns the number of entries beyond the first `size` of each tile; 0 for size 0.
+    std::uint64_t entries = 0;          // number of list entries of all tiles
+    std::uint32_t largestTile = 0;      // max number of list entries of a tile
+    std::uint64_t bytes = 0;            // bytes of the buffer with the lists of one band of tiles
+    std::vector<std::uint32_t> counts;  // number of list entries of each tile
+    // Returns the number of list entries after the first `size` entries of each tile, summed over all tiles; 0 for size
+    // 0.
     [[nodiscard]] std::uint64_t entriesBeyond(std::uint32_t size) const;
 };
 
 struct LensFrontOptions {
-    std::uint32_t tileSize = 0;   // px
+    std::uint32_t tileSize = 0;   // tile side in px
     bool lightsVertices = false;  // lighting is computed per vertex (RecordShading)
-    bool divides = true;          // divides triangles in which C is not linear; false: makes C linear, as published
-    // Max bytes of the lists. If all lists need more, the tiles are processed in several bands.
+    // Divides triangles in which the circle of confusion C is not linear; false: C is made linear, as published.
+    bool divides = true;
+    // Max bytes of the tiles' lists of triangles. If the lists need more, the tiles are processed in several bands.
     std::uint64_t entryBytes = 0;
     std::filesystem::path shaderFolder;
 };
@@ -56,16 +58,16 @@ class LensFront {
 public:
     LensFront(GpuScene& scene, LensFrontOptions options);
 
-    // Collects the vertices and triangles of `plan`. `frame` must exist until the last wave. Throws Error, with the
-    // object or feature in its message, for a plan that the lens-space methods cannot draw; `method` is the method's
-    // name.
+    // Collects the vertices and triangles of `plan`. `frame` must exist until the frame is complete. Throws Error, with
+    // the object or feature in its message, for a plan that the lens-space methods cannot draw; `method` is the
+    // method's name.
     void prepare(const FramePlan& plan, const FrameUniforms& frame, const std::string& method);
     // Computes the vertices and the list sizes for part `part` of the exposure, from shutter time number `part` to the
     // next one. If nothing moves, there is only part 0.
     void pose(std::uint32_t part);
-    // Fills the lists of a band and sorts them front to back, unless this band is already filled.
+    // Fills the tiles' lists of a band and sorts them front to back, unless they are already filled.
     void fill(const TileBand& band);
-    // Binds vertices, triangles, draws, list ends and lists at the binding points in shaders/lens_space/.
+    // Binds the buffers of vertices, triangles, draws and tile lists at the binding points in shaders/lens_space/.
     void bindTriangles() const;
     void bindAttributes() const;
     void bindVertexLight(GLuint point = 3) const;
@@ -75,13 +77,14 @@ public:
     void bindTests() const;
 
     [[nodiscard]] const std::vector<TileBand>& bands() const { return bands_; }
-    // Returns the groups. In shaders, index 0 is the sky, and index i ≥ 1 is groups()[i − 1].
+    // Returns the groups of surfaces that are shaded alike. In shaders, index 0 is the sky, and index i ≥ 1 is
+    // groups()[i − 1].
     [[nodiscard]] const std::vector<ShadedGroup>& groups() const { return groups_; }
     [[nodiscard]] const ShaderDefines& defines() const { return defines_; }  // defines for programs that read triangles
     [[nodiscard]] bool lightsVertices() const { return lightsVertices_; }
     [[nodiscard]] std::uint32_t vertexCount() const { return vertexCount_; }
     [[nodiscard]] std::uint32_t triangleCount() const { return triangleCount_; }
-    [[nodiscard]] std::uint32_t parts() const { return parts_; }  // parts of the exposure; 1 if nothing moves
+    [[nodiscard]] std::uint32_t parts() const { return parts_; }  // number of parts of the exposure
     [[nodiscard]] const BinStatistics& statistics() const { return statistics_; }
     [[nodiscard]] std::size_t bytes() const;
 
@@ -92,7 +95,7 @@ private:
         std::uint32_t triangles = 0;
         std::uint32_t firstVertex = 0;
         std::uint32_t draw = 0;
-        std::uint32_t parts = 1;  // parts per edge
+        std::uint32_t parts = 1;  // number of parts per edge
     };
     struct Vertices {  // the vertices of an object at one level of detail
         std::uint32_t object = 0;
@@ -108,7 +111,8 @@ private:
         std::uint32_t seeThrough = 0;
     };
 
-    // Adds the triangles of a level, divided into at most `maxSmall` triangles if C is not linear inside them.
+    // Adds the triangles of a level, divided into at most `maxSmall` triangles if the circle of confusion is not linear
+    // inside them.
     void addLevel(std::uint32_t object, const LevelDraw& level, double maxSmall, std::vector<GpuDraw>& draws);
     void addDivisions();
     std::uint32_t groupOf(int mesh, int material, std::uint32_t level);
@@ -155,9 +159,9 @@ private:
     Buffer firstTriangles_, vertexLight_;  // used only with per-vertex lighting
     Buffer depths_;                        // sort key of each triangle
     Buffer tileCounts_, tileEnds_, entries_;
-    std::vector<std::uint32_t> tilePlaces_;  // offset of each tile's list within its band
+    std::vector<std::uint32_t> tilePlaces_;  // offset of each tile's list within its band of tiles
     std::vector<TileBand> bands_;
-    std::uint32_t filled_ = 0;  // first tile of the filled band
+    std::uint32_t filled_ = 0;  // first tile of the band whose lists are filled
     bool isFilled_ = false;
     BinStatistics statistics_;
 };

@@ -115,15 +115,15 @@ private:
     void prepareSum() {
         const glm::ivec2 size(plan_.view.width, plan_.view.height);
         if (!sum_ || sumSize_ != size) {
-            sum_.reset();  // free the old sum first, because memory may not suffice for both
+            sum_.reset();  // free the old sum first: memory may not hold old and new sums
             sum_.emplace(size.x, size.y, kernel_->addShader(), options_.shaderFolder);
             sumSize_ = size;
         }
         sum_->reset();
     }
 
-    // Returns the number of rays per pixel and wave: the requested number, or as many as fit into
-    // RendererOptions::waveBytes, at most 64.
+    // Returns the number of rays per pixel that are traced together (a wave): the requested number, or as many as fit
+    // into RendererOptions::waveBytes, at most 64.
     [[nodiscard]] std::uint32_t wavesRays() const {
         const std::uint64_t pixels =
             std::uint64_t{static_cast<std::uint32_t>(plan_.view.width)} * static_cast<std::uint32_t>(plan_.view.height);
@@ -137,8 +137,8 @@ private:
         return static_cast<std::uint32_t>(std::uint64_t{ray} * front_->parts() / total);
     }
 
-    // Returns the wave that starts at ray `first`. A wave does not cross the end of a block or of a part of the
-    // exposure.
+    // Returns the batch (wave) of rays that starts at ray `first`. A batch does not extend across the end of a block of
+    // 64 samples or of a part of the exposure.
     [[nodiscard]] RayWave nextWave(std::uint32_t first, std::uint32_t total) const {
         RayWave wave{first, std::min({wavesRays(), total - first, blockSamples - first % blockSamples})};
         while (partOf(first + wave.count - 1, total) != partOf(first, total)) --wave.count;
@@ -146,7 +146,7 @@ private:
     }
 
     RendererOptions options_;
-    std::uint32_t wave_;  // requested rays per pixel and wave; 0: as many as fit into waveBytes
+    std::uint32_t wave_;  // requested rays per pixel and batch; 0: as many as fit into waveBytes
     std::unique_ptr<VisibilityKernel> kernel_;
     GpuScene scene_;
     FramePlan plan_;
@@ -154,7 +154,7 @@ private:
     std::optional<LensFront> front_;
     std::optional<RecordShading> shading_;
     std::optional<SeeThrough> seeThrough_;
-    std::uint64_t searches_ = 0;  // number of rays that continued behind a hit, over all waves so far
+    std::uint64_t searches_ = 0;  // number of rays that continued behind a hit, over all batches so far
     std::uint64_t records_ = 0;
     std::optional<RaySum> sum_;
     glm::ivec2 sumSize_{0};

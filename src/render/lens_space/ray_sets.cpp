@@ -15,13 +15,13 @@ namespace {
 
 constexpr std::uint32_t maxVariants = 64;
 constexpr std::uint32_t minVariants = 4;
-constexpr std::uint32_t maxRays = 1u << 18;  // max rays of all variants together
+constexpr std::uint32_t maxRays = 1u << 18;  // max total number of rays of all variants
 
 float coordinate(const LensSample& sample, int axis) {
     return axis == 0 ? sample.lens.x : axis == 1 ? sample.lens.y : sample.time;
 }
 
-// Sorts samples by recursive bisection along alternating axes, until each part contains one sample.
+// Sorts samples by recursive bisection along alternating axes, until each part of the lens contains one sample.
 void sortIntoParts(std::span<LensSample> samples, int axis, int axes) {
     if (samples.size() < 2) return;
     const std::size_t half = samples.size() / 2;

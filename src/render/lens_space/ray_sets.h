@@ -1,13 +1,14 @@
 #pragma once
-// Rays of each pixel in the lens-space methods. Neighbouring pixels use different sets of rays, called variants
-// (shaders/lens_space/rays.glsl), so that the error of few rays looks like fine noise instead of superimposed images.
+// Chooses the rays of each pixel in the lens-space methods. Neighbouring pixels use different sets of rays, called
+// variants (shaders/lens_space/rays.glsl), so that the error of few rays looks like fine noise instead of superimposed
+// images.
 //
 // The sets are consecutive ranges of the sample sequence of method "accumulation", so each set is well distributed over
 // the lens (of any shape), the pixel and time. Each set is sorted by repeated bisection of the lens, alternately in
-// width and height, until each part contains one ray. Thus ray i of all sets passes through nearly the same small part
-// of the lens, whose bounds the tile tests use (Munkberg, Toth and Akenine-Möller 2012, Section 4). The parts are
-// visited in an order in which every prefix is evenly spread. If the exposure has several parts, each set is first
-// divided among them by time.
+// width and height, until each part of the lens contains one ray. Thus ray i of all sets passes through nearly the same
+// small part of the lens, whose bounds the tile tests use (Munkberg, Toth and Akenine-Möller 2012, Section 4). The
+// parts of the lens are visited in an order in which every prefix is evenly spread. If the exposure has several parts,
+// each set is first divided among them by time.
 
 #include <glm/vec4.hpp>
 
@@ -15,7 +16,7 @@
 
 namespace defocus::engine {
 
-// Ray; matches shaders/lens_space/rays.glsl.
+// Ray through a lens point and a pixel; matches shaders/lens_space/rays.glsl.
 struct GpuRay {
     glm::vec4 lensAndPixel{0};
     glm::vec4 values{0};
@@ -23,22 +24,22 @@ struct GpuRay {
 
 struct RaySets {
     std::uint32_t rays = 0;             // rays per pixel
-    std::uint32_t variants = 1;         // a power of two, at most 64
+    std::uint32_t variants = 1;         // number of sets, a power of two, at most 64
     std::vector<GpuRay> table;          // rays of all sets, with index ray · variants + variant
     std::vector<glm::vec4> lensBounds;  // per ray, over all variants: min u, min k·v, max u, max k·v (k: aspect)
 };
 
-// Returns the number of variants for sets of `rays` rays: as many as give at most 262,144 rays in total, but at least 4
-// and at most 64.
+// Returns the number of different sets of rays (variants), for sets of `rays` rays: as many as give at most 262,144
+// rays in total, but at least 4 and at most 64.
 std::uint32_t variantCount(std::uint32_t rays);
 
 // Returns the index of the first ray in part `part` of an exposure with `parts` parts of equal length, for `total` rays
 // per pixel.
 std::uint32_t firstRayOfPart(std::uint32_t part, std::uint32_t parts, std::uint32_t total);
 
-// Returns sets with one ray per sample of the plan. Without lens blur, all rays pass through the lens centre. The
-// exposure has `parts` parts; the rays of each part are contiguous and well distributed over lens and pixel, and their
-// time is relative to the part.
+// Returns sets of rays with one ray per sample of the plan. Without lens blur, all rays pass through the lens centre.
+// The exposure has `parts` parts; the rays of each part are contiguous and well distributed over lens and pixel, and
+// their time is relative to the part.
 RaySets pointRaySets(const FramePlan& plan, std::uint32_t parts);
 
 // Returns a permutation of 0 … count − 1 such that every prefix is evenly spread (van der Corput 1935).

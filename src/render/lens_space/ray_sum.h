@@ -1,5 +1,5 @@
 #pragma once
-// Per-pixel sum of the radiance of rays, added in ray order with Neumaier's compensation.
+// Sums the radiance of rays per pixel, in ray order and with Neumaier's compensation of rounding errors.
 
 #include "gl/fullscreen.h"
 #include "gl/target.h"
@@ -13,7 +13,7 @@ public:
     RaySum(int width, int height, const char* addShader, const std::filesystem::path& shaderFolder);
 
     void reset() { rays_ = 0; }
-    // Adds the radiance of the next `count` rays of each pixel. The records must be bound.
+    // Adds the radiance of the next `count` rays of each pixel. The records (ray hits) must be bound.
     void add(std::uint32_t count);
     [[nodiscard]] std::uint32_t rays() const { return rays_; }
     // Returns the mean of all rays so far, at least one, as RGBA with row 0 at the bottom. The texture is valid until

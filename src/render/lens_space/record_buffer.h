@@ -1,5 +1,6 @@
 #pragma once
-// Storage buffers of the lens-space kernels, and the growing buffer for the records (ray hits) of a wave.
+// Creates storage buffers for the lens-space kernels, and holds the records (ray hits) of a batch of rays in a buffer
+// that grows.
 
 #include <cstdint>
 
@@ -14,7 +15,7 @@ std::uint64_t largestStorage();
 // largestStorage().
 Buffer storage(std::uint64_t bytes, const char* what);
 
-// Ray hits of a wave, in the layout of shaders/lens_space/records.glsl.
+// Ray hits of a batch (wave) of rays, in the layout of shaders/lens_space/records.glsl.
 class RecordBuffer {
 public:
     // Returns the max number of records that fit into a storage buffer.

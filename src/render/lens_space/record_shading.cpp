@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t groupBytes = 4 * sizeof(std::uint32_t);     // matches shaders/lens_space/groups.glsl
+constexpr std::size_t groupBytes = 4 * sizeof(std::uint32_t);     // element size in shaders/lens_space/groups.glsl
 constexpr std::size_t dispatchBytes = 3 * sizeof(std::uint32_t);  // DispatchIndirectCommand of OpenGL
 
 }  // namespace
@@ -69,11 +69,11 @@ void RecordShading::shadeVertices(const LensFront& front) {
 
 void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint32_t firstRay) {
     if (list_.bytes() < count * sizeof(std::uint32_t)) {
-        list_ = Buffer();  // free the old buffer first, because memory may not suffice for both
+        list_ = Buffer();  // free the old buffer first: memory may not hold old and new buffers
         list_ = Buffer(count * sizeof(std::uint32_t));
     }
 
-    // Count and list the records of each group.
+    // Count and list the records (ray hits) of each group of surfaces.
     const GLuint zero = 0;
     glClearNamedBufferData(groups_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     front.bindTriangles();
@@ -96,7 +96,7 @@ void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, static_cast<GLuint>(rays));
     overRecords(listProgram_);
 
-    // Shade the records of each group.
+    // Shade the records (ray hits) of each group of surfaces.
     if (front.lightsVertices())
         front.bindVertexLight();
     else

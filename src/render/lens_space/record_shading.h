@@ -1,7 +1,7 @@
 #pragma once
-// Shades the records (ray hits) of a wave. Records are listed by ShadedGroup, and each group is shaded with its
-// material, like fragments in other methods. With per-vertex lighting (Tzeng et al. 2012), vertices are shaded first,
-// and their radiance is interpolated.
+// Shades the records (ray hits) of a batch (wave) of rays. Records are listed by ShadedGroup, and each group is shaded
+// with its material, like fragments in other methods. With per-vertex lighting (Tzeng et al. 2012), vertices are shaded
+// first, and their radiance is interpolated.
 
 #include <map>
 #include <string>
@@ -15,16 +15,16 @@ class RecordShading {
 public:
     RecordShading(GpuScene& scene, std::filesystem::path shaderFolder);
 
-    // Prepares the programs and materials of the groups of `front`. `defines` are the defines of the front end, the
-    // rays and the kernel.
+    // Prepares programs and materials for the groups of surfaces of `front`. `defines` are the defines of the front
+    // end, the rays and the kernel.
     void prepare(const FramePlan& plan, const LensFront& front, const ShaderDefines& defines);
     // With per-vertex lighting, shades the vertices of `front`; otherwise does nothing. The frame's uniforms must be
     // bound.
     void shadeVertices(const LensFront& front);
-    // Shades `count` records of the wave that starts at ray `firstRay`. Rays, records and the frame's uniforms must be
-    // bound.
+    // Shades `count` records (ray hits) of the batch of rays that starts at ray `firstRay`. Rays, records and the
+    // frame's uniforms must be bound.
     void shade(const LensFront& front, std::uint64_t count, std::uint32_t firstRay);
-    // Binds the textures and the uniforms of the material of a group, by index in LensFront::groups().
+    // Binds the textures and the uniforms of the material of group `group` of LensFront::groups().
     void bindMaterial(std::size_t group) const { materials_.bind(group); }
     [[nodiscard]] std::size_t bytes() const;
 
@@ -38,7 +38,7 @@ private:
     std::map<std::string, Program> programs_;
     ShaderDefines listDefines_;
     Program countProgram_, listProgram_, placesProgram_;
-    std::vector<const Program*> groupPrograms_;   // program 0 is for the sky
+    std::vector<const Program*> groupPrograms_;   // program 0 is for the sky, program i for group i − 1
     std::vector<const Program*> vertexPrograms_;  // one program per group; empty without per-vertex lighting
     MaterialBlocks materials_;
     Buffer groups_, dispatches_, list_;

@@ -1,7 +1,8 @@
 #pragma once
-// Cut-out and alpha-blended surfaces in the lens-space methods. After the visibility kernel, each ray that hits such a
-// surface stops there or goes on, depending on alpha at the hit (shaders/lens_space/let_through.comp). Rays that go on
-// find their next hit (behind.comp), until all rays have stopped.
+// Lets rays of the lens-space methods pass through cut-out and alpha-blended surfaces. After the visibility kernel,
+// each ray that hits such a surface stops there or goes on, depending on alpha at the hit
+// (shaders/lens_space/let_through.comp). Rays that go on find their next hit (behind.comp), until all rays have
+// stopped.
 //
 // Behind such a surface, a line sample continues as point samples, one from each shading point on the surface. This
 // approximation is not published: Tzeng et al. 2012 draw only opaque surfaces.
@@ -15,11 +16,12 @@ class SeeThrough {
 public:
     SeeThrough(std::filesystem::path shaderFolder, std::uint32_t tileSize);
 
-    // Prepares the programs for the groups of `front`. `defines`: shader defines of `front`, rays and kernel.
+    // Prepares the programs for the groups of surfaces of `front`. `defines`: shader defines of `front`, rays and
+    // kernel.
     void prepare(const FramePlan& plan, const LensFront& front, const ShaderDefines& defines);
-    // Moves the hits of `count` records of the wave that starts at ray `firstRay` to the surfaces at which their rays
-    // stop. Rays, records and the frame's uniforms must be bound. Returns the number of searches for a next hit. Throws
-    // Error if the driver cannot search a tile's list at once.
+    // Moves the hits of `count` records of the batch of rays that starts at ray `firstRay` to the surfaces at which the
+    // rays stop. Rays, records (hits) and the frame's uniforms must be bound. Returns the number of searches for a next
+    // hit. Throws Error if the driver cannot search a tile's list at once.
     std::uint64_t resolve(LensFront& front, const RecordShading& shading, std::uint64_t count, std::uint32_t firstRay);
 
 private:

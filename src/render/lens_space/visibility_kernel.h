@@ -10,7 +10,7 @@ namespace defocus::engine {
 // Bytes of a record (ray hit) in shaders/lens_space/records.glsl.
 inline constexpr std::size_t recordBytes = 4 * sizeof(std::uint32_t);
 
-// A wave: rays [first, first + count) of each pixel.
+// Batch (wave) of rays that are traced together: rays [first, first + count) of each pixel.
 struct RayWave {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
@@ -20,7 +20,7 @@ class VisibilityKernel {
 public:
     virtual ~VisibilityKernel() = default;
     [[nodiscard]] virtual std::string name() const = 0;        // name of the method
-    [[nodiscard]] virtual std::uint32_t tileSize() const = 0;  // px
+    [[nodiscard]] virtual std::uint32_t tileSize() const = 0;  // tile side in px
     // Returns whether lighting is computed at vertices and interpolated; otherwise it is computed at the hits.
     [[nodiscard]] virtual bool lightsVertices() const = 0;
     // Returns the rays for a plan. Throws Error if the method cannot draw the plan.
@@ -31,12 +31,14 @@ public:
     [[nodiscard]] virtual const char* addShader() const { return "lens_space/add.comp"; }
     // Returns the min bytes of the records of one ray.
     [[nodiscard]] virtual std::uint64_t rayBytes() const = 0;
-    // Prepares a frame; called before its first wave. `defines`: shader defines of LensFront and of the rays.
+    // Prepares a frame; called before the frame's first rays are traced. `defines`: shader defines of LensFront and of
+    // the rays.
     virtual void start(const FramePlan& plan, const RaySets& rays, const ShaderDefines& defines) = 0;
-    // Finds the hits of the wave's rays and returns the number of records. Reduces `wave.count` if the records would
-    // exceed the max buffer size. The frame's uniforms and the rays must be bound.
+    // Finds the hits of a batch (wave) of rays and returns their number. Reduces `wave.count` if the records of the
+    // hits would exceed the max buffer size. The frame's uniforms and the rays must be bound.
     virtual std::uint64_t find(LensFront& front, RayWave& wave) = 0;
-    // Binds the records for shaders/lens_space/, and for line samples also the range of records of each line.
+    // Binds the records (ray hits) for shaders/lens_space/, and for line samples also the range of records of each
+    // line.
     virtual void bindRecords() const = 0;
     virtual void addTo(RenderStats& stats) const = 0;
     [[nodiscard]] virtual std::size_t bytes() const = 0;

@@ -15,7 +15,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::uint32_t lineTile = 8;  // px
+constexpr std::uint32_t lineTile = 8;  // tile side in px
 constexpr std::size_t rangeBytes = 2 * sizeof(std::uint32_t);
 constexpr std::size_t jobRanges = 2;  // elements of `ranges` (kernel.glsl) per deferred job, which is a tile and a line
 // Mesa's llvmpipe ends the loops of a shader invocation after a total of 65,535 iterations. Kernels may do up to twice
@@ -196,7 +196,7 @@ private:
         return 2 + (exact_ ? 2 + 4 * std::size_t{capacity_} : 3 + 3 * std::size_t{segments_});
     }
 
-    // Finds the visible intervals on the lines of `wave` in all tiles.
+    // Finds the visible intervals on the lines of batch `wave` in all tiles.
     Counters draw(LensFront& front, const RayWave& wave) {
         // Allocate one element of `ranges` per line. If jobs may be deferred, also allocate space for all jobs, and for
         // as many saved states as fit into stateBytes.
@@ -208,7 +208,7 @@ private:
         const Places places{rays, rays + jobRanges * jobs, slots};
         const std::size_t bytes = sizeof(Counters) + places.states * rangeBytes + slots * slotBytes;
         if (output_.bytes() < bytes) {
-            output_ = Buffer();  // free the old buffer first, because memory may not suffice for both
+            output_ = Buffer();  // free the old buffer first: memory may not hold old and new buffers
             output_ = storage(bytes, "the lines of a wave");
         }
 
@@ -223,7 +223,8 @@ private:
         return readCounters();
     }
 
-    // Runs the deferred jobs until all are complete. Each dispatch runs as many jobs as there are states.
+    // Runs the deferred jobs (each is one line in one tile) until all are complete. Each dispatch runs as many jobs as
+    // there are saved states.
     void finishJobs(const Places& places) {
         const std::uint32_t count = readCounters().laterJobs;
         for (std::uint32_t first = 0; first < count; first += static_cast<std::uint32_t>(places.slots)) {
@@ -290,7 +291,7 @@ private:
     std::uint32_t maxRounds_ = 0;  // max loop iterations of a shader invocation per dispatch; 0: unlimited
     Totals totals_;
     std::uint64_t lines_ = 0;
-    std::uint64_t droppedEntries_ = 0;  // triangles beyond binSize_, summed over all tiles
+    std::uint64_t droppedEntries_ = 0;  // triangles dropped because a tile has more than binSize_
 };
 
 }  // namespace

@@ -41,7 +41,7 @@ double angleOfShare(const std::vector<double>& sums, double share) {
 
 // Position of a line in the pixel, and position of the shading point in a segment.
 struct WheelPoint {
-    glm::dvec2 pixel{0};  // [0, 1)
+    glm::dvec2 pixel{0};  // position in the pixel, [0, 1)
     double shading = 0;
 };
 

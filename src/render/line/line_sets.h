@@ -1,10 +1,10 @@
 #pragma once
-// Lines of each pixel: a wagon wheel of n lines through the lens centre (Tzeng et al. 2012), in which line i has the
-// angle π·(i + r)/n. Each variant (ray_sets.h) has its own rotation r of the wheel and its own positions of the lines
-// in the pixel. Equal lines in all pixels would be visible as strobing, an open problem in the paper.
+// Chooses the lines of each pixel: a wagon wheel of n lines through the lens centre (Tzeng et al. 2012), in which line
+// i has the angle π·(i + r)/n. Each variant (ray_sets.h) has its own rotation r of the wheel and its own positions of
+// the lines in the pixel. Equal lines in all pixels would be visible as strobing, an open problem in the paper.
 //
-// The lines' positions in the pixel are well distributed over the pixel and the wheel jointly, because surfaces in
-// focus are antialiased by the positions alone.
+// The lines' positions in the pixel are well distributed over the pixel and the wheel jointly, because only the
+// positions antialias surfaces in focus.
 //
 // Angles are spaced so that equal amounts of the aperture's light pass between them. Thus all lines have equal weight
 // for any aperture that is not given by an image.
@@ -25,8 +25,8 @@ struct LineSets {
 };
 
 // Returns the lines for a plan. If `turned` is false, all pixels have the same wheel and positions, as published.
-// Throws Error if the lens has an aperture image.
-// `linesPerPosition` lines share each position in the pixel (Figure 2 of the paper); their angles are evenly spread.
+// Groups of `linesPerPosition` lines share a position in the pixel (Figure 2 of the paper); the angles of each group
+// are evenly spread. Throws Error if the lens has an aperture image.
 LineSets lineSets(const FramePlan& plan, bool turned, std::uint32_t linesPerPosition = 1);
 
 // Returns the distance from the aperture's centre to its rim at `angle` in radians, without blade rotation and

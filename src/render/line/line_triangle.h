@@ -1,11 +1,11 @@
 #pragma once
-// Visibility of a triangle along a line through the lens. Reference in double precision for tests of
-// shaders/line/line.glsl.
+// Computes from which part of a line through the lens a triangle is visible, in double precision, as a reference for
+// tests of shaders/line/line.glsl.
 //
-// From lens point p·d, a clip-space vertex (x, y, w) with signed circle of confusion C appears at the offset
-// (α + p·β)/w from image position s, with α = (x, y) − w·s and β = C·d. The edge functions are also linear in p,
-// α_i × α_j + p·(α_i × β_j + β_i × α_j), because all β are parallel. They correspond to the inequality
-// C_i + u·A_i(y) − v·B_i(x) ≥ 0 of Tzeng et al. 2012 along a line.
+// From lens point p·d (d: direction of the line), a clip-space vertex (x, y, w) with signed circle of confusion C
+// appears at the offset (α + p·β)/w from image position s, with α = (x, y) − w·s and β = C·d. The edge functions are
+// also linear in p, α_i × α_j + p·(α_i × β_j + β_i × α_j), because all β are parallel. They correspond to the
+// inequality C_i + u·A_i(y) − v·B_i(x) ≥ 0 of Tzeng et al. 2012 along a line.
 
 #include <array>
 #include <glm/vec2.hpp>
@@ -13,7 +13,7 @@
 
 namespace defocus::engine {
 
-struct LensVertex {  // clip space
+struct LensVertex {  // vertex in clip space
     double x = 0;
     double y = 0;
     double w = 0;

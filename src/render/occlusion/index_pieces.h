@@ -1,6 +1,6 @@
 #pragma once
-// Divides the clusters of a level of detail into pieces of a few neighbouring triangles with a bounding box, for the
-// occlusion test. Clusters have up to 64 triangles, and their larger boxes would often extend in front of occluders.
+// Divides the clusters of a level of detail into pieces for the occlusion test: a few neighbouring triangles with a
+// bounding box. Clusters have up to 64 triangles, and their larger boxes would often extend in front of occluders.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -18,7 +18,7 @@ struct IndexPiece {
     glm::vec3 reach{0};   // half the side lengths of the box, object units
 };
 
-// Returns the pieces of a primitive at a level of detail, in index order.
+// Returns the pieces (groups of neighbouring triangles) of a primitive at a level of detail, in index order.
 std::vector<IndexPiece> indexPieces(const Pyramid& pyramid, std::uint32_t level, std::uint32_t primitive);
 
 }  // namespace defocus::engine

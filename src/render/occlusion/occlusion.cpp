@@ -14,7 +14,7 @@ namespace {
 
 // Below these counts, drawing hidden triangles costs less than the occlusion test.
 constexpr std::uint64_t minTriangles = 50'000;  // triangles of one sample
-constexpr std::uint64_t minInAll = 500'000;     // triangles of all samples except the first
+constexpr std::uint64_t minInAll = 500'000;     // triangles of all samples of the plan except the first
 constexpr double maxShown = 0.8;                // max fraction of visible triangles; above it, drawing all is faster
 
 std::uint64_t trianglesOfSample(const FramePlan& plan) {
@@ -24,7 +24,7 @@ std::uint64_t trianglesOfSample(const FramePlan& plan) {
     return triangles;
 }
 
-// Returns whether `runs` contains `piece`. `runs` must be sorted and must not split pieces.
+// Returns whether the index ranges `runs` contain `piece`. `runs` must be sorted and must not split pieces.
 bool isIn(const std::vector<IndexRange>& runs, const IndexPiece& piece) {
     const auto after = std::ranges::upper_bound(runs, piece.indices.first, {}, &IndexRange::first);
     return after != runs.begin() && piece.indices.first < std::prev(after)->first + std::prev(after)->count;

@@ -2,15 +2,15 @@
 // Finds the triangles that are hidden in a lens sample from the sample's depth buffer, so that a software rasterizer
 // can skip them. Without culling, a hidden triangle costs nearly as much as a visible triangle.
 //
-// In the first sample of a block, all triangles are drawn, and the pieces of each level (index_pieces.h) are classified
-// as visible or hidden. In each later sample, the pieces classified as visible are drawn first. The hidden pieces are
-// then tested against the sample's depth buffer, and drawn if they may be visible, so no visible triangle is lost.
-// Source: Greene, Kass and Miller 1993, Hierarchical Z-Buffer Visibility, where the previous frame takes the role of
-// the first sample. Where two surfaces have equal depth, the visible surface may differ from that without culling,
-// because the order of draws differs.
+// In the first sample of a block of 64, all triangles are drawn, and each piece (a few neighbouring triangles,
+// index_pieces.h) is classified as visible or hidden. In each later sample, the pieces classified as visible are drawn
+// first. The hidden pieces are then tested against the sample's depth buffer, and drawn if they may be visible, so no
+// visible triangle is lost. Source: Greene, Kass and Miller 1993, Hierarchical Z-Buffer Visibility, where the previous
+// frame takes the role of the first sample. Where two surfaces have equal depth, the visible surface may differ from
+// that without culling, because the order of draws differs.
 //
-// Several threads may draw the waves of a frame. The thread that draws the first sample of a block classifies the
-// pieces, and the threads that draw the block's other waves wait for the classification.
+// Several threads may draw the batches (waves) of samples of a frame. The thread that draws the first sample of a block
+// classifies the pieces, and the threads that draw the block's other batches wait for the classification.
 
 #include <cstdint>
 #include <future>
@@ -45,7 +45,8 @@ struct RemainingDraw {
     std::uint32_t indexCount = 0;
 };
 
-// Draws without hidden pieces, in the order of the original draws; sample by sample if samples need different pieces.
+// Draws without hidden triangles, in the order of the original draws; one draw per sample if samples need different
+// triangles.
 struct RemainingDraws {
     std::vector<RemainingDraw> draws;
     std::vector<std::uint32_t> indices;
@@ -58,12 +59,12 @@ struct PieceVisibility {
     bool hidesMuch = false;                // whether enough triangles are hidden for culling to be faster
 };
 
-// A wave's access to the classification of its block, which the block's first wave makes and all waves of the block
-// use. If the first wave cannot make it, because of an error or because the frame is abandoned, it destroys `made`, and
-// the waiting waves throw std::future_error.
+// Access of a batch (wave) of samples to the classification of its block. The batch with the block's first sample makes
+// the classification, and all batches of the block use it. If that batch cannot make the classification, because of an
+// error or because the frame is abandoned, it destroys `made`, and the waiting batches throw std::future_error.
 struct WaveVisibility {
     using Value = std::shared_ptr<const PieceVisibility>;
-    std::optional<std::promise<Value>> made;  // only in the block's first wave, until it has made the classification
+    std::optional<std::promise<Value>> made;  // set in the block's first batch until it has made the classification
     std::shared_future<Value> shared;
 
     void make(PieceVisibility visibility) {
@@ -77,15 +78,17 @@ public:
     // `world` must outlive this object.
     explicit Occlusion(const World& world) : world_(&world) {}
 
-    // Prepares culling for `plan`, which must exist until the last draw. Culling is off with few triangles, and if the
-    // lens or motion rules out the test.
+    // Prepares culling for `plan`, which must exist until the last draw. Nothing is culled if there are few triangles,
+    // or if the lens or motion makes the test impossible.
     void prepare(const FramePlan& plan, const std::vector<OccludableDraw>& draws);
-    // Returns whether waves are culled. If so, all triangles of the first sample of each block must be drawn.
+    // Returns whether hidden triangles are culled. If so, all triangles of the first sample of each block must be
+    // drawn.
     [[nodiscard]] bool culls() const { return !tested_.empty(); }
 
-    // Any number of threads may call the functions below. Each needs a current OpenGL context.
+    // Any number of threads may call the functions below. Each thread needs a current OpenGL context.
 
-    // Classifies the pieces in sample `sample`, all of whose triangles were drawn into layer `layer` of `depths`.
+    // Classifies the pieces (groups of triangles) as visible or hidden in sample `sample`, all of whose triangles were
+    // drawn into layer `layer` of `depths`.
     [[nodiscard]] PieceVisibility visibilityIn(std::uint32_t sample, const GlTexture& depths,
                                                std::uint32_t layer) const;
     // Returns the draws of hidden pieces that may be visible in samples [first, first + count), after the pieces

@@ -51,7 +51,7 @@ std::optional<HeldPlan> asBefore(const FramePlan& plan, const FramePlan& before)
 }
 
 Image objectPixels(const Image& level, const Image& coc) {
-    // Each object pixel marks the rows of its blur disk: +1 where a row of the disk begins, −1 where it ends.
+    // Mark the rows of each object pixel's blur disk: +1 where a row begins, −1 where it ends.
     const int width = level.width;
     std::vector<int> runs(static_cast<std::size_t>(width + 1) * static_cast<std::size_t>(level.height));
     for (int y = 0; y < level.height; ++y)

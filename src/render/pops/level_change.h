@@ -1,6 +1,6 @@
 #pragma once
-// Image changes that are caused only by a change of levels of detail: two plans of one view and pose that differ only
-// in levels, and the pixels that show the difference.
+// Finds image changes that are caused only by a change of levels of detail: makes two plans of one view and pose that
+// differ only in levels, and finds the pixels that show the difference.
 
 #include <optional>
 #include <vector>
@@ -23,7 +23,7 @@ const ObjectPlan* objectOf(const FramePlan& plan, int object);
 // frames. Returns nullopt if nothing differs, or if the numbers of samples differ.
 std::optional<HeldPlan> asBefore(const FramePlan& plan, const FramePlan& before);
 
-// Marks the levels that the plan's objects draw in FramePlan::levelsUsed.
+// Marks in FramePlan::levelsUsed the levels of detail that the plan's objects draw.
 void markUsed(FramePlan& plan);
 
 // Returns a mask of one channel: 1 where a pixel shows an object or lies within an object pixel's blur disk, else 0.
@@ -34,7 +34,7 @@ Image objectPixels(const Image& level, const Image& coc);
 // blur.
 Image pixelsOf(const std::vector<const ObjectPlan*>& changed, const FramePlan& plan, const Image& objects);
 
-// Renders a complete image. Needs a current GL context.
+// Renders a complete image of `plan`. Needs a current GL context.
 Image rendered(Renderer& renderer, const FramePlan& plan);
 
 // Returns the colours of a linear image as display values (sRGB, [0, 1], EV 0) in 3 channels.

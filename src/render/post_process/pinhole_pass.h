@@ -39,26 +39,27 @@ public:
     [[nodiscard]] PinholeImage& image() { return image_; }
 
     [[nodiscard]] std::size_t buckets() const { return buckets_.size(); }
-    // Draws a bucket of sample `index`, the sample of the latest draw(), on a transparent background, without the parts
-    // that surfaces in image() hide. Bucket 0 is the farthest.
+    // Draws a bucket (blended objects of similar depth) of sample `index`, the sample of the latest draw(), on a
+    // transparent background, without the parts that surfaces in image() hide. Bucket 0 is the farthest.
     [[nodiscard]] PinholeImage& drawBucket(std::uint32_t index, std::size_t bucket);
 
     [[nodiscard]] bool hasOwnBlur() const { return static_cast<bool>(image_.ownBlur); }
     [[nodiscard]] std::size_t bytes() const {
-        return image_.bytes() + multisampled_.bytes() + shadows_.bytes() + surfaces_.bytes() + (bucketPass_ ? bucketPass_->bytes() : 0);
+        return image_.bytes() + multisampled_.bytes() + shadows_.bytes() + surfaces_.bytes() +
+               (bucketPass_ ? bucketPass_->bytes() : 0);
     }
 
 private:
     LayerFormat format_;
     std::filesystem::path shaderFolder_;
     PinholeImage image_;
-    PinholeImage multisampled_;         // multisampled image; empty without multisampling
-    Target target_, resolvedTarget_;    // targets of the drawn image and, with multisampling, of image_
-    bool transparent_ = false;  // true if the background is transparent
+    PinholeImage multisampled_;       // multisampled image; empty without multisampling
+    Target target_, resolvedTarget_;  // targets of the drawn image and, with multisampling, of image_
+    bool transparent_ = false;        // true if the background is transparent
     ShadowMaps shadows_;
     SurfacePass surfaces_;
     std::vector<ObjectSet> buckets_;
-    std::vector<TexelRectangle> reaches_;  // one per bucket; see reachOf
+    std::vector<TexelRectangle> reaches_;  // rectangle of each bucket; see reachOf
     ObjectSet inNoBucket_;
     std::optional<BucketPass> bucketPass_;
 };

@@ -87,7 +87,7 @@ private:
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     }
 
-    // Blurs a bucket's image and composites it over the layer.
+    // Blurs the image of a bucket of blended objects and composites it over the layer.
     void layOver(PinholeImage& bucket) {
         if (!process_->blursAsTheLens()) bucket.part.reset();
         process_->draw(bucket, frame_, radianceTarget_);
@@ -123,7 +123,7 @@ private:
         const bool same = sum_ && sum_->info().width == view.width && sum_->info().height == view.height &&
                           sum_->info().format == format && pinhole_->hasOwnBlur() == plan_.usesOwnBlur;
         if (!same) {
-            layer_.reset();  // free the old layer and sum first, because memory may not suffice for both
+            layer_.reset();  // free the old layer and sum first: memory may not hold the old and new ones
             sum_.reset();
             layer_.emplace(WaveLayersInfo{view.width, view.height, 1, format});
             sum_.emplace(LayerSumInfo{view.width, view.height, format, options_.shaderFolder});

@@ -27,7 +27,7 @@ public:
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
-// Return settings that several post-process methods share.
+// Each function returns a setting that several post-process methods share.
 MethodSetting pinholesSetting();
 MethodSetting transparencyBucketsSetting(const char* defaultValue);
 

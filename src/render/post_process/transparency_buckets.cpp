@@ -55,7 +55,7 @@ std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::
 
     struct Step {
         double height = 0;       // difference between the blurs of two neighbours, px
-        std::size_t behind = 0;  // index into `blended` of the first object behind this step in blur
+        std::size_t behind = 0;  // index into `blended` of the first object behind this step
     };
     std::vector<Step> steps;
     const auto blurOf = [&](std::size_t i) { return middleOf(plan.objects[blended[i]].coc, plan.view.width); };

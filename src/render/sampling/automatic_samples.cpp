@@ -11,15 +11,16 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double gapOfPositions = 1.25;  // like QualityLimits::gap, in px, for samples with four positions
+// Max gap like QualityLimits::gap, in px, for samples with four pixel positions.
+constexpr double gapOfPositions = 1.25;
 constexpr double payingTriangles = 0.1;  // min triangles per pixel and sample for which four positions save time
-// Max image size in px with four positions, whose layers are twice as wide and high.
+// Max side in px of images with four pixel positions per sample, whose layers are twice as wide and high.
 constexpr int maxDoubledSide = 4096;
 constexpr double maxDoubledPixels = 4 << 20;
 constexpr std::uint32_t minSpread = 64;  // min samples for smooth penumbrae and motion
 
 struct QualityLimits {
-    double flip;        // target error
+    double flip;        // target error, as FLIP
     double firstGap;    // max distance in px between a blurred point's images in neighbouring samples
     double gap;         // like firstGap, for frames whose error is not estimated while they are drawn
     std::uint32_t min;  // min number of samples

@@ -1,6 +1,6 @@
 #pragma once
-// Automatic number of lens samples. A first number is predicted from the plan; the estimated error of the image then
-// decides whether more samples are drawn (frame_run.h).
+// Chooses the number of lens samples automatically. A first number is predicted from the plan; the estimated error of
+// the image then decides whether more samples are drawn (frame_run.h).
 
 #include <cstdint>
 

@@ -1,12 +1,12 @@
 #pragma once
-// Schedules the blocks of a frame whose number of lens samples is not known in advance. After each block, it decides
-// whether another block follows and with which settings. The schedule holds no image and makes no OpenGL calls; still
-// images and the window both use it.
+// Schedules the blocks of a frame whose number of lens samples is not known in advance. After each block of 64 samples,
+// it decides whether another block follows and with which settings. The schedule holds no image and makes no OpenGL
+// calls; still images and the window both use it.
 //
 // The error due to levels of detail cannot be estimated from differences between blocks that draw the same levels, so
-// it is measured before the first block (LevelError). Thresholds are chosen so that this error is less than half the
-// intended error: the target, or the error at the expected number of samples. Without this measurement, thresholds are
-// the defaults for four times the expected samples.
+// it is measured before the first block (LevelError). The thresholds that select levels are chosen so that this error
+// is less than half the intended error: the target, or the error at the expected number of samples. Without this
+// measurement, thresholds are the defaults for four times the expected samples.
 
 #include <functional>
 #include <optional>
@@ -38,8 +38,8 @@ struct LevelError {
 class BlockSchedule {
 public:
     BlockSchedule() = default;
-    // `settings` are the settings of the frame; their number of samples is ignored. `levels` is nullopt if the level
-    // error was not measured or level of detail is off.
+    // `settings` are the settings of the frame; their number of samples is ignored. `levels` is nullopt if the error
+    // due to levels of detail was not measured, or if level of detail is off.
     BlockSchedule(const RenderSettings& settings, const StopSettings& stop, std::optional<LevelError> levels = {});
     // Returns the schedule of a frame with an automatic number of samples. It ends once the estimated FLIP is below the
     // FLIP of `quality`. `expected`: first prediction of the number of samples. Level-of-detail thresholds are the

@@ -1,7 +1,7 @@
 #pragma once
-// Image of an interactive window. While the scene moves, each frame is drawn completely with few samples. While nothing
-// moves, blocks of 64 lens samples are added to the same sum. Each block has the level-of-detail thresholds for the
-// number of samples in the sum, so levels get finer as the sampling error decreases.
+// Renders the image of an interactive window. While the scene moves, each frame is drawn completely with few samples.
+// While nothing moves, blocks of 64 lens samples are added to the same sum. Each block has the level-of-detail
+// thresholds for the number of samples in the sum, so levels get finer as the sampling error decreases.
 
 #include <memory>
 #include <optional>
@@ -13,22 +13,23 @@ namespace defocus::engine {
 
 class ProgressiveImage {
 public:
-    // `world` must outlive this object; its pose may change between frames. grow() draws waves of options.wave samples
-    // (0: 4); small waves help grow() to keep its time limit. Needs a current OpenGL context.
+    // `world` must outlive this object; its pose may change between frames. grow() draws options.wave samples together
+    // (0: 4); a small number helps grow() to keep its time limit. Needs a current OpenGL context.
     ProgressiveImage(const World& world, const MethodUse& use, const RendererOptions& options);
 
     // Both functions draw a complete frame, with settings.sampleCount samples or with the samples of `plan`.
     void drawFrame(const View& view, const RenderSettings& settings);
     void drawFrame(FramePlan plan);
 
-    // Starts an image that grow() refines up to `max` samples, rounded up to complete blocks. The thresholds of a block
-    // are the defaults for the number of samples in the sum after this block.
+    // Starts an image that grow() refines up to `max` samples, rounded up to complete blocks of 64. The level-of-detail
+    // thresholds of a block are the defaults for the number of samples in the sum after this block.
     //
     // With `targetError`, for methods that sum blocks, the image is complete once its estimated error is below this
     // value. BlockSchedule then chooses the thresholds.
     void begin(const View& view, const RenderSettings& settings, std::uint32_t max,
                std::optional<double> targetError = {});
-    // Draws waves until about `milliseconds` have passed, at least one wave. Returns false once the image is complete.
+    // Draws batches (waves) of samples until about `milliseconds` have passed, at least one batch. Returns false once
+    // the image is complete.
     bool grow(double milliseconds);
 
     [[nodiscard]] std::uint32_t samples() const { return renderer_->samples(); }
@@ -40,7 +41,9 @@ public:
     [[nodiscard]] const FramePlan& plan() const { return plan_; }  // plan of the latest frame or block
     [[nodiscard]] const GlTexture* texture() { return renderer_->imageTexture(); }
     [[nodiscard]] RenderStats stats() const { return renderer_->stats(); }
-    [[nodiscard]] double millisecondsPerSample() const { return millisecondsPerSample_; }  // time in the latest grow()
+    [[nodiscard]] double millisecondsPerSample() const {
+        return millisecondsPerSample_;
+    }  // measured in the latest grow()
 
 private:
     void planBlock();

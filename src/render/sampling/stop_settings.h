@@ -1,5 +1,5 @@
 #pragma once
-// Conditions that end a frame whose number of lens samples is not known in advance.
+// Conditions that end the rendering of a frame whose number of lens samples is not known in advance.
 
 #include <cstdint>
 #include <optional>

@@ -23,7 +23,7 @@ namespace {
 constexpr double publishedLargest = 10;  // max blur diameter in px
 // Factors on the tap radius in the small image, whose pixels are 4 times as wide.
 constexpr float publishedSmallRadius = 0.4f;
-constexpr float trueSmallRadius = 0.25f;  // factor for equal tap positions in both images
+constexpr float trueSmallRadius = 0.25f;  // factor for taps at the same positions as in the image
 constexpr int smallReduction = 4;         // factor per side between the image and the small image
 constexpr std::uint32_t maxTaps = 64;
 constexpr std::uint32_t candidatesPerPoint = 32;

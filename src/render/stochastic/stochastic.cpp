@@ -9,9 +9,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::uint32_t pointTile = 8;                                // tile side in px
-constexpr std::uint32_t maxEntries = 40'000;                          // max list entries of a tile per dispatch
-constexpr std::size_t boundBytes = blockSamples * sizeof(glm::vec4);  // bytes of the rays' lens bounds per wave
+constexpr std::uint32_t pointTile = 8;        // tile side in px
+constexpr std::uint32_t maxEntries = 40'000;  // max list entries of a tile per dispatch
+// Bytes of the lens bounds of rays that are traced together.
+constexpr std::size_t boundBytes = blockSamples * sizeof(glm::vec4);
 
 class StochasticKernel final : public VisibilityKernel {
 public:
@@ -87,7 +88,7 @@ private:
     ShaderDefines defines_;
     Program program_;
     Buffer boundBlock_;
-    Buffer tests_;              // TestBlock of shaders/stochastic/visible.comp
+    Buffer tests_;              // uniform block TestBlock of shaders/stochastic/visible.comp
     std::uint64_t groups_ = 0;  // number of workgroups so far; each traces one ray per pixel of a tile
     RecordBuffer records_;
 };

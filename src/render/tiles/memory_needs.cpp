@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint64_t programBytes = 80u << 20;     // bytes of a software driver's compiled programs
 constexpr std::uint64_t contextBytes = 144u << 20;    // bytes of a thread: programs and pending triangles, measured
 constexpr std::uint64_t outputBytes = 16u << 20;      // bytes of the libraries that write the image, measured
-constexpr std::uint64_t occlusionTriangleBytes = 12;  // bytes per triangle of Occlusion, measured
+constexpr std::uint64_t occlusionTriangleBytes = 12;  // bytes per triangle for the occlusion test, measured
 
 std::uint64_t threeQuarters(std::uint64_t bytes) {
     return bytes / 4 * 3;
@@ -62,8 +62,8 @@ std::uint64_t sceneBytes(const World& world, const FramePlan& plan) {
     return bytes;
 }
 
-// Returns the needs of the frame and the memory that is available to the process now. `drawn` is the size of layers and
-// sums that will be replaced; `heldByDevice` is the size of the scene on a GPU; both in bytes.
+// Returns the needs of the frame and the memory that is available to the process now. `drawn`: bytes of layers and
+// accumulation buffers that will be replaced; `heldByDevice`: bytes of the scene on a GPU.
 TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLimits& limits, std::uint64_t limit,
                          std::uint64_t drawn = 0, std::uint64_t heldByDevice = 0) {
     TilingNeeds needs;
@@ -112,7 +112,7 @@ Tile trialTile(const FramePlan& plan) {
     return {{cell.left, cell.top, cell.width, 1}, cell};
 }
 
-// Returns the bytes of the layer, shadow maps and sums of the tile `trial`.
+// Returns the bytes of the layer, the shadow maps and the accumulation buffers of the tile `trial`.
 std::uint64_t trialBytes(const TilingNeeds& needs, const Tile& trial) {
     return pixelsOf(trial.cell.width, trial.cell.height) * needs.layerPixel + needs.layerMaps +
            pixelsOf(trial.area.width, trial.area.height) * sumPixelBytes;

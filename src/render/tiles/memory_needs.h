@@ -11,10 +11,10 @@
 
 namespace defocus::engine {
 
-// A request's limits on memory and layers.
+// Limits that a request sets on memory, on samples drawn together and on threads.
 struct DrawLimits {
     std::optional<std::uint64_t> memory;  // max bytes of the process; nullopt: 3/4 of the free memory
-    std::uint32_t wave = 0;               // lens samples per wave; 0: as many as fit into memory
+    std::uint32_t wave = 0;               // lens samples drawn together; 0: as many as fit into memory
     LayerFormat layerFormat = LayerFormat::automatic;
     std::optional<std::uint32_t> threads = {};  // threads that draw; see wantedThreads()
 };
@@ -42,8 +42,8 @@ void reserveThreads(TilingNeeds& needs, std::uint32_t threads);
 // Returns RendererOptions::pendingBytes for a frame: the default, or a twelfth of `limit` if this is less.
 std::uint64_t pendingBytesWithin(std::uint64_t limit);
 
-// Returns the number of layers per wave: TilingNeeds::askedWave, or as many as fit together with sums and images into
-// at most a quarter of the memory. `needs` is the result of needsBeforeUpload().
+// Returns the number of samples that are drawn together, each into its layer: TilingNeeds::askedWave, or as many as fit
+// together with sums and images into at most a quarter of the memory. `needs` is the result of needsBeforeUpload().
 std::uint32_t waveWithin(const TilingNeeds& needs);
 
 // Returns the needs of the full frame before its scene is uploaded. With software drivers, they include meshes and

@@ -1,8 +1,9 @@
 #pragma once
-// Parts of a frame that are rendered separately and joined into one image: a range of rows with all lens samples
-// (row_file.h), or the sums of a range of lens samples (sum_file.h).
+// Reads and checks the headers of files with a part of a frame: a range of rows with all lens samples (row_file.h), or
+// the sums of a range of lens samples (sum_file.h). The parts are rendered separately and joined into one image.
 //
-// Both are EXR files whose metadata contain the frame's settings ("defocus:settings") and the range of rows or samples.
+// Both kinds of file are EXR files whose metadata contain the frame's settings ("defocus:settings") and the range of
+// rows or samples.
 
 #include <cstdint>
 #include <filesystem>
@@ -28,7 +29,7 @@ std::string rangeText(const SampleRange& range);
 // Parses "first:end", e.g. "64:128". Throws Error unless both are integers, first < end, and first is a multiple of 64.
 SampleRange parseSampleRange(std::string_view text);
 
-// Throws Error unless the range's end is a multiple of 64 or `samples`, the number of samples of the frame.
+// Throws Error unless the end of the range is a multiple of 64 or equals `samples`, the number of samples of the frame.
 void checkSampleRange(const SampleRange& range, std::uint32_t samples);
 
 // Part `index` (0 … count − 1) of `count` equal parts of a frame's rows.
@@ -47,7 +48,7 @@ const std::string* textAttribute(const Metadata& metadata, const char* name);
 // commas. Returns "their settings differ" if the metadata name no such setting.
 std::string settingsDifference(const Metadata& first, const Metadata& second);
 
-// Removes attributes of the file format (compression, windows, …), which do not describe the frame.
+// Removes attributes that describe the file (compression, windows, …) instead of the frame.
 void dropFileAttributes(Metadata& metadata);
 
 }  // namespace defocus::engine

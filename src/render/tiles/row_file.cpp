@@ -43,7 +43,7 @@ std::string rowsText(const RowRange& rows) {
                                       : fmt::format("rows {} to {}", rows.first, rows.end - 1);
 }
 
-// Returns the number of parts if all files are parts of the same number of parts; otherwise nullopt.
+// Returns the number of parts into which the rows are divided, if it is the same in all files; otherwise nullopt.
 std::optional<int> commonCount(const std::vector<RowFile>& tiles) {
     std::optional<int> count;
     for (const RowFile& tile : tiles) {

@@ -1,7 +1,7 @@
 #pragma once
-// Files with a range of rows of a frame, with its full width and all lens samples. Each is an EXR image whose display
-// window is the frame and whose data window is the rows, so viewers show the rows at their position in the frame. Files
-// are joined by copying pixels, with a few rows in memory at a time.
+// Reads, writes and joins files with a range of rows of a frame, with the frame's full width and all lens samples. Each
+// is an EXR image whose display window is the frame and whose data window is the rows, so viewers show the rows at
+// their position in the frame. Files are joined by copying pixels, with a few rows in memory at a time.
 
 #include <filesystem>
 #include <string>

@@ -17,7 +17,7 @@ constexpr const char* firstAttribute = "defocus:firstSample";
 constexpr const char* endAttribute = "defocus:endSample";
 constexpr const char* frameSamplesAttribute = "defocus:frameSamples";
 constexpr const char* secondsAttribute = "defocus:seconds";
-constexpr const char* noBlocks = "none";  // layer of a part without blocks: EXR files need at least one channel
+constexpr const char* noBlocks = "none";  // layer of a file without blocks: EXR files need a channel
 
 std::string layerName(std::uint32_t firstSample, const char* what) {
     return fmt::format("samples{:05}.{}", firstSample, what);
@@ -150,7 +150,7 @@ MergedFrame mergeParts(const std::vector<fs::path>& paths) {
         parts, {}, [](const NamedPart& named) { return std::pair(named.part.range.first, named.part.range.end); });
     checkComplete(parts);
 
-    // Add the blocks in order.
+    // Add the blocks in sample order.
     MergedFrame merged;
     merged.metadata = parts.front().part.metadata;
     BlockMerge merge;

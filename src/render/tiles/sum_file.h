@@ -1,5 +1,5 @@
 #pragma once
-// Files with the sums of a range of lens samples of a frame.
+// Writes and merges files with the sums of a range of lens samples of a frame.
 //
 // A frame's sum is the sum of its blocks of 64 samples, added in order (render/accumulation/layer_sum.h). Compensated
 // sums are not exactly associative, so a file stores each block separately, in two layers: value and compensation,
@@ -25,8 +25,8 @@ struct FramePart {
     Metadata metadata;  // metadata of the full frame
 };
 
-// `path` must end in .exr. Both functions throw Error, with the path in its message, if the file cannot be read or
-// written.
+// `path` must end in .exr. writePart() and readPart() throw Error, with the path in its message, if the file cannot be
+// written or read.
 void writePart(const std::filesystem::path& path, const FramePart& part);
 FramePart readPart(const std::filesystem::path& path);
 
@@ -35,8 +35,8 @@ struct MergedFrame {
     Metadata metadata;
 };
 
-// Merges the parts of one frame, given in any order. Throws Error, with the paths in its message, if parts overlap, are
-// missing, divide a block or differ in settings. Needs a current OpenGL context.
+// Merges the files of one frame, given in any order. Throws Error, with the paths in its message, if sample ranges
+// overlap, are missing or divide a block of 64 samples, or if settings differ. Needs a current OpenGL context.
 MergedFrame mergeParts(const std::vector<std::filesystem::path>& paths);
 
 }  // namespace defocus::engine

@@ -7,7 +7,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the contribution of one tile of the band to rowsDone().
+// Returns the number of rows by which one tile of the band increases rowsDone().
 double rowsOfTile(const Band& band) {
     return static_cast<double>(band.rows.end - band.rows.first) / static_cast<double>(band.tiles.size());
 }

@@ -19,7 +19,7 @@ public:
     // tiles (Method::drawsTiles).
     TileWalk(Renderer& renderer, const FramePlan& plan, const std::vector<Band>& bands, Sink sink);
 
-    // Draws one wave of the current tile. Returns false once all tiles are complete.
+    // Draws one batch (wave) of samples of the current tile. Returns false once all tiles are complete.
     bool advance();
 
     // Returns the number of complete image rows, plus a fraction for complete tiles and samples of the current band.

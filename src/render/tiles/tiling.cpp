@@ -48,7 +48,7 @@ std::uint64_t rowsThatFit(const TilingNeeds& needs, std::uint64_t cellWidth, std
 }
 
 // Returns the number of bands for `length` rows with at most `max` rows each. Uses up to 50 % more bands for equal
-// heights, because a band of another height needs new sums while drivers still keep the old sums.
+// heights, because a band of another height needs new accumulation buffers while drivers still keep the old ones.
 int bandCount(int length, int max) {
     const int fewest = (length + max - 1) / max;
     for (int count = fewest; count <= fewest + fewest / 2; ++count)
@@ -104,7 +104,7 @@ Tiling chosenTiling(const TilingNeeds& asked) {
     const int rows = static_cast<int>(std::min<std::uint64_t>(fitting, static_cast<std::uint64_t>(needs.height)));
 
     // Divide each row of cells (plan/visible/tiles.h) into bands of equal height, except for the last band, because a
-    // change of size reallocates layers and sums.
+    // change of size reallocates layers and accumulation buffers.
     for (const PixelRectangle& cell : cells) {
         if (cell.left > 0) continue;
         const int first = std::max(cell.top, needs.rows.first);

@@ -1,5 +1,6 @@
 #pragma once
-// Divides a frame into tiles that fit into memory: chooses the layers per wave and the rows per band of tiles.
+// Divides a frame into tiles that fit into memory: chooses how many samples are drawn together and how many rows each
+// band of tiles has.
 
 #include <cstdint>
 #include <vector>
@@ -16,11 +17,11 @@ struct TilingNeeds {
     std::uint64_t layerPixel = 12;   // bytes per pixel of a layer: colour, depth and backdrop
     std::uint64_t layerMaps = 0;     // bytes of shadow maps per layer
     std::uint64_t waveBytes = 0;     // max bytes of all layers
-    std::uint32_t askedWave = 0;     // requested layers per wave; 0: as many as fit into waveBytes
-    std::uint64_t deviceMemory = 0;  // free bytes for layers and sums
+    std::uint32_t askedWave = 0;     // requested number of samples drawn together; 0: as many as fit into waveBytes
+    std::uint64_t deviceMemory = 0;  // free bytes for layers and accumulation buffers
     std::uint64_t hostMemory = 0;    // free bytes for rows that are read back and written
     bool shared = true;              // true: device and host memory are the same
-    std::uint64_t elsewhere = 0;     // bytes of the process without layers and sums; 0: unknown
+    std::uint64_t elsewhere = 0;     // bytes of the process without layers and accumulation buffers; 0: unknown
     std::uint64_t keptBytes = 0;     // bytes of images kept in main memory while drawing
     bool mayUseCells = true;         // false: the image must not be divided into cells (plan/visible/tiles.h)
 };
@@ -33,11 +34,11 @@ struct Band {
 };
 
 struct Tiling {
-    std::uint32_t wave = 1;   // number of layers per wave
+    std::uint32_t wave = 1;   // number of samples drawn together, each into its layer
     std::vector<Band> bands;  // bands from top to bottom
 };
 
-// Bytes per pixel of the sums on the device, and of a tile and a band on the host.
+// Bytes per pixel of the accumulation buffers on the device, and of a tile and a band on the host.
 inline constexpr std::uint64_t sumPixelBytes = 9 * 16;
 inline constexpr std::uint64_t tilePixelBytes = 16;  // RGBA, read back
 inline constexpr std::uint64_t bandPixelBytes = 16;  // RGBA, with the full width of the image
