@@ -1,12 +1,13 @@
-// Adds the layers of a wave (a batch of lens samples) to the block's sum like add_layers.frag, and also to the sums of
-// the blur classes (groups of samples with similar blur; see include/cells.glsl).
+// Adds a batch (wave) of lens samples, one layer per sample, to the sum of the current block of samples like
+// add_layers.frag, and also to the sums of the blur classes (the samples of a pixel sorted by blur; see
+// include/cells.glsl).
 #include "accumulation/layer_light.glsl"
 #include "include/cells.glsl"
 
 layout(binding = 6) uniform sampler2DArray layerDepths;
-// Sums of the first drawnClasses blur classes, which are colour attachments.
+// Previous sums of the first drawnClasses blur classes; the new sums are written to colour attachments.
 layout(binding = 7) uniform sampler2DArray drawnSums;
-// Sums of all blur classes; used only for the classes that are not colour attachments.
+// Sums of the other blur classes, which are read and written as an image; layers below drawnClasses are unused.
 layout(rgba32f, binding = 0) uniform image2DArray cellSums;
 // Per tile, a bit mask of the blur classes with samples in the tile.
 layout(r32ui, binding = 1) uniform uimage2D heldClasses;
@@ -62,7 +63,7 @@ void main() {
         }
         addLayer(sum, compensation, light / float(positions), layer);
     }
-    // Alpha counts samples. Sums of integers are exact, so they need no compensation.
+    // Alpha counts samples. Sums of integers are exact in floats, so alpha needs no compensation.
     if (backgroundType != 0) sum.a += catEye > 0.0 ? seen : float(layerCount);
     for (int k = 0; k < drawnClasses; ++k) cellsOut[k] = cells[k];
     for (int k = drawnClasses; k < cellClasses; ++k) imageStore(cellSums, ivec3(pixel, k), cells[k]);

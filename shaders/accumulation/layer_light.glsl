@@ -1,4 +1,4 @@
-// Composites the layers of a wave (a batch of lens samples, one layer each) over the environment.
+// Composites a batch (wave) of lens samples, one layer per sample, over the environment.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -59,7 +59,7 @@ vec2 barrelRim(vec2 imagePlane) {
     return catEye * imagePlane * frame.projection.xy * vec2(1.0, 1.0 / aspect) * inversesqrt(1.0 + 1.0 / (aspect * aspect));
 }
 
-// Returns true if the barrel clips the sample. `rim` is barrelRim().
+// Returns true if the barrel clips the sample. `rim`: result of barrelRim().
 bool isClipped(int layer, vec2 rim) {
     vec2 onLens = lensPointOf(layer) + rim;
     return dot(onLens, onLens) > 1.0;

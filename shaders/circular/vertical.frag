@@ -68,7 +68,7 @@ void main() {
         kernelSum += times(times(weight, rowNorm), norm).x;
     }
     if (components < kernelSize) {
-        // The kernel's sum includes the components that other runs of this pass filter.
+        // If this pass filters only some of the kernel's components, kernelSum must still include all of them.
         kernelSum = 0.0;
         for (int c = 0; c < kernelSize; ++c) {
             vec2 norm = tapSum(kernel[c], taps);

@@ -1,5 +1,6 @@
-// The environment: radiance along a direction, and irradiance of a surface. environmentType: 0 none, 1 uniform, 2
-// gradient, 3 map. backgroundType: type of the environment drawn behind surfaces, 0 or equal to environmentType.
+// Evaluates the environment: its radiance along a direction, and the irradiance of a surface. environmentType: 0 none,
+// 1 uniform, 2 gradient, 3 map. backgroundType: type of the environment drawn behind surfaces, 0 or equal to
+// environmentType.
 
 #include "include/lighting.glsl"
 

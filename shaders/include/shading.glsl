@@ -26,14 +26,14 @@ struct SurfacePoint {
     float roughness;      // perceptual roughness
     vec3 normal;          // unit vector in world axes, like all directions in this struct
     vec3 toEye;           // unit vector
-    vec3 emission;        // emitted radiance; only if emissive
+    vec3 emission;        // emitted radiance; set only if emissive
     vec3 normalRight;     // change of the interpolated normal over one pixel to the right
     vec3 normalUp;        // change of the interpolated normal over one pixel up
     // The next three members are set only if coarseLevel.
     float agreement;      // length |n| of the mean of the unit normals that `normal` represents, in (0, 1]
     float spread;         // result of normalSpread(agreement)
     vec3 seen;            // mean of the visible normals, see seenNormal()
-    float grazing;        // reflectance at grazing angles, F90; used only if ownReflectance, otherwise 1
+    float grazing;        // reflectance at grazing angles, F90; 1 unless ownReflectance
     vec3 transmitted;     // radiance from behind the surface, before the loss by reflection
     // The next two members are set only if the material has sheen.
     vec3 sheen;           // colour of the sheen
@@ -51,11 +51,11 @@ struct SurfacePoint {
     float iridescence;    // fraction of the surface with a film
     float film;           // thickness of the film (nm)
     vec3 filmBase;        // F0 with which Schlick's term gives the film's reflectance towards the eye
-    vec3 through;         // albedo of the diffuse light from behind; only if diffusesThrough
-    vec3 hidden;          // occluded irradiance of the environment, divided by π; only if shadowed
+    vec3 through;         // albedo of the diffuse light from behind; set only if diffusesThrough
+    vec3 hidden;          // occluded irradiance of the environment, divided by π; set only if shadowed
 };
 
-vec3 lightShares[lightCount + 1];   // fraction of each light that reaches the surface; only if shadowed
+vec3 lightShares[lightCount + 1];   // fraction of each light that reaches the surface; set only if shadowed
 
 // Sums over all lights. E: illuminance; D: distribution of normals; V: masking / (4·(n·l)·(n·v)); g: (1 − v·h)⁵.
 struct LightSums {
@@ -67,7 +67,7 @@ struct LightSums {
     // The next two sums are for iridescent surfaces. F: the film's reflectance at v·h.
     vec3 film;            // Σ E·(n·l)·D·V·F
     vec3 beneathFilm;     // Σ E·(n·l)·(1 − max F) / π
-    vec3 behind;          // Σ E·max(−n·l, 0) / π; only if diffusesThrough
+    vec3 behind;          // Σ E·max(−n·l, 0) / π; set only if diffusesThrough
 };
 
 // Returns the mean of max(n·l, 0) over the normals n that a coarse level's normal represents. `mean` is the mean of
@@ -100,8 +100,8 @@ vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     return agreement * normal + turn * inversesqrt(1.0 + bound) * (toEye - nv * normal);
 }
 
-// Returns 2σ², where σ² is the variance of the slopes of the fine normals that one normal n of a coarse level averages:
-// σ² ≈ (1 − |n|)/|n| (Toksvig 2005, Mipmapping Normal Maps).
+// Returns 2σ², where σ² is the variance of the slopes of the full-detail normals that one normal n of a coarse level
+// averages: σ² ≈ (1 − |n|)/|n| (Toksvig 2005, Mipmapping Normal Maps).
 float coarseSpread(SurfacePoint point) {
     return 2.0 * (1.0 - point.agreement) / point.agreement;
 }
@@ -162,7 +162,7 @@ struct Lobe {
     vec2 widths2;         // α² + 2σ² along and across the axis
     float share;          // weight of Beckmann's distribution
     float shown;          // cosine between the eye and the normals of Beckmann's part: shown + shownOfH · v·h
-    float shownOfH;       // coefficient of v·h in that cosine
+    float shownOfH;       // coefficient of v·h in the cosine shown + shownOfH · v·h
 };
 
 Lobe lobeOf(SurfacePoint point, float nv, Spread spread) {

@@ -1,4 +1,4 @@
-// Radiance of a surface towards one lens sample.
+// Computes the radiance of a surface towards the lens point of one lens sample.
 
 #include "include/layer_format.glsl"
 #include "include/environment.glsl"

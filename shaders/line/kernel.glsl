@@ -1,5 +1,5 @@
-// Inputs of the kernel that finds the visible segments of lines. A workgroup processes one tile and one line of each of
-// the tile's pixels.
+// Declares the inputs and outputs of the kernel that finds the visible segments of lines. A workgroup processes one
+// tile and one line of each of the tile's pixels.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -18,13 +18,13 @@ layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
 layout(std430, binding = 1) buffer OutputBlock {
     uint recordCount;       // number of requested records
     uint droppedSegments;
-    uint droppedLight;      // in units of 1/1024 of a line's light
+    uint droppedLight;      // light of the dropped segments, in units of 1/1024 of a line's light
     uint mergedSegments;
     uint laterJobs;         // jobs deferred to later dispatches
     uint unfinishedJobs;    // jobs of this dispatch that are not finished
-    // Three consecutive parts. The first has (first record, number of records) for each line of the wave. The second
-    // has two elements for each deferred job: (tile, line) and (next entry, status). The third has the saved states of
-    // the lines of unfinished jobs.
+    // The array has three ranges. The first holds (first record, number of records) for each line that is traced in
+    // this draw. The second holds two elements for each deferred job: (tile, line) and (next entry, status). The third
+    // holds the saved states of the lines of unfinished jobs.
     uvec2 ranges[];
 };
 struct Bounds {
@@ -37,8 +37,8 @@ layout(std140, binding = 7) uniform BoundBlock { Bounds lensBounds[maxRays]; };
 
 layout(location = 2) uniform uint firstTile;       // first tile whose list is in `entries`
 layout(location = 3) uniform uint recordCapacity;
-// Distance in px that a surface may move in the image, along a segment, per shading point; 0: one shading point per
-// segment.
+// One shading point is used for each shadingStep px that a surface moves in the image along a segment; 0: one shading
+// point per segment.
 layout(location = 5) uniform float shadingStep;
 // A job is the work of a workgroup: one tile, and one line sample of each of its pixels. Mesa's software driver ends
 // the loops of a thread after a total of 65,535 iterations (rounds). Jobs that need more continue in later dispatches.

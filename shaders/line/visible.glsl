@@ -216,7 +216,8 @@ void main() {
         }
         if (halted == 0u) continue;
 
-        // In the first dispatch, the job is deferred and restarts later. In later dispatches, its state is saved.
+        // Jobs of the first dispatch are deferred and restart later. In later dispatches, the state of an unfinished
+        // job is saved.
         bool putOff = jobs.x == 0u;
         if (gl_LocalInvocationIndex == 0u) {
             if (putOff) {
@@ -245,7 +246,7 @@ void main() {
     uint at = atomicAdd(recordCount, needed);
     ranges[index] = uvec2(at, needed);
     countDropped();
-    if (at + needed > recordCapacity) return;   // the CPU enlarges the buffer and draws the wave again
+    if (at + needed > recordCapacity) return;   // the CPU enlarges the buffer and repeats the draw
     for (Piece piece = firstPiece(whole); piece.last > piece.first; piece = nextPiece(piece, whole))
         at += writeRecords(at, index, piece.triangle, piece.first, piece.last, mine);
 }
