@@ -17,7 +17,7 @@ constexpr std::size_t channels = 5;  // red, green, blue, alpha and weight
 constexpr double cellBlur = 0.5;
 constexpr double minVariance = 0.01;  // px²; subtracted from every variance, because a smaller blur is invisible
 
-// Returns the blur variance in px² of class k, a group of pixels with similar blur.
+// Returns the blur variance in px² of class k of the pixels sorted by blur.
 double classVariance(std::size_t k) {
     return 0.5 * std::ldexp(1.0, 2 * static_cast<int>(k));
 }
@@ -106,8 +106,8 @@ void GapFilling::add(std::span<const DeepMovedImage> images) {
     for (const DeepMovedImage& moved : images) weights_ += static_cast<double>(moved.weight);
 }
 
-// Composites a class (the pixels of similar blur, `shown`) over `image`. `nearer`: for each pixel, the weight of the
-// samples in nearer classes.
+// Composites the pixels `shown`, which have similar blur, over `image`. `nearer`: for each pixel, the weight of the
+// samples that lie nearer to the camera than this class of pixels.
 void GapFilling::layOver(Image& image, const Sum& shown, const std::vector<float>& nearer, double variance) const {
     std::vector<float> open(nearer.size());
     for (std::size_t p = 0; p < open.size(); ++p) open[p] = static_cast<float>(weights_) - nearer[p];
