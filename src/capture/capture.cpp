@@ -85,11 +85,11 @@ struct DrawnFrame {
     Image image;  // image of an untiled frame
     std::optional<LayerImages> layers;
     std::shared_ptr<const Scene> scene;
-    FramePart part;  // partial sums, if only some of the samples are drawn
+    FramePart part;  // partial sums; set if only some of the samples are drawn
     Metadata metadata;
     RenderStats stats;
     FrameTimes times;
-    bool written = false;  // whether the files are already complete, as for a frame in tiles
+    bool written = false;  // true: the files are already complete, as for a frame in tiles
 };
 
 // Returns the request's stop conditions without the time limit. The time limit ends the run instead of a frame, so that
@@ -100,13 +100,13 @@ StopSettings stopOf(const FilmOptions& options) {
     return stop;
 }
 
-// Returns the metadata for the file with index `file` of a frame: `ofFrame` with that file's settings hash.
+// Returns the metadata for the file with index `file` of a frame: the metadata `ofFrame` with the file's settings hash.
 Metadata fileMetadata(const FilmFrame& film, std::size_t file, const Metadata& ofFrame) {
     Metadata metadata = ofFrame;
     metadata[settingsAttribute] = film.settings[file];
     const std::string ending = film.files[file].extension().string();
     if (ending != ".exr" && ending != ".png")
-        metadata["comments"] = film.settings[file];  // JPEG files store no other text attribute
+        metadata["comments"] = film.settings[file];  // JPEG files keep no other text attribute
     return metadata;
 }
 
@@ -199,7 +199,7 @@ DrawnFrame drawFrame(const FilmFrame& film, FrameMoment moment, World& world, Fr
     return drawn;
 }
 
-// Computes a frame of a run from lens images.
+// Computes a frame of `run` from the run's lens images (one image per lens sample).
 DrawnFrame refocusFrame(const RefocusRun& run, FrameMoment moment, World& world, FrameDriver& driver,
                         RefocusedPictures& pictures, const FilmMetadata& metadata,
                         const std::function<void(double)>& step) {

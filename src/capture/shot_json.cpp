@@ -67,7 +67,7 @@ std::optional<FrameRange> movementFrames(const JsonReader& reader) {
     return range;
 }
 
-// Returns the keys of a track with their frame numbers. Throws Error unless these are strictly increasing.
+// Returns the keys of a track with their frame numbers. Throws Error unless the frame numbers are strictly increasing.
 std::vector<std::pair<double, JsonReader>> keysOf(const JsonReader& reader, const std::vector<std::string>& known) {
     std::vector<std::pair<double, JsonReader>> keys;
     for (const JsonReader& key : reader.elements(1, "one key or more, each with a frame")) {
@@ -250,7 +250,7 @@ std::optional<JsonReader> findPlace(const JsonReader& reader, std::string_view p
 }
 
 // Returns the allowed keys of the shot's JSON object at the JSON pointer `place` ("" for the document): the keys of
-// settings at this location, and `own`.
+// settings at this location, and the keys `own`.
 std::vector<std::string> keysAt(std::string_view place, std::vector<std::string> own) {
     for (const Setting& setting : settings()) {
         const std::string_view path = setting.shotPlace;

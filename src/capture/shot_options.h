@@ -12,10 +12,10 @@
 namespace defocus::engine {
 
 // Sets the shot's constant values in the request as if they were given as options. Lens values are left out, because
-// these may have keys.
+// they may have keyframes.
 void applyShot(const Shot& shot, Request& request);
 
-// Records whether these options were given on the command line, which Request does not tell.
+// Records which of these options were given on the command line, because Request does not contain this information.
 struct GivenOptions {
     bool camera = false;
     bool shutter = false;
