@@ -1,5 +1,5 @@
 #pragma once
-// Warnings about a picture that are derived from its plan, its request and its scene.
+// Returns warnings about a picture that are derived from its plan, its request and its scene.
 
 #include <cstdint>
 #include <string>
