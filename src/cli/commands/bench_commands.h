@@ -1,5 +1,5 @@
 #pragma once
-// Sub-commands of `defocus bench` that have files of their own.
+// Declares the sub-commands of `defocus bench` that have files of their own, and functions that they share.
 
 #include <filesystem>
 #include <initializer_list>
@@ -17,7 +17,8 @@ namespace defocus::engine {
 // Throws Error if the folder or a file cannot be written.
 void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list<const char*> files);
 
-// Adds the option --allow-changed, which sets `allowed` to true.
+// Adds the option --allow-changed. It sets `allowed` to true, which allows results of a program built from changed
+// sources.
 void addAllowChanged(CLI::App& command, bool& allowed);
 
 // Throws Error if a program built from changed sources (see programCommit) would write results to `output`: such

@@ -17,8 +17,8 @@ void setStopMessage(std::string message);
 // Sets a function that the second thread calls before it ends the process, to save what is finished. It replaces the
 // line of setStopMessage(): the function returns the line to print. It runs while the main thread may be inside a draw.
 void setStopAction(std::function<std::string()> save);
-// Makes the calling thread responsible for saving finished results and for ending the process, instead of the second
-// thread. Doesn't return if the second thread has begun to end the process.
+// Makes the calling thread, instead of the second thread, responsible for saving finished results and for ending the
+// process. Doesn't return if the second thread has begun to end the process.
 void endWithoutSecondThread();
 
 }  // namespace defocus::engine
