@@ -21,7 +21,7 @@ layout(location = 1) out vec4 cellsOut[drawnClasses];
 // to which blended surfaces add their alpha.
 const float blendedAlpha = 1.001;
 
-// Adds a layer's pixel to the sums of the blur classes, according to the pixel's blur.
+// Adds `value`, the radiance of a layer's pixel, to the sums of the blur classes that match the pixel's blur.
 void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel) {
     vec2 ndc = onImagePlane(vec2(texel.xy) + 0.5) * frame.projection.xy;
     float c = circleOfConfusion(texelFetch(layerDepths, texel, 0).r, ndc, vec2(1.0, 0.0));
@@ -45,7 +45,7 @@ uint heldBy(vec4 sums[cellClasses], float samples) {
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 sum = startsBlock ? vec4(0.0) : texelFetch(sumSoFar, pixel, 0);
-    vec4 compensation = vec4(0.0);   // discarded, because blurred sums need only single precision
+    vec4 compensation = vec4(0.0);   // unused, because blurred sums need only single precision
     vec2 rim = barrelRim(pixelOnImagePlane());
     vec4 cells[cellClasses];
     for (int k = 0; k < drawnClasses; ++k) cells[k] = startsBlock ? vec4(0.0) : texelFetch(drawnSums, ivec3(pixel, k), 0);

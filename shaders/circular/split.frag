@@ -10,7 +10,7 @@ layout(location = 0) uniform float largestRadius;   // max radius of the blur, i
 layout(location = 1) uniform float perFarDiameter;  // 1 / max diameter behind the focus plane (px)
 layout(location = 2) uniform float perNearDiameter; // 1 / max diameter in front of the focus plane (px)
 
-layout(location = 0) out vec4 farField;             // with combinedFields, both fields in one image
+layout(location = 0) out vec4 farField;             // far field; with combinedFields, the sum of both fields
 layout(location = 1) out float farRadius;
 layout(location = 2) out float nearRadius;
 layout(location = 3) out vec4 nearField;            // near field; absent with combinedFields

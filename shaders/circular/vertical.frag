@@ -4,7 +4,7 @@
 // relative to the disk's radius.
 #include "include/complex_kernel.glsl"
 
-// output of horizontal.frag
+// Sums over rows, the output of horizontal.frag.
 layout(binding = 0) uniform sampler2D sums[bracketed ? 3 * components + 1 : 2 * components];
 layout(binding = 9) uniform sampler2D brightest;
 layout(location = 16) uniform vec4 brackets[components];

@@ -5,8 +5,8 @@
 
 struct CocPieces {
     float factor;   // blur factor of the surface times (1 + g·r²), as in circle_of_confusion.h
-    float front;    // w·F; negative in front of the focus plane
-    float behind;   // w·B; positive behind the focus plane
+    float front;    // w·F of circle_of_confusion.h; negative in front of the focus plane
+    float behind;   // w·B of circle_of_confusion.h; positive behind the focus plane
     float added;
 };
 

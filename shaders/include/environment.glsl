@@ -5,7 +5,7 @@
 #include "include/lighting.glsl"
 
 #ifdef ENVIRONMENT_MAP
-layout(binding = 5) uniform sampler2D environmentMap;   // equirectangular; coarse mip levels are for rough reflections
+layout(binding = 5) uniform sampler2D environmentMap;   // equirectangular; rough reflections read coarse mip levels
 
 vec2 equirectangular(vec3 d) {
     return vec2(0.5 + atan(d.x, -d.z) * 0.15915494309, acos(clamp(d.y, -1.0, 1.0)) * 0.31830988618);

@@ -22,7 +22,8 @@ struct Object {
     // x: fractional level of detail λ; y: fraction of the pixels that draw the coarser level in the boundary sample
     // (the lens sample that mixes two levels); z: object index; w: blur factor.
     vec4 values;
-    // x: texels per pose; y: number of joints; z: number of active morph targets; w: texels per attribute of a target.
+    // x: number of texels per pose; y: number of joints; z: number of active morph targets; w: number of texels per
+    // attribute of a morph target.
     ivec4 posing;
     // x: max deviation of the drawn levels from full detail (m); y: max number of parts of an edge (refined.tesc).
     vec2 levels;

@@ -8,8 +8,8 @@ float bandShift = 0.0;   // change of b₁ and b₂ in C by the lens sample's wa
 
 struct CocTerms {
     float factor;   // blur factor of the surface times (1 + g·r²), as in circle_of_confusion.h
-    float front;    // F; negative in front of the focus plane
-    float behind;   // B; positive behind the focus plane
+    float front;    // F of circle_of_confusion.h; negative in front of the focus plane
+    float behind;   // B of circle_of_confusion.h; positive behind the focus plane
 };
 
 CocTerms cocTerms(float inverseDepth, vec2 ndc, float ownFactor) {

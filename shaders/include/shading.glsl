@@ -113,11 +113,12 @@ struct Spread {
     float across;         // 2σ² across the axis
 };
 
-// Pixel footprint: follows Kaplanyan et al. 2016 (Filtering Distributions of Normals for Shading Antialiasing). The
-// bound is from Tokuyoshi and Kaplanyan 2019 (Improved Geometric Specular Antialiasing). σ² is the variance of the
-// normals over an area of 8 · footprint² px (WaveBlock), at most one pixel, weighted by a normal distribution whose σ is
-// half the width of the area. With half of this area, 64 samples miss up to 12 % of the sun's light that a mirror ball
-// reflects, because its highlight is far smaller than a pixel. A larger area blurs highlights more than it saves noise.
+// Variance of the normals within a pixel, which widens highlights. The equations follow Kaplanyan et al. 2016
+// (Filtering Distributions of Normals for Shading Antialiasing), with the bound of Tokuyoshi and Kaplanyan 2019
+// (Improved Geometric Specular Antialiasing). σ² is the variance of the normals over an area of 8 · footprint² px
+// (WaveBlock), at most one pixel, weighted by a normal distribution whose σ is half the width of the area. With half of
+// this area, 64 samples miss up to 12 % of the sun's light that a mirror ball reflects, because its highlight is far
+// smaller than a pixel. A larger area blurs highlights more than it saves noise.
 //
 // The same variance is used in all directions. On a wire, however, normals vary by half a turn across the wire and
 // hardly along it. A highlight that is widened along the wire would light parts that face away from the light. The
@@ -145,8 +146,8 @@ float meanSpread(Spread spread) { return 0.5 * (spread.along + spread.across); }
 // Specular lobe of GGX slopes of width α, convolved with a normal distribution of slopes of variance σ². If σ
 // dominates, the result is close to Beckmann's distribution, but its far tail remains that of GGX. The model mixes
 // Beckmann with weight 2σ² / (α² + 2σ²) and GGX with the rest, both of squared width α² + 2σ². This mix preserves GGX's
-// tail α²/(π tan⁴). Beckmann's distribution has its own width along and across the axis of the variance. GGX and the
-// weights use the mean of 2σ².
+// tail α²/(π tan⁴). Beckmann's distribution has different widths along and across the axis of the variance. GGX and the
+// weights use the mean of 2σ² over both directions.
 //
 // Masking: normals that only add to σ belong to other positions in the pixel, or to level 0, and don't mask each other
 // like microfacets. Masking therefore uses α. Beckmann's part is reflected by the normals at the half vector h, so both
@@ -289,8 +290,8 @@ vec3 remaining(vec3 reflected) {
 
 #include "include/sheen.glsl"
 
-// Returns the reflected environment light, scaled by `occlusion`. The diffuse part receives only light that the
-// specular part doesn't reflect.
+// Returns the environment's light that the surface reflects towards the eye, scaled by `occlusion`. The diffuse part
+// receives only light that the specular part doesn't reflect.
 vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusion) {
     if (environmentType == 0) return vec3(0.0);
     vec3 diffuse;

@@ -51,7 +51,7 @@ layout(location = 8) uniform uint binSize;         // max triangles per tile; on
 
 const uint threads = uint(tileSize * tileSize);
 const uint maxKept = 64u;
-// Max number of scans of the tile's list before the segments of the triangles in `kept` are added. A scan covers one
+// Max number of scans of the tile's list before the segments of the triangles found so far are added. A scan tests one
 // entry per thread.
 const uint maxScans = 1024u;
 shared vec4 keptCorners[maxKept * 3u];
@@ -66,7 +66,7 @@ const uint hasSegments = 1u;    // a thread has visible segments that are not ye
 const uint hasNoRounds = 2u;    // a thread has reached its max loop iterations
 
 const uint jobIsNew = 0u;
-const uint jobGoesOn = 1u;      // the job continues with the triangles from its next entry on
+const uint jobGoesOn = 1u;      // the job continues with the triangles from the entry that it stored
 const uint jobHasSeen = 2u;     // the job first adds the remaining segments of triangles that it knows to be visible
 const uint jobIsDone = 3u;
 

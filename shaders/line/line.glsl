@@ -52,7 +52,7 @@ OnLine onLine(vec4 a, vec4 b, vec4 c, vec2 direction, vec2 place) {
     return line;
 }
 
-// Returns the triangle with its front and back exchanged.
+// Returns the triangle's functions along the line with front and back exchanged.
 OnLine turned(OnLine line) { return OnLine(-line.edgesAt0, -line.edgeSlopes, -line.sums, -line.determinant); }
 
 void cut(inout Interval interval, float at0, float slope) {

@@ -58,9 +58,9 @@ uint writeRecords(uint at, uint ray, uint triangle, float p1, float p2, Ray mine
     return count;
 }
 
-// Collects the tile's next triangles, from entry `base` on, that its lines may see. Stops after maxKept triangles or
-// maxScans scans. All threads must call this function. The triangles stay in list order, because the order determines
-// which segments a full segment buffer drops.
+// Collects in `kept` the next triangles of the tile, from entry `base` on, that its lines may see. Stops after maxKept
+// triangles or maxScans scans. All threads must call this function. The triangles stay in list order, because the order
+// determines which segments a full segment buffer drops.
 void keepMore(inout uint base, uint end, uint ray, vec2 tileMin, vec2 tileMax) {
     uint count = 0u;
     uint word = gl_LocalInvocationIndex >> 5u;
@@ -239,7 +239,7 @@ void main() {
     if (any(greaterThanEqual(pixel, uvec2(imageSize)))) return;
     uint index = (ray * uint(imageSize.y) + pixel.y) * uint(imageSize.x) + pixel.x;
 
-    // Walks along the line twice: first to count the records, then to write them.
+    // Visits the visible pieces of the line twice: first to count the records (ray hits), then to write them.
     uint needed = 0u;
     for (Piece piece = firstPiece(whole); piece.last > piece.first; piece = nextPiece(piece, whole))
         needed += recordsOf(piece.triangle, piece.first, piece.last, direction);
