@@ -24,7 +24,7 @@ namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t framesWaiting = 2;  // max frames in the writer's queue; a longer queue would only take memory
+constexpr std::size_t framesWaiting = 2;  // max frames in the writer's queue; more would only take memory
 
 // Returns the file for a range of a frame's samples: frames/0012.exr → frames/0012.part00064-00128.exr.
 fs::path partPath(const fs::path& frame, const SampleRange& range) {
@@ -54,7 +54,7 @@ FrameState partState(const fs::path& path, const std::string& settings) {
 struct FrameTimes {
     double planMilliseconds = 0;
     double renderMilliseconds = 0;
-    double writeMilliseconds = 0;  // time of encoding and writing
+    double writeMilliseconds = 0;  // time for encoding and writing the files
 };
 
 void appendTimes(const FilmOptions& options, std::uint64_t memoryLimit, const FilmFrame& film, const FrameMoment& frame,
@@ -79,7 +79,8 @@ void appendTimes(const FilmOptions& options, std::uint64_t memoryLimit, const Fi
 
 // ---- one frame ------------------------------------------------------------------------------------------------------
 
-// Result of drawing a frame, passed to the writer while the driver draws the next frame.
+// The result of drawing a frame. The writer thread receives it and writes the frame's files while the driver draws the
+// next frame.
 struct DrawnFrame {
     FrameMoment moment;
     Image image;  // image of an untiled frame
@@ -92,8 +93,8 @@ struct DrawnFrame {
     bool written = false;  // true: the files are already complete, as for a frame in tiles
 };
 
-// Returns the request's stop conditions without the time limit. The time limit ends the run instead of a frame, so that
-// a frame has the same samples in every run.
+// Returns the request's stop conditions without the time limit, because a frame must have the same samples in every
+// run. The time limit ends the run between two frames instead.
 StopSettings stopOf(const FilmOptions& options) {
     StopSettings stop = stopSettings(options.settings.request);
     stop.timeLimit.reset();
@@ -280,7 +281,7 @@ std::vector<FilmFrame> filmFrames(const Shot& shot, const SequenceBase& base, co
         const std::lock_guard lock(reporting);
         report(progress, "frames checked", ++done, frames.size());
     });
-    // Throw the exception of the first faulty frame in the shot's order.
+    // Throw the exception of the faulty frame that comes first in the shot.
     for (const std::exception_ptr& fault : faults)
         if (fault) std::rethrow_exception(fault);
     return film;

@@ -35,8 +35,8 @@ std::vector<Key<glm::dvec3>> pointsOf(const std::vector<Key<Place>>& keys, const
     return points;
 }
 
-// Returns the finished fraction of a camera movement at `frame`: 0 at its first frame, 1 at its last. `own`: the
-// movement's range; nullopt: the shot's range.
+// Returns the fraction of a camera movement that is finished at `frame`: 0 at the movement's first frame, 1 at its last
+// frame. `own`: range of the movement; nullopt: the range of the shot.
 double placeIn(const std::optional<FrameRange>& own, const FrameRange& shot, double frame) {
     const FrameRange range = own.value_or(shot);
     const double length = std::max(1, range.last - range.first);

@@ -262,13 +262,13 @@ std::vector<std::string> keysAt(std::string_view place, std::vector<std::string>
     return own;
 }
 
-// Resolves the text of a path setting relative to the shot's folder. Returns other texts unchanged.
+// Resolves a path in a shot relative to the shot's folder. Texts of settings that aren't paths stay unchanged.
 std::string relativeToShot(const Setting& setting, const std::string& text, const Shot& shot) {
     if (setting.name == "environment" && isBuiltInEnvironment(text)) return text;
     return setting.kind == SettingKind::path ? (shot.file.parent_path() / text).string() : text;
 }
 
-// Reads the values that are defined by the table of settings.
+// Reads the values of all settings that the settings table lists for shots.
 void readSettings(const JsonReader& reader, Shot& shot) {
     if (const auto fish = reader.find("fish")) {
         if (reader.has("scene"))

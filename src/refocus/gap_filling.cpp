@@ -145,8 +145,8 @@ Image GapFilling::mean() const {
         if (!isEmpty(behind_[k])) layOver(image, behind_[k], nearer, classVariance(k));
         if (k > 0) addWeights(behind_[k - 1], -1, nearer);
     }
-    // Composite the sharp samples. At pixels where samples in front of the focus plane hide everything else, the mean
-    // of those samples replaces the unknown background.
+    // Composite the sharp samples. In pixels where samples in front of the focus plane hide everything else, the mean
+    // of these samples replaces the unknown background.
     for (std::size_t p = 0; p < pixels; ++p) {
         const float open = total - inFront[p];
         float* const pixel = image.pixels.data() + 4 * p;
