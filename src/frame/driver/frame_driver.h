@@ -71,7 +71,7 @@ public:
     // Draws a batch (wave) of lens samples. Returns false once the frame is complete.
     bool advance();
 
-    // Returns whether a frame was started. All members below require a started frame.
+    // Returns whether a frame was started. All functions below require a started frame.
     [[nodiscard]] bool started() const { return drawing_ != nullptr; }
     [[nodiscard]] std::uint32_t samples() const;      // samples so far; in tiles: mean over all rows, rounded down
     [[nodiscard]] std::uint32_t sampleTotal() const;  // expected total when the frame is complete

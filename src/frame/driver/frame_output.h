@@ -42,7 +42,7 @@ public:
     // Draws a batch (wave) of lens samples and writes the finished rows. Returns false once the frame is complete.
     bool advance();
     // Writes the partial sums, completes the file of FrameFiles::share, or joins the tiles into the output files.
-    // Returns the image of an untiled frame; the caller writes that image.
+    // Returns an untiled frame's image; the caller must write that image.
     std::optional<Image> finish();
 
     [[nodiscard]] double share() const;  // finished fraction of the work, 0 … 1, including rows of an earlier run

@@ -69,7 +69,7 @@ public:
     // Returns the hash that all parts of the frame share; see frame/setup/settings_hash.h.
     [[nodiscard]] std::string settingsHash() const;
 
-    // All members below require a started frame.
+    // All functions below require a started frame.
     [[nodiscard]] FrameDriver& driver();
     [[nodiscard]] const FrameDriver& driver() const;
     [[nodiscard]] Image image();  // throws Error before the first sample is drawn
@@ -87,7 +87,7 @@ public:
     void write(const std::filesystem::path& path, const ImageView& image);
 
 private:
-    // Makes the driver's context current during the object's lifetime, then restores the caller's context.
+    // Makes the driver's GL context current during the object's lifetime, then restores the caller's context.
     struct InContext {
         explicit InContext(GlContext& context) { context.makeCurrent(); }
         CurrentContextKeeper callers;

@@ -102,7 +102,7 @@ std::vector<std::string> coarseDivisions(const FramePlan& plan) {
                     count, std::ranges::find_if(plan.objects, bounded)->maxParts)};
 }
 
-// Returns the names or numbers of all nodes that the request refers to.
+// Returns the texts, names or numbers, with which the request refers to nodes.
 std::vector<std::string> namedNodes(const Request& request) {
     std::vector<std::string> names = request.hide;
     for (const auto& [name, scale] : request.nodeBlur) names.push_back(name);

@@ -91,12 +91,12 @@ void addPyramids(PreparedFrame& frame, const Progress& progress = {});
 PreparedFrame prepareFrame(const Request& request, const Progress& progress = {});
 
 // Returns a line for each missing or damaged part of the scene's file, up to 20 lines, and a line with the number of
-// further parts.
+// parts that are not listed.
 std::vector<std::string> damageWarnings(const Scene& scene);
 
-// Returns all warnings about a frame: damage in its file, a guessed unit, a scene too large or too small, invalid lens
-// values in the camera's extras, a focus that no real lens can have, too many lights, and pyramids that couldn't be
-// stored.
+// Returns all warnings about a prepared frame: damage in its file, a guessed unit, a scene too large or too small,
+// invalid lens values in the camera's extras, a focus that no real lens can have, too many lights, and pyramids that
+// couldn't be stored.
 std::vector<std::string> frameWarnings(const PreparedFrame& frame);
 
 }  // namespace defocus::engine
