@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 struct GlobalOptions {
     bool quiet = false;               // print neither progress nor a summary
-    bool verbose = false;             // print the device, the use of caches and other choices
+    bool verbose = false;             // also print the device, the use of caches and automatic choices
     std::filesystem::path shaderDir;  // folder whose shaders replace the embedded ones, for live editing
     std::vector<std::string> words;   // command line, beginning with the program's name
 };

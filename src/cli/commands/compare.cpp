@@ -160,7 +160,7 @@ void runCompare(const CompareArguments& arguments) {
     };
     const Difference difference = compareStrips(strips(reference), strips(test), options);
 
-    // Complete the error map and print the result.
+    // Complete the file of the error map and print the result.
     if (map) map->finish();
     if (arguments.json)
         printJson(difference);
