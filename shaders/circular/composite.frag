@@ -51,7 +51,7 @@ void main() {
     vec2 place = gl_FragCoord.xy / (float(reduction) * vec2(textureSize(farBlurred, 0)));
     vec4 behind = textureLod(farBlurred, place, 0.0);
     float own = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
-    float farShare = clamp(diameter / float(reduction) - 1.0, 0.0, 1.0);  // fades in at diameters of 1 to 2 px of the field
+    float farShare = clamp(diameter / float(reduction) - 1.0, 0.0, 1.0);  // fades in at diameters of 1 to 2 field px
     vec3 color;
     if (combinedFields) {
         own += clamp(-diameter, 0.0, 1.0);
