@@ -1,7 +1,7 @@
-// glTF 2.0 metallic-roughness shading. The diffuse part is Lambert, the specular part GGX (Walter et al. 2007) with
-// Schlick's Fresnel and height-correlated Smith masking (Heitz 2014, Understanding the Masking-Shadowing Function in
-// Microfacet-Based BRDFs). The environment's specular part is split into the reflected radiance and the directional
-// albedo (Karis 2013, Real Shading in Unreal Engine 4), which is tabulated.
+// Shades surfaces with glTF 2.0's metallic-roughness model. The diffuse part is Lambert, the specular part GGX (Walter
+// et al. 2007) with Schlick's Fresnel and height-correlated Smith masking (Heitz 2014, Understanding the
+// Masking-Shadowing Function in Microfacet-Based BRDFs). The environment's specular part is split into the reflected
+// radiance and the directional albedo (Karis 2013, Real Shading in Unreal Engine 4), which is tabulated.
 //
 // One sample represents an area of the surface, and a normal of a coarse level represents several normals of level 0.
 // Both variations widen the specular lobe without changing its total energy.

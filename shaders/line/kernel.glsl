@@ -16,7 +16,7 @@ layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
 layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };
 layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
 layout(std430, binding = 1) buffer OutputBlock {
-    uint recordCount;       // number of requested records
+    uint recordCount;       // number of records (ray hits) that all lines together need
     uint droppedSegments;
     uint droppedLight;      // light of the dropped segments, in units of 1/1024 of a line's light
     uint mergedSegments;

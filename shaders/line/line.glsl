@@ -1,5 +1,5 @@
-// A triangle along a line through the lens (Tzeng et al. 2012, High-Quality Parallel Depth-of-Field Using Line
-// Samples).
+// Describes a triangle as seen along a line through the lens (Tzeng et al. 2012, High-Quality Parallel Depth-of-Field
+// Using Line Samples).
 //
 // The line has the direction d = (cos φ, k·sin φ), k = image width / height. Seen from lens point p·d, a vertex (x, y,
 // w, C) lies at q(p) = α + p·β relative to an image position s, with α = (x, y) − w·s and β = C·d. All β are parallel,

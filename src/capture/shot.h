@@ -1,5 +1,5 @@
 #pragma once
-// A shot: scene, camera and lens of a sequence of frames, as in a shot file (docs/shot.schema.json). Plain data. Values
+// Defines a shot: scene, camera and lens of a sequence of frames, as in a shot file (docs/shot.schema.json). Values
 // missing in the file are taken from the scene's camera or the program's defaults. Frame 0 is at time 0.
 
 #include <filesystem>

@@ -67,7 +67,8 @@ std::optional<FrameRange> movementFrames(const JsonReader& reader) {
     return range;
 }
 
-// Returns the keys of a track with their frame numbers. Throws Error unless the frame numbers are strictly increasing.
+// Returns the keyframes of a track with their frame numbers. Throws Error unless the frame numbers are strictly
+// increasing.
 std::vector<std::pair<double, JsonReader>> keysOf(const JsonReader& reader, const std::vector<std::string>& known) {
     std::vector<std::pair<double, JsonReader>> keys;
     for (const JsonReader& key : reader.elements(1, "one key or more, each with a frame")) {
@@ -205,7 +206,7 @@ std::map<std::string, LensTrack, std::less<>> lensOf(const JsonReader& reader) {
 
 // ---- the method
 
-// Returns the settings of all methods that may have keys, by name.
+// Returns the method settings that may have keyframes, by name, for all methods together.
 std::map<std::string, const MethodSetting*, std::less<>> keyedSettings() {
     std::map<std::string, const MethodSetting*, std::less<>> keyed;
     for (const Method& method : methods())
@@ -214,7 +215,7 @@ std::map<std::string, const MethodSetting*, std::less<>> keyedSettings() {
     return keyed;
 }
 
-// Reads the keys of a method's setting. Throws Error for values below 1e-6: 0 disables the setting and cannot be
+// Reads the keyframes of a method's setting. Throws Error for values below 1e-6: 0 disables the setting and cannot be
 // interpolated.
 LensTrack methodTrackOf(const JsonReader& reader, const MethodSetting& setting) {
     constexpr double min = 1e-6;

@@ -41,7 +41,7 @@ std::vector<float> blurred(const std::vector<float>& image, const PartSize& size
     const std::size_t rowFloats = width * depth;
     std::vector<float> result(image.size());
     parallelFor(static_cast<std::size_t>(size.height), [&](std::size_t row) {
-        // one row with a margin on each side
+        // Copy of a row of the image, with a margin of `reach` pixels on each side.
         std::vector<float> line(rowFloats + 2 * static_cast<std::size_t>(reach) * depth);
         float* const inner = line.data() + static_cast<std::size_t>(reach) * depth;
         for (int i = -reach; i <= reach; ++i) {

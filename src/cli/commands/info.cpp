@@ -72,7 +72,7 @@ const char* alphaName(AlphaMode mode) {
 
 struct Totals {
     std::uint64_t triangles = 0;         // number of triangles of all meshes
-    std::uint64_t trianglesInScene = 0;  // the same, with a mesh counted once per object
+    std::uint64_t trianglesInScene = 0;  // number of triangles of all objects of the scene
     std::uint64_t vertices = 0;
     std::uint64_t points = 0;
     std::uint64_t lines = 0;  // number of line segments

@@ -1,5 +1,5 @@
 #pragma once
-// Arguments and options of `defocus render`.
+// Declares the arguments and options of `defocus render`.
 
 #include <filesystem>
 #include <optional>

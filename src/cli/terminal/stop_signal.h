@@ -15,7 +15,8 @@ bool stopAsked();
 // Sets the line that is printed if the second thread ends the process, such as "stopped: 3 of 9 rows are kept".
 void setStopMessage(std::string message);
 // Sets a function with which the second thread saves finished results before it ends the process. The function returns
-// the line to print, which replaces the line of setStopMessage(). It runs while the main thread may be inside a draw.
+// the line to print, which replaces the line of setStopMessage(). The function may run while the main thread is inside
+// a draw.
 void setStopAction(std::function<std::string()> save);
 // Makes the calling thread, instead of the second thread, responsible for saving finished results and for ending the
 // process. Doesn't return if the second thread has begun to end the process.

@@ -1,6 +1,7 @@
 #pragma once
-// Presets: named groups of settings. Applying a preset sets all its settings; settings given later override them. A
-// request doesn't store the name of a preset: it matches a preset as long as all values of the preset are set.
+// Defines presets, which are named groups of settings. Applying a preset sets all its settings; settings given later
+// override them. A request doesn't store the name of a preset: it matches a preset as long as all values of the preset
+// are set.
 
 #include <optional>
 #include <span>
