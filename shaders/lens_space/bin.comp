@@ -92,7 +92,7 @@ void main() {
     uvec4 triangle = triangles[index];
     float aspect = float(imageSize.x) / float(imageSize.y);
     vec4 corners[3] = vec4[3](clips[triangle.x], clips[triangle.y], clips[triangle.z]);
-    // With aberrations, the lens shear isn't linear in the lens point.
+    // Culling assumes that the lens shear is linear in the lens point, which isn't true with aberrations.
     bool mayCull = draws[triangle.w].doubleSided == 0u && !aberrations;
     Area area = Area(vec2(1e30), vec2(-1e30));
     add(area, corners, aspect);

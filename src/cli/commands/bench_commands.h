@@ -29,8 +29,8 @@ void refuseChangedSources(const std::filesystem::path& output, bool allowed,
 // Returns the default request of a bench. The unit is set to the metre, so that no result depends on a guessed unit.
 Request measuredRequest();
 
-// Describes what a bench measures: program, command, machine and the device of `context`; with `frame`, also its scene,
-// camera and lens. `runs`: number of runs of each frame.
+// Describes what a bench measures: program, command, machine and the device of `context`. The second overload adds the
+// scene, camera and lens of `frame`, and `runs`, the number of runs of each frame.
 BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global);
 BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global, const PreparedFrame& frame, int runs);
 

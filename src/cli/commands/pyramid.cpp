@@ -186,7 +186,7 @@ std::size_t exportAll(const Scene& scene, std::vector<MeshReport>& reports, cons
     return files;
 }
 
-// ---- turntables ---------------------------------------------------------------------------------
+// ---- contact sheets -----------------------------------------------------------------------------
 
 // Returns the file of a mesh's contact sheet: sheet.png, or sheet-STEM.png if there are several meshes.
 fs::path turntableFile(const fs::path& file, const std::string& stem, bool several) {
