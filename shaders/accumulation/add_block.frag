@@ -1,4 +1,5 @@
-// Adds the sum of a finished block of lens samples to the compensated sum of the frame.
+// Adds the sum of a finished block of consecutive lens samples to the frame's compensated sum
+// (include/compensated.glsl).
 #include "include/compensated.glsl"
 
 layout(binding = 0) uniform sampler2D blockSum;

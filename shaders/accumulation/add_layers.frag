@@ -1,5 +1,5 @@
-// Composites the layers of a wave (a batch of lens samples, one layer each) over the environment. Adds the layers, in
-// the order of the samples, to the compensated sum of the current block of samples.
+// Composites a batch (wave) of lens samples, one layer per sample, over the environment. Adds the layers, in the order
+// of the samples, to the compensated sum of the current block of samples.
 #include "accumulation/layer_light.glsl"
 
 layout(binding = 2) uniform sampler2D compensationSoFar;
@@ -20,7 +20,7 @@ void main() {
         for (int position = 1; position < positions; ++position) light += layerLight(texelOf(position, layer));
         addLayer(sum, compensation, light / float(positions), layer);
     }
-    // Alpha counts samples. Sums of integers are exact, so they need no compensation.
+    // Alpha counts samples. Sums of integers are exact in floats, so alpha needs no compensation.
     if (backgroundType != 0) sum.a += catEye > 0.0 ? seen : float(layerCount);
     sumOut = sum;
     compensationOut = compensation;

@@ -1,12 +1,13 @@
-// Adds the layers of a wave (a batch of lens samples) to the block's sum like add_layers.frag, and also to the sums of
-// the blur classes (groups of samples with similar blur; see include/cells.glsl).
+// Adds a batch (wave) of lens samples, one layer per sample, to the sum of the current block of samples like
+// add_layers.frag, and also to the sums of the blur classes (the samples of a pixel sorted by blur; see
+// include/cells.glsl).
 #include "accumulation/layer_light.glsl"
 #include "include/cells.glsl"
 
 layout(binding = 6) uniform sampler2DArray layerDepths;
-// Sums of the first drawnClasses blur classes, which are colour attachments.
+// Previous sums of the first drawnClasses blur classes; the new sums are written to colour attachments.
 layout(binding = 7) uniform sampler2DArray drawnSums;
-// Sums of all blur classes; used only for the classes that are not colour attachments.
+// Sums of the other blur classes, which are read and written as an image; layers below drawnClasses are unused.
 layout(rgba32f, binding = 0) uniform image2DArray cellSums;
 // Per tile, a bit mask of the blur classes with samples in the tile.
 layout(r32ui, binding = 1) uniform uimage2D heldClasses;
@@ -20,7 +21,7 @@ layout(location = 1) out vec4 cellsOut[drawnClasses];
 // to which blended surfaces add their alpha.
 const float blendedAlpha = 1.001;
 
-// Adds a layer's pixel to the sums of the blur classes, according to the pixel's blur.
+// Adds `value`, the radiance of a layer's pixel, to the sums of the blur classes that match the pixel's blur.
 void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel) {
     vec2 ndc = onImagePlane(vec2(texel.xy) + 0.5) * frame.projection.xy;
     float c = circleOfConfusion(texelFetch(layerDepths, texel, 0).r, ndc, vec2(1.0, 0.0));
@@ -44,7 +45,7 @@ uint heldBy(vec4 sums[cellClasses], float samples) {
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 sum = startsBlock ? vec4(0.0) : texelFetch(sumSoFar, pixel, 0);
-    vec4 compensation = vec4(0.0);   // discarded, because blurred sums need only single precision
+    vec4 compensation = vec4(0.0);   // unused, because blurred sums need only single precision
     vec2 rim = barrelRim(pixelOnImagePlane());
     vec4 cells[cellClasses];
     for (int k = 0; k < drawnClasses; ++k) cells[k] = startsBlock ? vec4(0.0) : texelFetch(drawnSums, ivec3(pixel, k), 0);
@@ -62,7 +63,7 @@ void main() {
         }
         addLayer(sum, compensation, light / float(positions), layer);
     }
-    // Alpha counts samples. Sums of integers are exact, so they need no compensation.
+    // Alpha counts samples. Sums of integers are exact in floats, so alpha needs no compensation.
     if (backgroundType != 0) sum.a += catEye > 0.0 ? seen : float(layerCount);
     for (int k = 0; k < drawnClasses; ++k) cellsOut[k] = cells[k];
     for (int k = drawnClasses; k < cellClasses; ++k) imageStore(cellSums, ivec3(pixel, k), cells[k]);

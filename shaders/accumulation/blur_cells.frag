@@ -1,30 +1,33 @@
-// Computes the sum of a block of samples, each blurred by its lens cell, a part of the lens (include/cells.glsl). The
-// blur classes are composited from farthest to nearest, each blurred by linear interpolation of its means. Unblurred
-// samples are composited between the classes behind the focus plane and the classes in front of the focus plane. In
-// pixels where all samples show the blurred foreground, the foreground also replaces the unknown background.
+// Computes the sum of a block of samples, with the image of each sample blurred as the part of the lens that it
+// represents (its lens cell, include/cells.glsl) would blur it. The samples are sorted by blur into classes. The
+// blurred classes are composited from farthest to nearest; a class is blurred by interpolating its means linearly.
+// Unblurred samples are composited between the classes behind the focus plane and the classes in front of the focus
+// plane. In pixels where all samples show the blurred foreground, the foreground also replaces the unknown background.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;
 layout(binding = 1) uniform sampler2D blockSum;
 layout(binding = 2) uniform usampler2D spreadClasses;
-// Means of the blur classes in front of the focus plane (layer 0) and behind it (layer 1). shownMeans holds the mean
-// radiance and number of a class's own samples; openMeans holds the mean number of samples that nearer classes do not
-// hide.
+// Means per pixel of the blur classes in front of the focus plane (layer 0) and behind it (layer 1). shownMeans: summed
+// radiance (rgb) and number (alpha) of the samples in a class. openMeans: number of the samples that nearer classes do
+// not hide.
 layout(binding = 3) uniform sampler2DArray shownMeans;
 layout(binding = 4) uniform sampler2DArray openMeans;
 // Columns and rows of the grid of squares over which the means of blur class 0 are computed.
 layout(location = 0) uniform ivec2 firstSquares;
-// > 0: number of samples in the block, by which the sum is divided. 0: the sum is divided by the pixel's own number of
-// samples. −1: the output is the sum.
+// > 0: number of samples in the block, by which the sum is divided. 0: the sum is divided by the number of samples in
+// the pixel. −1: the output is the undivided sum.
 layout(location = 1) uniform float samples;
 
 layout(location = 0) out vec4 sumOut;
 layout(location = 1) out vec4 compensationOut;
 
 // Composites blur class k over `image`. `side`: 0 for classes in front of the focus plane, 1 for classes behind it. The
-// coverage of a class is the ratio of its own samples to all samples not hidden by nearer classes.
+// coverage of a class is the number of its samples divided by the number of all samples that nearer classes do not
+// hide.
 void layOver(inout vec3 image, int k, float side) {
-    // The squares of blur class 0 have the size of a pixel and are centred at pixel corners.
+    // The means of blur class k are taken over squares of 2ᵏ px per side. For class 0, the squares are centred at pixel
+    // corners.
     vec2 square = clamp((gl_FragCoord.xy + (k == 0 ? 0.5 : 0.0)) / float(1 << k), vec2(0.5), vec2(firstSquares >> k) - 0.5);
     vec3 place = vec3((square + vec2(meansOrigin(firstSquares, k))) / vec2(textureSize(openMeans, 0).xy), side);
     vec4 shown = textureLod(shownMeans, place, 0.0);

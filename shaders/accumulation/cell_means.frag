@@ -1,19 +1,20 @@
-// Computes tent-weighted means for one blur class of lens cells. Each mean is centred on a square of pixels, and its
-// tent extends to the centres of the neighbouring squares. Squares of one pixel are centred at pixel corners. One
-// output is the mean of the class's own samples; the other is the mean number of samples not hidden by nearer classes.
-// The ratio of the outputs covers only samples in which no nearer class hides the class. A blurred surface therefore
-// keeps its colour and coverage up to the edges of its occluders.
+// Computes tent-weighted means for one blur class of lens cells (include/cells.glsl). Each mean is centred on a square
+// of pixels, and its tent extends to the centres of the neighbouring squares. Squares of one pixel are centred at pixel
+// corners. One output is the mean per pixel of the samples in the class (summed radiance and number); the other is the
+// mean number of samples that nearer classes do not hide. The first output divided by the second uses only samples in
+// which no nearer class hides the class. A blurred surface therefore keeps its colour and coverage up to the edges of
+// its occluders.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;
 layout(binding = 1) uniform sampler2D blockSum;
 layout(binding = 2) uniform usampler2D spreadClasses;
-// Index of the blur class. With nearestClass, it is the most blurred class in front of the focus plane, which no other
-// class hides.
+// Index of the blur class. With nearestClass, the class is the most blurred one in front of the focus plane, which no
+// other class hides.
 layout(location = 0) uniform int classIndex;
 // Side of the squares in px, a power of 2.
 layout(location = 1) uniform int side;
-// Lower left texel of the blur class in the target, from meansOrigin().
+// Lower left texel of the blur class in the render target, from meansOrigin().
 layout(location = 4) uniform ivec2 origin;
 
 layout(location = 0) out vec4 meanOut;

@@ -1,4 +1,4 @@
-// Composites the layers of a wave (a batch of lens samples, one layer each) over the environment.
+// Composites a batch (wave) of lens samples, one layer per sample, over the environment.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -8,21 +8,21 @@
 layout(binding = 0) uniform sampler2DArray layers;
 layout(binding = 1) uniform sampler2D sumSoFar;
 layout(std140, binding = 3) uniform ShiftBlock {
-    // xy: shift of the sky on the image plane at distance 1. With cocControls, xy is the shift for C/w = 1 (circle of
-    // confusion C, depth w), and zw is the shift by the pixel jitter.
+    // xy: shift by which the lens sample sees the sky, on the image plane at distance 1. With cocControls, xy is the
+    // shift for C/w = 1 (circle of confusion C, depth w), and zw is the shift by the pixel jitter.
     vec4 sampleShifts[blockSamples];
 };
 layout(location = 0) uniform int layerCount;
 layout(location = 1) uniform int firstInBlock;
-// Pixel of the layers that corresponds to pixel (0, 0) of the sums. A pixel of the sums corresponds to positionsPerAxis
-// pixels of the layers along each axis, one per pixel position.
+// Pixel of the layers at pixel (0, 0) of the sum image. A pixel of the sum image covers positionsPerAxis pixels of the
+// layers along each axis, one per pixel position.
 layout(location = 2) uniform ivec2 firstPixel;
 const int positions = positionsPerAxis * positionsPerAxis;
 
 #ifdef WEIGHS_SAMPLES
 layout(std140, binding = 4) uniform SampleBlock {
-    // rgb: colour weights of the sample's wavelength; a: change of b by the wavelength, where the circle of confusion
-    // is a + b·depth.
+    // rgb: weights of the colour channels for the sample's wavelength; a: change of b by the wavelength, where the
+    // circle of confusion is a + b·depth.
     vec4 sampleBands[blockSamples];
     // xy: lens point (u, v), relative to the lens radius.
     vec4 sampleLenses[blockSamples];
@@ -34,7 +34,7 @@ vec4 bandOf(int layer) { return vec4(1.0, 1.0, 1.0, 0.0); }
 vec2 lensPointOf(int layer) { return vec2(0.0); }
 #endif
 
-// Returns the texel of a layer for one of the pixel positions that are summed in this pixel. `position`: 0 to
+// Returns a texel of a layer. A pixel of the sum image has one texel for each pixel position; `position`: 0 to
 // positions − 1.
 ivec3 texelOf(int position, int layer) {
     ivec2 cell = ivec2(position % positionsPerAxis, position / positionsPerAxis);
@@ -46,7 +46,7 @@ vec2 onImagePlane(vec2 place) {
     return (2.0 * (place + frame.window.xy) / frame.window.zw - 1.0) / frame.projection.xy;
 }
 
-// Returns the point on the image plane at distance 1 for the centre of this pixel of the sums.
+// Returns the point on the image plane at distance 1 for the centre of this pixel of the sum image.
 vec2 pixelOnImagePlane() {
     return onImagePlane(gl_FragCoord.xy * float(positionsPerAxis) + vec2(firstPixel));
 }
@@ -59,7 +59,7 @@ vec2 barrelRim(vec2 imagePlane) {
     return catEye * imagePlane * frame.projection.xy * vec2(1.0, 1.0 / aspect) * inversesqrt(1.0 + 1.0 / (aspect * aspect));
 }
 
-// Returns true if the barrel clips the sample. `rim` is barrelRim().
+// Returns true if the barrel clips the sample. `rim`: result of barrelRim().
 bool isClipped(int layer, vec2 rim) {
     vec2 onLens = lensPointOf(layer) + rim;
     return dot(onLens, onLens) > 1.0;

@@ -1,6 +1,6 @@
-// Shades a surface for one lens sample. Writes its light to the sample's layer, and its data (depth, normal, …) to the
-// data layers. …_SLOT is the index of a data layer's colour attachment; a layer without this define is not drawn. Data
-// are premultiplied by the surface's alpha, like its light, so that blending treats all layers alike.
+// Shades a surface for one lens sample. Writes its radiance to the sample's layer, and its data (depth, normal, …) to
+// the data layers. …_SLOT is the index of a data layer's colour attachment; a layer without this define is not drawn.
+// Data are premultiplied by the surface's alpha, like radiance, so that blending treats all layers alike.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -23,7 +23,7 @@ layout(location = ALBEDO_SLOT) out vec4 albedoOut;
 layout(location = EMISSION_SLOT) out vec4 emissionOut;
 #endif
 #ifdef MOTION_SLOT
-layout(location = MOTION_SLOT) out vec4 motionOut;       // px
+layout(location = MOTION_SLOT) out vec4 motionOut;       // motion during the exposure (px)
 #endif
 #ifdef NUMBER_SLOT
 layout(location = NUMBER_SLOT) out vec4 numberOut;       // 1 + index of the object, 1 + index of the material
@@ -44,8 +44,8 @@ float pinholeCoc() {
 #endif
 
 #ifdef DEPTH_SLOT
-// Returns premultiplied depth, alpha, and CoC. If the layer has no CoC, it has two channels, but blending still reads
-// alpha from the fourth component.
+// Returns premultiplied depth, alpha and CoC. Without a CoC the layer has only two channels, but blending still reads
+// alpha from the fourth component of the output.
 vec4 drawnDepth(float alpha) {
     float coc = 0.0;
 #ifdef DRAWS_COC
@@ -64,9 +64,9 @@ vec2 movement() {
 #endif
 
 #ifdef NUMBER_SLOT
-// Returns 1 if the lens sample draws the surface's number, else 0. Alpha-blended surfaces are drawn with probability
-// alpha, independently of each other, from back to front. The fraction of samples with a surface's number is therefore
-// alpha · Π (1 − alpha of each nearer surface), the surface's weight in the picture.
+// Returns 1 if the lens sample counts the surface's object and material, else 0. An alpha-blended surface is counted
+// with probability alpha, independently of other surfaces, and replaces the surfaces behind it. The fraction of samples
+// that count a surface is therefore alpha · Π (1 − alpha of each nearer surface), the surface's weight in the image.
 float chosen(float alpha) {
 #ifdef CHOOSES_BY_ALPHA
     if (alphaBlended) return alpha > alphaThreshold(pixelOfImage()) ? 1.0 : 0.0;

@@ -43,7 +43,7 @@ vec3 cut(vec3 p, vec3 q, vec3 values) {
     return (atQ * p - atP * q) / (atQ - atP);
 }
 
-// Returns the part of the piece where the linear function with `values` at the triangle's corners is ≥ 0 (Sutherland
+// Returns the part of `piece` in which the linear function with `values` at the triangle's corners is ≥ 0 (Sutherland
 // and Hodgman 1974).
 Piece kept(Piece piece, vec3 values) {
     Piece result;
@@ -97,7 +97,7 @@ void main() {
     if (any(lessThan(beyondNear, vec3(0.0)))) whole = kept(whole, beyondNear);
     if (whole.count < 3) return;
 
-    // Without a focus range, F = B (src/lens/circle_of_confusion.h), and C has one piece between its two limits.
+    // Without a focus range, F = B (src/lens/circle_of_confusion.h), and C has no kink between its two limits.
     bool range = frame.coc.x != frame.cocOther.x || frame.coc.y != frame.coc.w;
     if (any(lessThan(atLimitInFront, vec3(0.0)))) emit(kept(whole, -atLimitInFront));
     Piece middle = any(lessThan(atLimitInFront, vec3(0.0))) ? kept(whole, atLimitInFront) : whole;

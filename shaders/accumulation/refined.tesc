@@ -23,7 +23,7 @@ out Unsheared {
 #define SURFACE_OUT passedOn[gl_InvocationID]
 #include "include/surface_write.glsl"
 
-// Returns the two smooth pieces of the circle of confusion C, in front of and behind the focus plane.
+// Returns the two smooth functions of which the circle of confusion C consists: in front of and behind the focus plane.
 vec2 smoothPieces(vec3 pinhole, vec2 own) {
     CocPieces pieces = cocPieces(pinhole, own);
     return pieces.factor * vec2(pieces.front, pieces.behind) + pieces.added;
@@ -43,8 +43,8 @@ bool comesFirst(vec3 p, vec3 q) {
     return p.y != q.y ? p.y < q.y : p.z < q.z;
 }
 
-// Returns the number of parts into which an edge must be divided. The deviation of a smooth function from its linear
-// interpolation falls with the square of that number.
+// Returns the number of parts into which an edge must be divided. Dividing an edge into n parts reduces the deviation
+// of a smooth function from its linear interpolation by a factor of n².
 float partsOf(int first, int second) {
     if (comesFirst(unsheared[second].pinhole, unsheared[first].pinhole)) {
         int swapped = first;

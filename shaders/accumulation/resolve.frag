@@ -1,5 +1,5 @@
-// Divides the frame's compensated sum by its number of samples, or by the pixel's own number of samples, which is
-// stored in alpha.
+// Divides the frame's compensated sum by the frame's number of samples, or by the number of samples in the pixel, which
+// is stored in alpha.
 layout(binding = 0) uniform sampler2D frameSum;
 layout(binding = 1) uniform sampler2D frameCompensation;
 layout(location = 0) uniform float sampleCount;   // number of samples; 0: divide by alpha

@@ -1,7 +1,7 @@
-// Writes two bit masks of the blur classes of lens cells (cells.glsl) for each tile. The means of a class are averages
-// over squares of pixels. Bit k is set if the tile may read a non-zero mean of class k. Bit besideSpread + k is set if
-// the means of class k must be written in the tile, even if they are 0: interpolation in the tile or its neighbours may
-// read them.
+// Writes, for each tile, two bit masks of the blur classes of lens cells (include/cells.glsl). The means of a class are
+// averages over squares of pixels. Bit k is set if the tile may read a non-zero mean of class k. Bit besideSpread + k
+// is set if the means of class k must be written in the tile, even if they are 0: interpolation in the tile or its
+// neighbours may read them.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform usampler2D heldClasses;

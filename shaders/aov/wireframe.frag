@@ -3,7 +3,7 @@
 #include "include/frame.glsl"
 #include "include/tone_map.glsl"
 
-layout(binding = 32) uniform sampler2D levelColours;   // linear
+layout(binding = 32) uniform sampler2D levelColours;   // linear colour for each level of detail
 
 layout(location = 0) out vec4 colour;
 

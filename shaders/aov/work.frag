@@ -1,4 +1,4 @@
-// Outputs 1 for each fragment of a triangle; additive blending counts the triangles per pixel.
+// Outputs 1 for each fragment. With additive blending, the image counts the triangles per pixel.
 
 layout(location = 0) out float touched;
 

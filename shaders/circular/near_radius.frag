@@ -2,7 +2,7 @@
 // surfaces whose disks may reach the pixel.
 layout(binding = 0) uniform sampler2D ownRadii;
 layout(binding = 1) uniform sampler2D reach;    // output of reach.frag, one value per tile
-layout(binding = 2) uniform sampler2D farRadii;   // radii of the far field; only with combinedFields
+layout(binding = 2) uniform sampler2D farRadii;   // radii of the far field; used only with combinedFields
 
 layout(location = 0) out float radius;
 

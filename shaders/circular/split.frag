@@ -6,11 +6,11 @@
 #include "include/pinhole.glsl"
 #include "circular/clear_image.glsl"
 
-layout(location = 0) uniform float largestRadius;   // image px
+layout(location = 0) uniform float largestRadius;   // max radius of the blur, in image px
 layout(location = 1) uniform float perFarDiameter;  // 1 / max diameter behind the focus plane (px)
 layout(location = 2) uniform float perNearDiameter; // 1 / max diameter in front of the focus plane (px)
 
-layout(location = 0) out vec4 farField;             // with combinedFields, both fields in one image
+layout(location = 0) out vec4 farField;             // far field; with combinedFields, the sum of both fields
 layout(location = 1) out float farRadius;
 layout(location = 2) out float nearRadius;
 layout(location = 3) out vec4 nearField;            // near field; absent with combinedFields
@@ -20,7 +20,7 @@ void main() {
     ivec2 last = min(first + reduction, textureSize(pinholeColor, 0)) - 1;
     vec4 farSum = vec4(0.0);
     vec4 nearSum = vec4(0.0);
-    vec2 farBlur = vec2(0.0);   // x: weighted sum; y: sum of weights
+    vec2 farBlur = vec2(0.0);   // x: weighted sum of the blur radii; y: sum of the weights
     nearRadius = 0.0;
     for (int y = first.y; y <= last.y; ++y)
         for (int x = first.x; x <= last.x; ++x) {

@@ -4,7 +4,7 @@
 // relative to the disk's radius.
 #include "include/complex_kernel.glsl"
 
-// output of horizontal.frag
+// Sums over rows, the output of horizontal.frag.
 layout(binding = 0) uniform sampler2D sums[bracketed ? 3 * components + 1 : 2 * components];
 layout(binding = 9) uniform sampler2D brightest;
 layout(location = 16) uniform vec4 brackets[components];
@@ -68,7 +68,7 @@ void main() {
         kernelSum += times(times(weight, rowNorm), norm).x;
     }
     if (components < kernelSize) {
-        // The kernel's sum includes the components that other runs of this pass filter.
+        // If this pass filters only some of the kernel's components, kernelSum must still include all of them.
         kernelSum = 0.0;
         for (int c = 0; c < kernelSize; ++c) {
             vec2 norm = tapSum(kernel[c], taps);

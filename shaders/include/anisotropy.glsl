@@ -1,8 +1,10 @@
-// KHR_materials_anisotropy: GGX with different widths along the surface (Burley 2012, Physically-Based Shading at
-// Disney; masking: Heitz 2014, Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs).
+// Evaluates the specular part of KHR_materials_anisotropy: GGX with different widths in two directions along the
+// surface (Burley 2012, Physically-Based Shading at Disney; masking: Heitz 2014, Understanding the Masking-Shadowing
+// Function in Microfacet-Based BRDFs).
 
 // Returns π·(n·l)·D·V for light from the unit direction `toLight`. `spread`: 2σ², where σ² is the variance of the
-// normals' slopes over the sample's footprint. It is added to both squared widths, except for masking, as in lobeOf().
+// normals' slopes over the sample's footprint. `spread` is added to the squares of both widths, except for masking, as
+// in lobeOf().
 float anisotropicReflection(SurfacePoint point, float nl, float nv, float spread, vec3 toLight) {
     if (nl <= 0.0 || nv <= 0.0) return 0.0;
     vec2 widths2 = point.widths * point.widths;

@@ -1,7 +1,7 @@
-// Lens cells (src/plan/lens_cells/lens_cells.h): each lens sample represents a part of the lens, its cell. The
-// sample's image is blurred as this part of the lens would blur it. A pixel's samples are sorted by this blur into
-// classes of increasing blur, separately in front of and behind the focus plane. The array texture of sums has one
-// layer per class.
+// Defines the blur classes of lens cells (src/plan/lens_cells/lens_cells.h). Each lens sample represents a part of the
+// lens, its cell, and the sample's image is blurred as this part of the lens would blur it. A pixel's samples are
+// sorted by this blur into classes of increasing blur, separately in front of and behind the focus plane. The array
+// texture of sums has one layer per class.
 //
 // Layer k < cellsInFront sums all samples except the samples in front of the focus plane whose class is k or more
 // blurred. Layer cellsInFront + k sums the samples behind the focus plane whose class is k or more blurred. A class is

@@ -1,12 +1,12 @@
-// Smooth pieces of the clip-space circle of confusion C, whose terms F, B, R₁ and R₂ are defined in
-// src/lens/circle_of_confusion.h. Unlike C itself, the pieces are also defined behind the near plane. They are linear
-// if C has no curved terms and the surface's blur modifiers are uniform.
+// Computes the smooth terms of the clip-space circle of confusion C; src/lens/circle_of_confusion.h defines F, B, R₁
+// and R₂. Unlike C itself, the terms are also defined behind the near plane. They are linear if C has no curved terms
+// and the surface's blur modifiers are uniform.
 //   C = clamp(factor·(min(0, front) + max(0, behind)) + added, −R₁·w, R₂·w)
 
 struct CocPieces {
     float factor;   // blur factor of the surface times (1 + g·r²), as in circle_of_confusion.h
-    float front;    // w·F; negative in front of the focus plane
-    float behind;   // w·B; positive behind the focus plane
+    float front;    // w·F of circle_of_confusion.h; negative in front of the focus plane
+    float behind;   // w·B of circle_of_confusion.h; positive behind the focus plane
     float added;
 };
 

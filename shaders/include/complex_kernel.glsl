@@ -1,6 +1,6 @@
-// Taps of the complex separable kernels: F(x) = e^(−a·x²)·(cos b·x² + i·sin b·x²), x = tap / radius (Niemitalo 2010;
-// Garcia 2018). src/render/circular/circular_kernel.h documents the mathematics. With exactTaps, there is one tap per
-// pixel; otherwise a fixed number of taps is spread over the radius.
+// Computes taps of the complex separable kernels F(x) = e^(−a·x²)·(cos b·x² + i·sin b·x²), x = tap / radius (Niemitalo
+// 2010; Garcia 2018). src/render/circular/circular_kernel.h documents the mathematics. With exactTaps, there is one tap
+// per pixel; otherwise a fixed number of taps is spread over the radius.
 
 layout(location = 0) uniform vec4 kernel[kernelSize];   // per component: a, b of F; weights A, B
 
@@ -20,7 +20,7 @@ Taps tapsOf(float radius) {
 
 float fade(Taps taps, int i) { return exactTaps ? clamp(taps.radius + 0.5 - float(i), 0.0, 1.0) : 1.0; }
 
-// Returns the sum of the fade weights of all taps.
+// Returns the number of taps of the kernel. With exactTaps, the outermost taps count as the fraction fade() ≤ 1.
 float tapCount(Taps taps) {
     float sum = 1.0;
     for (int i = 1; i <= taps.count; ++i) sum += 2.0 * fade(taps, i);
@@ -36,7 +36,7 @@ vec2 firstRatio(vec4 component, Taps taps) {
     return exp(-component.x * u) * vec2(cos(component.y * u), sin(component.y * u));
 }
 
-// Returns the sum of F over all taps, weighted by fade().
+// Returns the sum over all taps of F times fade().
 vec2 tapSum(vec4 component, Taps taps) {
     vec2 ratio = firstRatio(component, taps);
     vec2 grow = times(ratio, ratio);

@@ -1,10 +1,11 @@
-// The environment: radiance along a direction, and irradiance of a surface. environmentType: 0 none, 1 uniform, 2
-// gradient, 3 map. backgroundType: type of the environment drawn behind surfaces, 0 or equal to environmentType.
+// Evaluates the environment: its radiance along a direction, and the irradiance of a surface. environmentType: 0 none,
+// 1 uniform, 2 gradient, 3 map. backgroundType: type of the environment drawn behind surfaces, 0 or equal to
+// environmentType.
 
 #include "include/lighting.glsl"
 
 #ifdef ENVIRONMENT_MAP
-layout(binding = 5) uniform sampler2D environmentMap;   // equirectangular; coarse mip levels are for rough reflections
+layout(binding = 5) uniform sampler2D environmentMap;   // equirectangular; rough reflections read coarse mip levels
 
 vec2 equirectangular(vec3 d) {
     return vec2(0.5 + atan(d.x, -d.z) * 0.15915494309, acos(clamp(d.y, -1.0, 1.0)) * 0.31830988618);

@@ -1,9 +1,9 @@
-// Uniforms of the frame, the object and the material. The C++ counterparts are GpuFrame in frame_uniforms.cpp,
-// GpuObject in surface_draws.h and GpuMaterial in material_blocks.h, all in src/render/gpu_scene/.
+// Declares the uniforms of the frame, the object and the material. The C++ counterparts are GpuFrame in
+// frame_uniforms.cpp, GpuObject in surface_draws.h and GpuMaterial in material_blocks.h, all in src/render/gpu_scene/.
 
 layout(std140, binding = 0) uniform FrameBlock {
     vec4 projection;      // 1/tan(θx/2), 1/tan(θy/2), near plane (m), unused
-    vec4 coc;             // circle of confusion C (lens/circle_of_confusion.h): a, b₁; z: image width (px); w: b₂
+    vec4 coc;             // xy: a, b₁ of the CoC C (lens/circle_of_confusion.h); z: image width (px); w: b₂
     vec4 cocField;        // xy: tilt t of the focus plane; z: field curvature κ; w: radial blur gain g
     vec4 cocLimits;       // xy: blur limits R₁, R₂; z: 1/k² (k: aspect ratio); w: max error of C in a triangle (px)
     // x: a₂ of the circle of confusion C; y: fraction of the image's width per mm on the sensor, for added vertex blur;
@@ -22,7 +22,8 @@ struct Object {
     // x: fractional level of detail λ; y: fraction of the pixels that draw the coarser level in the boundary sample
     // (the lens sample that mixes two levels); z: object index; w: blur factor.
     vec4 values;
-    // x: texels per pose; y: number of joints; z: number of active morph targets; w: texels per attribute of a target.
+    // x: number of texels per pose; y: number of joints; z: number of active morph targets; w: number of texels per
+    // attribute of a morph target.
     ivec4 posing;
     // x: max deviation of the drawn levels from full detail (m); y: max number of parts of an edge (refined.tesc).
     vec2 levels;

@@ -1,5 +1,6 @@
-// KHR_materials_iridescence: reflectance of a thin film, after Belcour and Barla 2017 (A Practical Extension to
-// Microfacet Theory for the Modeling of Varying Iridescence), with the equations of the extension's specification.
+// Computes the reflectance of a thin film (KHR_materials_iridescence) after Belcour and Barla 2017, A Practical
+// Extension to Microfacet Theory for the Modeling of Varying Iridescence, with the equations of the extension's
+// specification.
 
 const float filmPi = 3.14159265359;
 

@@ -1,4 +1,4 @@
-// Rounding of a lens sample's radiance to the format of its layer.
+// Rounds a lens sample's radiance to the format of its layer.
 
 // Returns the colour clamped to layerLargest and rounded to 11 significant bits, as in half floats. layerLargest = 0:
 // layers are 32-bit floats, and the colour is unchanged. Drivers may truncate in conversions to half floats, which

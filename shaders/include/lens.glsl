@@ -1,15 +1,15 @@
-// The clip-space lens shear p' = p + C·(u, k·v, 0, 0) for lens point (u, v) and aspect ratio k (Munkberg, Toth and
-// Akenine-Möller 2012; here C > 0 behind the focus plane). src/lens/circle_of_confusion.h documents C and its terms.
-// With cocControls, C differs from a + b·w. `own` holds the surface's blur modifiers: a factor and an added fraction of
-// the image's width. Depth is reversed with an infinite far plane: z = near, so z/w runs from 1 at the near plane to 0
-// at infinity.
+// Applies the clip-space lens shear p' = p + C·(u, k·v, 0, 0) for lens point (u, v) and aspect ratio k (Munkberg, Toth
+// and Akenine-Möller 2012; here C > 0 behind the focus plane). src/lens/circle_of_confusion.h documents C and its
+// terms. With cocControls, C differs from a + b·w. `own` holds the surface's blur modifiers: a factor and an added
+// fraction of the image's width. Depth is reversed with an infinite far plane: z = near, so z/w runs from 1 at the near
+// plane to 0 at infinity.
 
 float bandShift = 0.0;   // change of b₁ and b₂ in C by the lens sample's wavelength; 0 unless chromatic
 
 struct CocTerms {
     float factor;   // blur factor of the surface times (1 + g·r²), as in circle_of_confusion.h
-    float front;    // F; negative in front of the focus plane
-    float behind;   // B; positive behind the focus plane
+    float front;    // F of circle_of_confusion.h; negative in front of the focus plane
+    float behind;   // B of circle_of_confusion.h; positive behind the focus plane
 };
 
 CocTerms cocTerms(float inverseDepth, vec2 ndc, float ownFactor) {

@@ -1,6 +1,6 @@
-// Light sources in world axes, independent of the camera. A few lights that are not animated are compiled as constants
-// (LIGHTING_VALUES). Software rasterizers read constants far faster than a uniform block, which Mesa 22.3 fetches for
-// each pixel.
+// Declares the light sources in world axes, independent of the camera. A few lights that are not animated are compiled
+// as constants (LIGHTING_VALUES). Software rasterizers read constants far faster than a uniform block, which Mesa 22.3
+// fetches for each pixel.
 
 struct LightData {
     vec4 directionType;   // direction of the light's rays; w: 0 directional, 1 point, 2 spot

@@ -37,7 +37,7 @@ vec2 uvOf(int slot, vec4 uvSets) {
 }
 
 // Returns a sample of materialTextures[unit] at uvOf(slot, …), filtered over the part of the pixel that the lens sample
-// represents. Each including shader defines this function.
+// represents. Each file that includes this one defines the function.
 vec4 surfaceTexel(int unit, int slot);
 
 // Returns the value of a texture in this pixel, or white if the material has no such texture.

@@ -1,4 +1,5 @@
-// Blur of a pixel in the pinhole image, computed from its depth and its surface's blur modifiers.
+// Computes the blur of a pixel in the pinhole image from the pixel's depth and from its surface's blur modifiers (a
+// factor and an added blur).
 
 #ifdef MULTISAMPLED
 #define PinholeTexture sampler2DMS
@@ -7,7 +8,7 @@
 #endif
 
 layout(binding = 1) uniform PinholeTexture pinholeDepth;
-layout(binding = 6) uniform PinholeTexture pinholeOwnBlur;   // blur modifiers; only with usesOwnBlur
+layout(binding = 6) uniform PinholeTexture pinholeOwnBlur;   // blur factor, added blur; used only with usesOwnBlur
 
 // Returns the size of the pinhole image in px.
 ivec2 pinholeSize() {

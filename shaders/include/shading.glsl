@@ -1,7 +1,7 @@
-// glTF 2.0 metallic-roughness shading. The diffuse part is Lambert, the specular part GGX (Walter et al. 2007) with
-// Schlick's Fresnel and height-correlated Smith masking (Heitz 2014, Understanding the Masking-Shadowing Function in
-// Microfacet-Based BRDFs). The environment's specular part is split into the reflected radiance and the directional
-// albedo (Karis 2013, Real Shading in Unreal Engine 4), which is tabulated.
+// Shades surfaces with glTF 2.0's metallic-roughness model. The diffuse part is Lambert, the specular part GGX (Walter
+// et al. 2007) with Schlick's Fresnel and height-correlated Smith masking (Heitz 2014, Understanding the
+// Masking-Shadowing Function in Microfacet-Based BRDFs). The environment's specular part is split into the reflected
+// radiance and the directional albedo (Karis 2013, Real Shading in Unreal Engine 4), which is tabulated.
 //
 // One sample represents an area of the surface, and a normal of a coarse level represents several normals of level 0.
 // Both variations widen the specular lobe without changing its total energy.
@@ -26,14 +26,14 @@ struct SurfacePoint {
     float roughness;      // perceptual roughness
     vec3 normal;          // unit vector in world axes, like all directions in this struct
     vec3 toEye;           // unit vector
-    vec3 emission;        // emitted radiance; only if emissive
+    vec3 emission;        // emitted radiance; set only if emissive
     vec3 normalRight;     // change of the interpolated normal over one pixel to the right
     vec3 normalUp;        // change of the interpolated normal over one pixel up
     // The next three members are set only if coarseLevel.
     float agreement;      // length |n| of the mean of the unit normals that `normal` represents, in (0, 1]
     float spread;         // result of normalSpread(agreement)
     vec3 seen;            // mean of the visible normals, see seenNormal()
-    float grazing;        // reflectance at grazing angles, F90; used only if ownReflectance, otherwise 1
+    float grazing;        // reflectance at grazing angles, F90; 1 unless ownReflectance
     vec3 transmitted;     // radiance from behind the surface, before the loss by reflection
     // The next two members are set only if the material has sheen.
     vec3 sheen;           // colour of the sheen
@@ -51,11 +51,11 @@ struct SurfacePoint {
     float iridescence;    // fraction of the surface with a film
     float film;           // thickness of the film (nm)
     vec3 filmBase;        // F0 with which Schlick's term gives the film's reflectance towards the eye
-    vec3 through;         // albedo of the diffuse light from behind; only if diffusesThrough
-    vec3 hidden;          // occluded irradiance of the environment, divided by π; only if shadowed
+    vec3 through;         // albedo of the diffuse light from behind; set only if diffusesThrough
+    vec3 hidden;          // occluded irradiance of the environment, divided by π; set only if shadowed
 };
 
-vec3 lightShares[lightCount + 1];   // fraction of each light that reaches the surface; only if shadowed
+vec3 lightShares[lightCount + 1];   // fraction of each light that reaches the surface; set only if shadowed
 
 // Sums over all lights. E: illuminance; D: distribution of normals; V: masking / (4·(n·l)·(n·v)); g: (1 − v·h)⁵.
 struct LightSums {
@@ -67,7 +67,7 @@ struct LightSums {
     // The next two sums are for iridescent surfaces. F: the film's reflectance at v·h.
     vec3 film;            // Σ E·(n·l)·D·V·F
     vec3 beneathFilm;     // Σ E·(n·l)·(1 − max F) / π
-    vec3 behind;          // Σ E·max(−n·l, 0) / π; only if diffusesThrough
+    vec3 behind;          // Σ E·max(−n·l, 0) / π; set only if diffusesThrough
 };
 
 // Returns the mean of max(n·l, 0) over the normals n that a coarse level's normal represents. `mean` is the mean of
@@ -100,8 +100,8 @@ vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     return agreement * normal + turn * inversesqrt(1.0 + bound) * (toEye - nv * normal);
 }
 
-// Returns 2σ², where σ² is the variance of the slopes of the fine normals that one normal n of a coarse level averages:
-// σ² ≈ (1 − |n|)/|n| (Toksvig 2005, Mipmapping Normal Maps).
+// Returns 2σ², where σ² is the variance of the slopes of the full-detail normals that one normal n of a coarse level
+// averages: σ² ≈ (1 − |n|)/|n| (Toksvig 2005, Mipmapping Normal Maps).
 float coarseSpread(SurfacePoint point) {
     return 2.0 * (1.0 - point.agreement) / point.agreement;
 }
@@ -113,11 +113,12 @@ struct Spread {
     float across;         // 2σ² across the axis
 };
 
-// Pixel footprint: follows Kaplanyan et al. 2016 (Filtering Distributions of Normals for Shading Antialiasing). The
-// bound is from Tokuyoshi and Kaplanyan 2019 (Improved Geometric Specular Antialiasing). σ² is the variance of the
-// normals over an area of 8 · footprint² px (WaveBlock), at most one pixel, weighted by a normal distribution whose σ is
-// half the width of the area. With half of this area, 64 samples miss up to 12 % of the sun's light that a mirror ball
-// reflects, because its highlight is far smaller than a pixel. A larger area blurs highlights more than it saves noise.
+// Variance of the normals within a pixel, which widens highlights. The equations follow Kaplanyan et al. 2016
+// (Filtering Distributions of Normals for Shading Antialiasing), with the bound of Tokuyoshi and Kaplanyan 2019
+// (Improved Geometric Specular Antialiasing). σ² is the variance of the normals over an area of 8 · footprint² px
+// (WaveBlock), at most one pixel, weighted by a normal distribution whose σ is half the width of the area. With half of
+// this area, 64 samples miss up to 12 % of the sun's light that a mirror ball reflects, because its highlight is far
+// smaller than a pixel. A larger area blurs highlights more than it saves noise.
 //
 // The same variance is used in all directions. On a wire, however, normals vary by half a turn across the wire and
 // hardly along it. A highlight that is widened along the wire would light parts that face away from the light. The
@@ -145,8 +146,8 @@ float meanSpread(Spread spread) { return 0.5 * (spread.along + spread.across); }
 // Specular lobe of GGX slopes of width α, convolved with a normal distribution of slopes of variance σ². If σ
 // dominates, the result is close to Beckmann's distribution, but its far tail remains that of GGX. The model mixes
 // Beckmann with weight 2σ² / (α² + 2σ²) and GGX with the rest, both of squared width α² + 2σ². This mix preserves GGX's
-// tail α²/(π tan⁴). Beckmann's distribution has its own width along and across the axis of the variance. GGX and the
-// weights use the mean of 2σ².
+// tail α²/(π tan⁴). Beckmann's distribution has different widths along and across the axis of the variance. GGX and the
+// weights use the mean of 2σ² over both directions.
 //
 // Masking: normals that only add to σ belong to other positions in the pixel, or to level 0, and don't mask each other
 // like microfacets. Masking therefore uses α. Beckmann's part is reflected by the normals at the half vector h, so both
@@ -162,7 +163,7 @@ struct Lobe {
     vec2 widths2;         // α² + 2σ² along and across the axis
     float share;          // weight of Beckmann's distribution
     float shown;          // cosine between the eye and the normals of Beckmann's part: shown + shownOfH · v·h
-    float shownOfH;       // coefficient of v·h in that cosine
+    float shownOfH;       // coefficient of v·h in the cosine shown + shownOfH · v·h
 };
 
 Lobe lobeOf(SurfacePoint point, float nv, Spread spread) {
@@ -289,8 +290,8 @@ vec3 remaining(vec3 reflected) {
 
 #include "include/sheen.glsl"
 
-// Returns the reflected environment light, scaled by `occlusion`. The diffuse part receives only light that the
-// specular part doesn't reflect.
+// Returns the environment's light that the surface reflects towards the eye, scaled by `occlusion`. The diffuse part
+// receives only light that the specular part doesn't reflect.
 vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusion) {
     if (environmentType == 0) return vec3(0.0);
     vec3 diffuse;

@@ -1,6 +1,6 @@
-// Visibility of each light and of the environment from a surface point (Williams 1978; Haeberli and Akeley 1990).
-// shadowFirst and shadowFaces hold, for each light and then the environment, the first shadow map (−1: none) and the
-// number of maps.
+// Computes how much of each light and of the environment is visible from a surface point (Williams 1978; Haeberli and
+// Akeley 1990). shadowFirst and shadowFaces hold, for each light and then the environment, the first shadow map (−1:
+// none) and the number of maps.
 //
 // A texel stores only the depth at its centre, so a tilted plane would shadow itself. The comparison therefore uses the
 // depth of the receiver's facet at the texel centre (Isidoro 2006, Shadow Mapping: GPU-Based Tips and Techniques). This

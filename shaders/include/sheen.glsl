@@ -1,6 +1,6 @@
-// KHR_materials_sheen with the distribution and masking of Estevez and Kulla 2017, Production Friendly Microfacet Sheen
-// BRDF ("Charlie" sheen). Roughness is clamped to at least 0.1, because smoother sheen would shrink to a thin line
-// along the silhouette.
+// Evaluates KHR_materials_sheen with the distribution and masking of Estevez and Kulla 2017, Production Friendly
+// Microfacet Sheen BRDF ("Charlie" sheen). Roughness is clamped to at least 0.1, because smoother sheen would shrink to
+// a thin line along the silhouette.
 
 float sheenWidth(float roughness) {
     float bounded = max(roughness, 0.1);

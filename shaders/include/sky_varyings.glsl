@@ -1,4 +1,4 @@
-// Varyings of the triangle that draws the sky of a lens sample.
+// Varyings (interpolated values) of the triangle that draws the sky for a lens sample.
 
     vec2 place;                // image position in normalised device coordinates
     flat vec4 lensAndJitter;

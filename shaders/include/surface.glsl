@@ -14,9 +14,9 @@ struct Surface {
     vec4 uv;              // texture coordinates of both UV sets
     vec4 tangent;
     vec2 ownBlur;         // the surface's blur factor, and its added blur as a fraction of the image's width
-    int facet;            // index of the triangle's last vertex, as the triangle's id; only if choosesByAlpha
+    int facet;            // index of the triangle's last vertex, as the triangle's id; set only if choosesByAlpha
     float sampleNumber;   // index of the lens sample within the frame
     float layer;
-    vec3 opening;         // clip-space (x, y, w) through a pinhole when the shutter opens; only with MOTION_SLOT
-    vec3 closing;         // clip-space (x, y, w) through a pinhole when the shutter closes
+    vec3 opening;         // clip-space (x, y, w) through a pinhole when the shutter opens; set only with MOTION_SLOT
+    vec3 closing;         // clip-space (x, y, w) through a pinhole when the shutter closes; set only with MOTION_SLOT
 };

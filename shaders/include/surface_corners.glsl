@@ -1,4 +1,5 @@
-// Surface at the corners of a triangle, for tessellation and geometry shaders, which create vertices.
+// Interpolates the surface attributes of a triangle's corners, for tessellation and geometry shaders, which create
+// vertices.
 
 #include "include/surface.glsl"
 

@@ -1,5 +1,5 @@
-// Interpolated attributes of the fragment's surface, in the global variable `surface`. main() must call readSurface()
-// first.
+// Reads the interpolated attributes of the fragment's surface into the global variable `surface`. main() must call
+// readSurface() first.
 
 #include "include/surface.glsl"
 

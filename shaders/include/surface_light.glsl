@@ -1,4 +1,4 @@
-// Radiance of a surface towards one lens sample.
+// Computes the radiance of a surface towards the lens point of one lens sample.
 
 #include "include/layer_format.glsl"
 #include "include/environment.glsl"
@@ -9,7 +9,7 @@
 #include "include/shading.glsl"
 #include "include/surface_shading.glsl"
 
-// Min and max of the vertex colours of the drawn level; used only if levelColorRange.
+// Min (levelMin) and max (levelMax) of the vertex colours of the drawn level; used only if levelColorRange.
 layout(location = 0) uniform vec4 levelMin;
 layout(location = 1) uniform vec4 levelMax;
 

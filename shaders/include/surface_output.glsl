@@ -1,4 +1,4 @@
-// Output varyings of a stage before the fragment stage, and writeSurface() to set them.
+// Declares the output varyings of a stage before the fragment stage, and writeSurface(), which sets them.
 
 out SurfaceVaryings {
 #include "include/surface_varyings.glsl"

@@ -1,6 +1,6 @@
 // Shades a surface from its interpolated attributes in the global variable `surface`.
 
-// Each including shader defines these two functions.
+// Each shader that includes this file defines the following two functions.
 bool showsFront();                       // true if the triangle's front is visible
 // Sets the changes of the normal from pixel to pixel. `normal` is the normalised interpolated normal.
 void addNormalChanges(inout SurfacePoint point, vec3 normal);
@@ -19,7 +19,7 @@ vec3 bumpedNormal(vec3 normal, vec3 texel, float scale) {
     return normal;
 }
 
-vec3 shownNormal = vec3(0.0);     // normal and emission of the surface, set by shaded()
+vec3 shownNormal = vec3(0.0);     // normal used for shading, set by shaded()
 vec3 shownEmission = vec3(0.0);
 
 vec3 towardsViewer(vec3 normal) {

@@ -1,4 +1,4 @@
-// A vertex of a surface as seen by one lens sample. Each lens sample is one instance of an instanced draw.
+// Computes a vertex of a surface as seen by one lens sample. Each lens sample is one instance of an instanced draw.
 
 #include "include/vertex.glsl"
 #include "include/layer_choice.glsl"

@@ -1,4 +1,4 @@
-// Writes the attributes of a surface to the varyings SURFACE_OUT.
+// Writes the attributes of the surface `s` to the varyings SURFACE_OUT.
 
 void writeSurface(Surface s) {
     SURFACE_OUT.color = s.color;

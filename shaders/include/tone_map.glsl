@@ -1,6 +1,5 @@
-// Tone mapping from linear HDR to display values, like src/image/tone_map.cpp. This file implements sRGB (IEC
-// 61966-2-1), the ACES fit by Stephen Hill, AgX and Khronos PBR Neutral. AgX has Troy Sobotka's base look in Benjamin
-// Wrensch's fit.
+// Maps linear HDR colours to display values, like src/image/tone_map.cpp. Implements sRGB (IEC 61966-2-1), the ACES fit
+// by Stephen Hill, AgX and Khronos PBR Neutral. AgX has Troy Sobotka's base look in Benjamin Wrensch's fit.
 
 vec3 finiteColour(vec3 value) {
     const float brightest = 1e6;

@@ -1,4 +1,4 @@
-// Radiance from behind a surface that transmits light.
+// Computes the radiance from behind a surface that transmits light.
 
 #include "include/transmittance.glsl"
 

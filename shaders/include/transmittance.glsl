@@ -1,4 +1,5 @@
-// Amount and colour of the light that a material transmits (KHR_materials_transmission and KHR_materials_volume).
+// Computes the amount and colour of the light that a material transmits (KHR_materials_transmission and
+// KHR_materials_volume).
 
 // Returns the thickness of the volume behind the surface in m; 0 for a thin wall.
 float volumeThickness() {

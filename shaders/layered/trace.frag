@@ -23,7 +23,7 @@ layout(location = 2) uniform vec2 pinhole;                  // subpixel position
 
 layout(location = 0) out vec4 layerOut;
 
-const float rounded = 0.05;   // tolerance for hitting a plane, in px of blur
+const float rounded = 0.05;   // tolerance for rounding when a ray hits a plane, in px of blur
 const float oneSurface = 1.0; // max difference between adjacent planes of one surface, in px of blur
 const int maxSurfaces = blendedLayers ? 16 : 1;
 
@@ -33,7 +33,7 @@ struct Hit {
     ivec3 texel;
 };
 
-// A line in the layers, parameterised by blur.
+// A ray as a line in the pinhole image, parameterised by the signed blur of the surfaces that it meets.
 struct Ray {
     vec2 start;      // px
     vec2 slope;      // change of position in px per px of blur
@@ -47,7 +47,7 @@ vec2 placeAt(Ray ray, float blur) { return ray.start + blur * ray.slope; }
 // considered.
 void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
     vec2 reach = texelFetch(layerReach, ivec3(gl_FragCoord.xy, layer), 0).xy + vec2(-rounded, rounded) + ray.shift;
-    if (!usesOwnBlur) reach.y = min(reach.y, hit.end);   // blur grows along the ray
+    if (!usesOwnBlur) reach.y = min(reach.y, hit.end);   // blur grows along the ray, so hits beyond hit.end are farther
     ivec2 size = textureSize(layerSurfaces, 0).xy;
     vec2 toFirst = -ray.start * ray.perSlope;
     vec2 toLast = (vec2(size) - ray.start) * ray.perSlope;

@@ -1,5 +1,5 @@
-// Adds the radiance of a wave (a batch of rays) to each pixel's compensated sum, in the order of the rays. Each ray has
-// one record, its hit (records.glsl).
+// Adds the radiance of a batch (wave) of rays to each pixel's compensated sum, in the order of the rays. Each ray has
+// one record, which holds its hit (records.glsl).
 
 #include "lens_space/pixel_sum.glsl"
 

@@ -1,5 +1,6 @@
-// Finds the next hit of rays that pass through a cut-out or blended surface: records with a negative weight. The next
-// hit is the nearest behind the record's triangle. If that hit is opaque or the sky, the weight becomes positive again.
+// Finds the next hit of rays that pass through a cut-out or blended surface. The records (ray hits) of such rays have a
+// negative weight. The next hit is the nearest behind the record's triangle. If that hit is opaque or the sky, the
+// weight becomes positive again.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"

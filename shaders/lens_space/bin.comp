@@ -53,7 +53,7 @@ void add(inout Area area, vec4 corners[3], float aspect) {
 }
 
 // Returns the polar form of (Nx, Ny, det) in src/plan/visible/lens_facing.h: a function that is linear in each of three
-// triangles and equals (Nx, Ny, det) if the three are the same.
+// triangles. It equals (Nx, Ny, det) of a triangle if all three arguments are that triangle.
 vec3 polarForm(vec4 a[3], vec4 b[3], vec4 c[3]) {
     vec2 slope = vec2(0.0);
     for (int i = 0; i < 3; ++i) slope += a[i].w * cross(b[(i + 1) % 3].xyz, c[(i + 2) % 3].xyz).xy;
@@ -62,7 +62,7 @@ vec3 polarForm(vec4 a[3], vec4 b[3], vec4 c[3]) {
 
 float overLens(vec3 coefficients, float aspect) { return coefficients.z + length(coefficients.xy * vec2(1.0, aspect)); }
 
-// Returns a bound of rounding errors of the determinant.
+// Returns an upper bound on the rounding error of the determinant.
 float roundingOf(vec4 p[3]) {
     vec3 a = abs(p[0].xyz);
     vec3 b = abs(p[1].xyz);
@@ -92,7 +92,7 @@ void main() {
     uvec4 triangle = triangles[index];
     float aspect = float(imageSize.x) / float(imageSize.y);
     vec4 corners[3] = vec4[3](clips[triangle.x], clips[triangle.y], clips[triangle.z]);
-    // With aberrations, the lens shear isn't linear in the lens point.
+    // Culling assumes that the lens shear is linear in the lens point, which isn't true with aberrations.
     bool mayCull = draws[triangle.w].doubleSided == 0u && !aberrations;
     Area area = Area(vec2(1e30), vec2(-1e30));
     add(area, corners, aspect);

@@ -1,4 +1,5 @@
-// A group of surfaces with the same shader, and the group's range in the list of a wave's records (ray hits).
+// Describes a group of surfaces with the same shader. The records (ray hits) of these surfaces are contiguous in a list
+// of all records of the rays that are traced together.
 
 struct Group {
     uint count;

@@ -1,4 +1,4 @@
-// Attributes of the surface that a ray hits, interpolated between the triangle's corners and stored in the global
+// Interpolates the attributes of the surface that a ray hits between the triangle's corners. Stores them in the global
 // variable `surface` (surface.glsl).
 
 vec3 hitWeights(vec3 edges) { return edges / (edges.x + edges.y + edges.z); }

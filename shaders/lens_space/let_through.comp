@@ -45,7 +45,7 @@ float thresholdOf(uint number, uvec2 pixel, uint triangle) {
     return float(value >> 8) / 16777216.0;
 }
 
-// Base colour's alpha and the mip level at which it is read.
+// Alpha of the base colour, and the mip level from which it is read.
 struct Alpha {
     float value;
     float level;

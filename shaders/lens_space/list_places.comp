@@ -1,5 +1,5 @@
-// Computes where the records of each group of surfaces begin in the list of records, and how many workgroups of 256
-// threads shade them.
+// Computes where the records (ray hits) of each group of surfaces with the same shader begin in the list of records,
+// and how many workgroups of 256 threads shade them.
 
 #include "lens_space/groups.glsl"
 

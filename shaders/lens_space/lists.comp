@@ -1,5 +1,5 @@
-// Sorts records (ray hits) into groups of surfaces with the same shader. With countsOnly, counts each group's records;
-// otherwise writes the records' indices to the groups' ranges of the list.
+// Sorts records (ray hits) by the shader of the surface: surfaces with the same shader form a group. With countsOnly,
+// counts each group's records; otherwise writes the records' indices to the groups' ranges of the list.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"

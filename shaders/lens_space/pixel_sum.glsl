@@ -1,4 +1,4 @@
-// Compensated sum of the radiance of each pixel's rays.
+// Adds the radiance of rays to the compensated sum of each pixel.
 
 #include "include/compensated.glsl"
 #include "lens_space/records.glsl"
@@ -9,7 +9,7 @@ layout(std430, binding = 3) buffer SumBlock { vec4 sums[]; };   // per pixel: ra
 
 layout(location = 0) uniform uint pixelCount;
 layout(location = 1) uniform uint rayCount;
-layout(location = 2) uniform bool begins;   // true: first wave of the frame
+layout(location = 2) uniform bool begins;   // true: first batch (wave) of rays of the frame
 
 // Returns the index of this thread's pixel. Threads with an index ≥ pixelCount have no pixel.
 uint pixelOfThread() {

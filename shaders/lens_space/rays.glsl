@@ -1,22 +1,22 @@
-// Rays of each pixel. There are rayVariants sets of rays, each well distributed over lens and pixel. The pixels of a
-// square of up to 8 × 8 pixels use different sets, in a different order in each square
-// (src/render/lens_space/ray_sets.h). Each pixel then scrambles its point samples, so that it has its own points on the
-// lens, in the pixel and in time.
+// Looks up the rays of each pixel. There are rayVariants sets of rays. Each set contains all rays of one pixel, well
+// distributed over lens and pixel. The pixels of a square of up to 8 × 8 pixels use different sets, in a different
+// order in each square (src/render/lens_space/ray_sets.h). Each pixel then scrambles its point samples, so that no two
+// pixels have the same points on the lens, in the pixel and in time.
 
 struct Ray {
     // xy: lens point (u, k·v), or the vector from the lens centre to the rim along a line; zw: position in px from the
     // pixel's centre.
     vec4 lensAndPixel;
-    // Point sample: x is the time in the part of the exposure, [0, 1]. Line sample: x is the line's extent on the side
-    // opposite to the rim point, relative to the rim's distance from the lens centre; y is the fraction of its light on
-    // the rim's side; z is the position of the shading point in a segment, [0, 1).
+    // Point sample: x is the fraction of the current part of the exposure, [0, 1]. Line sample: x is the line's extent
+    // on the side opposite to the rim point, relative to the rim's distance from the lens centre; y is the fraction of
+    // the line's light on the rim's side; z is the position of the shading point in a segment, [0, 1).
     vec4 values;
 };
 
 layout(std430, binding = 6) readonly buffer RayBlock { Ray rays[]; };   // index: ray · rayVariants + variant
 
 layout(location = 0) uniform ivec2 imageSize;
-layout(location = 1) uniform uint firstRay;   // first ray of the wave
+layout(location = 1) uniform uint firstRay;   // index of the first ray of the rays traced together (the wave)
 
 uint mixedBits(uint x) {   // finaliser of MurmurHash3 (Appleby)
     x = (x ^ (x >> 16)) * 0x85ebca6bu;
@@ -24,8 +24,8 @@ uint mixedBits(uint x) {   // finaliser of MurmurHash3 (Appleby)
     return x ^ (x >> 16);
 }
 
-// Returns the index of a pixel's ray set. Bayer's matrix (1973) assigns successive sets to distant pixels of a square,
-// and each square of 8 × 8 pixels flips random bits of the index.
+// Returns the index of the set of rays that a pixel uses. Bayer's matrix (1973) assigns successive sets to distant
+// pixels of a square, and each square of 8 × 8 pixels flips random bits of the index.
 uint variantOf(uvec2 pixel) {
     uint order = 0u;
     for (uint bit = 0u; bit < 3u; ++bit) {
@@ -40,8 +40,8 @@ uint variantOf(uvec2 pixel) {
 // Sampling). The shift keeps the stratification of (t, m, s)-nets in base 2.
 float shifted(float x, uint flips) { return float(min(uint(x * 16777216.0), 16777215u) ^ (flips >> 8)) / 16777216.0; }
 
-// Returns ray `ray` of the wave for a pixel. In all ray sets, this ray passes through the same small part of the lens.
-// A point sample takes its lens point from a randomly chosen set.
+// Returns ray number `ray`, counted from firstRay, of a pixel. In all sets, the ray with this number passes through
+// nearly the same small part of the lens. A point sample takes its lens point from a randomly chosen set.
 Ray rayOf(uint ray, uvec2 pixel) {
     uint first = (firstRay + ray) * rayVariants;
     Ray own = rays[first + variantOf(pixel)];

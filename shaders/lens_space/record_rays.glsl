@@ -1,11 +1,11 @@
-// Functions that return the pixel, the ray and the lens point of a record (ray hit).
+// These functions return the pixel, the ray and the lens point of a record (ray hit).
 
 uvec2 pixelOf(Record record) {
     uint inImage = record.ray % uint(imageSize.x * imageSize.y);
     return uvec2(inImage % uint(imageSize.x), inImage / uint(imageSize.x));
 }
 
-// Returns the index of the record's ray in the wave.
+// Returns the number of the record's ray among the rays of a pixel that are traced together.
 uint numberOf(Record record) { return record.ray / uint(imageSize.x * imageSize.y); }
 
 // Returns the lens point (u, k·v) through which the record's surface is seen. `ray`: the record's ray.

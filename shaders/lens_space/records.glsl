@@ -1,9 +1,9 @@
-// Records: hits of a wave's rays. Shading replaces the four members of a record by red, green, blue and coverage,
+// A record holds the hit of a ray. Shading replaces the four members of the record by red, green, blue and coverage,
 // multiplied by Record::weight.
 
 struct Record {
     uint triangle;   // noTriangle if the ray hits the sky
-    uint ray;        // (ray of the wave · height + y) · width + x
+    uint ray;        // (n · height + y) · width + x, where n is the ray's number counted from firstRay (rays.glsl)
     float place;     // line sample: position along the line over the lens; point sample: depth w of the hit
     float weight;
 };

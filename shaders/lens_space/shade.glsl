@@ -1,4 +1,4 @@
-// Shades the records (ray hits) of one group of surfaces with the same shader. Each including file defines lightOf().
+// Shades the records (ray hits) of all surfaces with one shader. Each file that includes this one defines lightOf().
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"

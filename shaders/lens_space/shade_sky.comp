@@ -1,5 +1,5 @@
-// Shades the records of rays that hit no surface with the radiance of the sky. The sky lies at infinity, where the
-// relative circle of confusion C/w is b.
+// Shades the records (ray hits) of rays that hit no surface with the radiance of the sky. The sky lies at infinity,
+// where the circle of confusion C = a + b·w relative to w is b.
 
 #include "lens_space/shade.glsl"
 

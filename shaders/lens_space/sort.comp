@@ -11,8 +11,8 @@ layout(std430, binding = 5) coherent buffer EntryBlock { uint entries[]; };
 layout(std430, binding = 6) readonly buffer DepthBlock { uint depths[]; };
 
 layout(location = 0) uniform uint firstTile;
-// Size of the block and step to run; (0, 0) runs all. Mesa's software driver ends the loops of a thread after a total
-// of 65,535 iterations, so long lists need one dispatch per step.
+// Size of the bitonic block and step that this dispatch runs; (0, 0) runs all of them. Mesa's software driver ends the
+// loops of a thread after a total of 65,535 iterations, so long lists need one dispatch per step.
 layout(location = 1) uniform uvec2 only;
 
 void order(uint a, uint b) {

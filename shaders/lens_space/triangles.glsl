@@ -23,7 +23,7 @@ const uint noTriangle = 0xffffffffu;
 
 layout(std430, binding = 0) readonly buffer ClipBlock { vec4 clips[]; };
 #ifdef MOVING
-// Clip positions at the end of the current part of the exposure.
+// Clip positions of the vertices at the end of the current part of the exposure.
 layout(std430, binding = 1) readonly buffer ClipEndBlock { vec4 clipsAtEnd[]; };
 vec4 clipAtEnd(uint vertex) { return clipsAtEnd[vertex]; }
 #else

@@ -1,5 +1,5 @@
-// Adds the radiance of a wave's lines to each pixel's compensated sum, in the order of the lines. Each line has a range
-// of records (lens_space/records.glsl).
+// Adds the radiance of a batch (wave) of line samples to each pixel's compensated sum, in the order of the lines. Each
+// line has a range of records (lens_space/records.glsl).
 
 #include "lens_space/pixel_sum.glsl"
 

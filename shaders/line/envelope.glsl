@@ -1,5 +1,5 @@
-// Visible pieces of a line over the lens: disjoint intervals, sorted by the position p along the line. Each piece
-// belongs to the segment (triangle on the line) that is nearest so far.
+// Keeps the visible pieces of a line over the lens: disjoint intervals, sorted by the position p along the line. Each
+// piece belongs to the triangle that is nearest there among the triangles added so far.
 
 struct Piece {
     float first;
@@ -10,10 +10,10 @@ struct Piece {
 
 // Double buffer of the list of pieces: each new segment reads one list and writes the other.
 vec2 pieceEnds[2 * segmentCapacity];
-vec4 pieceDepths[2 * segmentCapacity];   // 1/w = E/D (line.glsl): E at 0, slope of E; D at 0, slope of D
+vec4 pieceDepths[2 * segmentCapacity];   // 1/w = E/D (line.glsl): E at p = 0, slope of E; D at p = 0, slope of D
 uint pieceTriangles[2 * segmentCapacity];
 uint pieceCount = 0u;
-uint current = 0u;                // start of the current list: 0 or segmentCapacity
+uint current = 0u;                // index of the first piece of the current list: 0 or segmentCapacity
 uint nextCount = 0u;
 uint nextList = 0u;
 vec2 lineSides;
@@ -110,7 +110,7 @@ void addSegment(Interval interval, uint triangle, OnLine line, bool front) {
     nextHasGaps = false;
     float cursor = interval.first;
     for (uint i = 0u; i < pieceCount; ++i) {
-        ownRounds += 4u;   // four iterations per piece: one here and three in the loop over the parts below
+        ownRounds += 4u;   // four iterations per piece: one of this loop and three of the inner loop
         vec2 ends = pieceEnds[current + i];
         vec4 otherDepth = pieceDepths[current + i];
         uint other = pieceTriangles[current + i];
@@ -163,7 +163,7 @@ Piece firstPiece(Interval whole) { return pieceFrom(0u, whole.first, whole); }
 
 Piece nextPiece(Piece piece, Interval whole) { return pieceFrom(piece.index, piece.last, whole); }
 
-// Returns an upper bound on the loop iterations for writing the line's records (ray hits) at the end.
+// Returns an upper bound on the loop iterations that writing the line's records (ray hits) will take.
 uint walkRounds() { return (2u * pieceCount + 1u) * (2u + uint(maxShadingPoints)); }
 
 const uint stateSize = 2u + 4u * uint(segmentCapacity);

@@ -1,5 +1,5 @@
-// Inputs of the kernel that finds the visible segments of lines. A workgroup processes one tile and one line of each of
-// the tile's pixels.
+// Declares the inputs and outputs of the kernel that finds the visible segments of lines. A workgroup processes one
+// tile and one line of each of the tile's pixels.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -16,15 +16,15 @@ layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
 layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };
 layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
 layout(std430, binding = 1) buffer OutputBlock {
-    uint recordCount;       // number of requested records
+    uint recordCount;       // number of records (ray hits) that all lines together need
     uint droppedSegments;
-    uint droppedLight;      // in units of 1/1024 of a line's light
+    uint droppedLight;      // light of the dropped segments, in units of 1/1024 of a line's light
     uint mergedSegments;
     uint laterJobs;         // jobs deferred to later dispatches
     uint unfinishedJobs;    // jobs of this dispatch that are not finished
-    // Three consecutive parts. The first has (first record, number of records) for each line of the wave. The second
-    // has two elements for each deferred job: (tile, line) and (next entry, status). The third has the saved states of
-    // the lines of unfinished jobs.
+    // The array has three ranges. The first holds (first record, number of records) for each line that is traced in
+    // this draw. The second holds two elements for each deferred job: (tile, line) and (next entry, status). The third
+    // holds the saved states of the lines of unfinished jobs.
     uvec2 ranges[];
 };
 struct Bounds {
@@ -37,8 +37,8 @@ layout(std140, binding = 7) uniform BoundBlock { Bounds lensBounds[maxRays]; };
 
 layout(location = 2) uniform uint firstTile;       // first tile whose list is in `entries`
 layout(location = 3) uniform uint recordCapacity;
-// Distance in px that a surface may move in the image, along a segment, per shading point; 0: one shading point per
-// segment.
+// One shading point is used for each shadingStep px that a surface moves in the image along a segment; 0: one shading
+// point per segment.
 layout(location = 5) uniform float shadingStep;
 // A job is the work of a workgroup: one tile, and one line sample of each of its pixels. Mesa's software driver ends
 // the loops of a thread after a total of 65,535 iterations (rounds). Jobs that need more continue in later dispatches.
@@ -51,7 +51,7 @@ layout(location = 8) uniform uint binSize;         // max triangles per tile; on
 
 const uint threads = uint(tileSize * tileSize);
 const uint maxKept = 64u;
-// Max number of scans of the tile's list before the segments of the triangles in `kept` are added. A scan covers one
+// Max number of scans of the tile's list before the segments of the triangles found so far are added. A scan tests one
 // entry per thread.
 const uint maxScans = 1024u;
 shared vec4 keptCorners[maxKept * 3u];
@@ -66,7 +66,7 @@ const uint hasSegments = 1u;    // a thread has visible segments that are not ye
 const uint hasNoRounds = 2u;    // a thread has reached its max loop iterations
 
 const uint jobIsNew = 0u;
-const uint jobGoesOn = 1u;      // the job continues with the triangles from its next entry on
+const uint jobGoesOn = 1u;      // the job continues with the triangles from the entry that it stored
 const uint jobHasSeen = 2u;     // the job first adds the remaining segments of triangles that it knows to be visible
 const uint jobIsDone = 3u;
 

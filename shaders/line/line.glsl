@@ -1,5 +1,5 @@
-// A triangle along a line through the lens (Tzeng et al. 2012, High-Quality Parallel Depth-of-Field Using Line
-// Samples).
+// Describes a triangle as seen along a line through the lens (Tzeng et al. 2012, High-Quality Parallel Depth-of-Field
+// Using Line Samples).
 //
 // The line has the direction d = (cos φ, k·sin φ), k = image width / height. Seen from lens point p·d, a vertex (x, y,
 // w, C) lies at q(p) = α + p·β relative to an image position s, with α = (x, y) − w·s and β = C·d. All β are parallel,
@@ -52,7 +52,7 @@ OnLine onLine(vec4 a, vec4 b, vec4 c, vec2 direction, vec2 place) {
     return line;
 }
 
-// Returns the triangle with its front and back exchanged.
+// Returns the triangle's functions along the line with front and back exchanged.
 OnLine turned(OnLine line) { return OnLine(-line.edgesAt0, -line.edgeSlopes, -line.sums, -line.determinant); }
 
 void cut(inout Interval interval, float at0, float slope) {

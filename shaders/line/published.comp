@@ -1,4 +1,5 @@
-// Keeps the segments of lines in a buffer in shared memory and resolves visibility at the end, as in Tzeng et al. 2012.
+// Keeps the segments of lines in a buffer in shared memory and resolves visibility after all segments have arrived, as
+// in Tzeng et al. 2012.
 
 #include "line/kernel.glsl"
 #include "line/segment_buffer.glsl"

@@ -4,9 +4,9 @@
 //   merge       it is joined with a stored segment that it continues, if the distance of the colours, the difference of
 //               the depths, the orientations and the slopes agree;
 //   length      it is dropped if it is too short;
-//   eviction    if the buffer is full, the shortest segment is dropped, stored or incoming.
-// The paper gives no thresholds; the constants below are this program's choice. At the end, a sweep along the line
-// finds the nearest segments.
+// The paper gives no thresholds; the constants below are this program's choice. After all segments have arrived, a
+// sweep along the line finds the nearest segments. Where segments intersect, the sweep switches between them only at an
+// end of a segment.
 // Where segments intersect, the sweep switches between them only at an end of a segment.
 //
 // shortIntervals: 16 bits hold the interval of a segment, 8 for each end. Colour (16 bits) and depth are stored in
@@ -25,7 +25,7 @@ struct Segment {
     vec2 depths;      // 1/w at both ends
     uint triangle;
     bool front;       // true: the triangle's front is visible
-    vec3 color;       // light in the middle of the segment, channels in [0, 1]; only if vertices are lit
+    vec3 color;       // radiance in the middle of the segment, mapped to [0, 1]; set only if vertices are lit
 };
 
 const float minLength = 1.0 / 512.0;         // fraction of the line's length
@@ -37,9 +37,9 @@ const float continuation = shortIntervals ? 1.0 / 127.0 : 1e-3;
 
 const uint slots = threads * uint(segmentCapacity);
 shared vec2 longEnds[shortIntervals ? 1u : slots];
-shared uint endsAndColors[slots];            // lower half: both ends, if short; upper half: colour
+shared uint endsAndColors[slots];            // lower half: both ends, if shortIntervals; upper half: colour
 shared vec2 segmentDepths[slots];
-shared uint segmentTriangles[slots];         // triangle; bit 31 is set if the line sees its back
+shared uint segmentTriangles[slots];         // index of the triangle; bit 31 is set if the line sees its back
 const uint backBit = 0x80000000u;
 uint segmentCount = 0u;
 vec2 lineSides;
@@ -49,7 +49,7 @@ uint merged = 0u;
 float hidden = 0.0;      // surfaces with a smaller 1/w are hidden by a segment over the entire line
 
 #ifdef LIGHTS_VERTICES
-// Two values per vertex: the light of the front, then the light of the back.
+// Two values per vertex: the radiance of the front, then the radiance of the back.
 layout(std430, binding = 8) readonly buffer LightBlock { vec4 lights[]; };
 
 // Returns the radiance of a triangle at position p of the line, mapped to [0, 1].
@@ -163,7 +163,7 @@ void addSegment(Interval interval, uint triangle, OnLine line, bool front) {
     segment.color = colorAt(triangle, line, front, 0.5 * (interval.first + interval.last));
     ownRounds += 3u * segmentCount;
 
-    // Occlusion
+    // Occlusion: drop the segment if a stored segment hides it, and remove stored segments that it hides.
     for (uint i = 0u; i < segmentCount; ++i)
         if (hides(load(i), segment)) return;
     if (segment.ends.x <= -lineSides.x && segment.ends.y >= 1.0) hidden = max(hidden, min(segment.depths.x, segment.depths.y));
@@ -176,18 +176,18 @@ void addSegment(Interval interval, uint triangle, OnLine line, bool front) {
         store(i, load(segmentCount));
     }
 
-    // Merge
+    // Merge: join the segment with a stored segment that it continues.
     for (uint i = 0u; i < segmentCount; ++i)
         if (mergedInto(i, segment)) return;
 
-    // Length
+    // Length: drop segments that are too short.
     if (lengthOf(segment) < minLength) {
         segment.ends = vec2(interval.first, interval.last);
         drop(segment);
         return;
     }
 
-    // Eviction
+    // Eviction: if the buffer is full, drop the shortest segment.
     if (segmentCount < uint(segmentCapacity)) {
         store(segmentCount, segment);
         ++segmentCount;
@@ -257,7 +257,7 @@ Piece firstPiece(Interval whole) { return pieceFrom(whole.first, partFrom(whole.
 
 Piece nextPiece(Piece piece, Interval whole) { return pieceFrom(piece.last, Part(piece.nextLast, piece.nextTriangle), whole); }
 
-// Returns an upper bound on the loop iterations for writing the line's records (ray hits) at the end.
+// Returns an upper bound on the loop iterations that writing the line's records (ray hits) will take.
 uint walkRounds() {
     uint parts = 2u * segmentCount + 1u;
     return parts * (4u * segmentCount + 2u + uint(maxShadingPoints));

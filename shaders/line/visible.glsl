@@ -58,9 +58,9 @@ uint writeRecords(uint at, uint ray, uint triangle, float p1, float p2, Ray mine
     return count;
 }
 
-// Collects the tile's next triangles, from entry `base` on, that its lines may see. Stops after maxKept triangles or
-// maxScans scans. All threads must call this function. The triangles stay in list order, because the order determines
-// which segments a full segment buffer drops.
+// Collects in `kept` the next triangles of the tile, from entry `base` on, that its lines may see. Stops after maxKept
+// triangles or maxScans scans. All threads must call this function. The triangles stay in list order, because the order
+// determines which segments a full segment buffer drops.
 void keepMore(inout uint base, uint end, uint ray, vec2 tileMin, vec2 tileMax) {
     uint count = 0u;
     uint word = gl_LocalInvocationIndex >> 5u;
@@ -216,7 +216,8 @@ void main() {
         }
         if (halted == 0u) continue;
 
-        // In the first dispatch, the job is deferred and restarts later. In later dispatches, its state is saved.
+        // Jobs of the first dispatch are deferred and restart later. In later dispatches, the state of an unfinished
+        // job is saved.
         bool putOff = jobs.x == 0u;
         if (gl_LocalInvocationIndex == 0u) {
             if (putOff) {
@@ -238,14 +239,14 @@ void main() {
     if (any(greaterThanEqual(pixel, uvec2(imageSize)))) return;
     uint index = (ray * uint(imageSize.y) + pixel.y) * uint(imageSize.x) + pixel.x;
 
-    // Walks along the line twice: first to count the records, then to write them.
+    // Visits the visible pieces of the line twice: first to count the records (ray hits), then to write them.
     uint needed = 0u;
     for (Piece piece = firstPiece(whole); piece.last > piece.first; piece = nextPiece(piece, whole))
         needed += recordsOf(piece.triangle, piece.first, piece.last, direction);
     uint at = atomicAdd(recordCount, needed);
     ranges[index] = uvec2(at, needed);
     countDropped();
-    if (at + needed > recordCapacity) return;   // the CPU enlarges the buffer and draws the wave again
+    if (at + needed > recordCapacity) return;   // the CPU enlarges the buffer and repeats the draw
     for (Piece piece = firstPiece(whole); piece.last > piece.first; piece = nextPiece(piece, whole))
         at += writeRecords(at, index, piece.triangle, piece.first, piece.last, mine);
 }

@@ -1,5 +1,5 @@
-// Fraction of a line's light that passes through a part [p₁, p₂] of the line. Lines are denser near the lens centre, so
-// parts are weighted by their distance from the centre. For a disk and p ∈ [−1, 1] the fraction is
+// Computes the fraction of a line's light that passes through a part [p₁, p₂] of the line. Lines are denser near the
+// lens centre, so parts are weighted by their distance from the centre. For a disk and p ∈ [−1, 1] the fraction is
 // κ(p₁, p₂) = (p₂|p₂| − p₁|p₁|)/2 (Tzeng et al. 2012, with p from −1/2 to 1/2). In general the two sides of the centre
 // have different fractions. Within a side, the density is 1 + a·(2t − 1), where t is the fraction of the unobstructed
 // area that lies nearer to the centre (src/lens/aperture.h). If areaWeights is false, parts are weighted by their

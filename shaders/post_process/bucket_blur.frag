@@ -5,10 +5,10 @@
 
 layout(binding = 0) uniform sampler2D known;         // output of bucket_surfaces.frag, with mip levels
 layout(binding = 1) uniform sampler2D opaqueDepth;
-layout(binding = 2) uniform sampler2D opaqueOwnBlur;   // blur modifiers of opaque surfaces; only with usesOwnBlur
+layout(binding = 2) uniform sampler2D opaqueOwnBlur;   // blur modifiers of opaque surfaces; used only with usesOwnBlur
 
 layout(location = 0) out float depth;
-layout(location = 1) out vec2 ownBlur;                 // blur modifiers; only with usesOwnBlur
+layout(location = 1) out vec2 ownBlur;                 // blur factor, added blur; written only with usesOwnBlur
 
 vec3 nearestKnown(ivec2 pixel) {
     vec4 sum = texelFetch(known, pixel, 0);

@@ -2,7 +2,7 @@
 // similar depth. Alpha is 1, or 0 without a surface, and serves as the weight of averages in mip levels.
 
 layout(binding = 0) uniform sampler2D surfaceDepth;
-layout(binding = 1) uniform sampler2D surfaceOwnBlur;   // blur modifiers of surfaces; only with usesOwnBlur
+layout(binding = 1) uniform sampler2D surfaceOwnBlur;   // blur factor and added blur; used only with usesOwnBlur
 
 layout(location = 0) out vec4 known;   // reversed depth, blur factor, added blur, 1; all 0 without a surface
 

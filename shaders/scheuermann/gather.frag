@@ -14,7 +14,7 @@ layout(location = 0) out vec4 blurred;
 
 void main() {
     vec2 perPixel = 1.0 / vec2(textureSize(sharpImage, 0));
-    // size of a pixel of sharpImage in smallImage
+    // Size of a pixel of sharpImage in texture coordinates of smallImage.
     vec2 perPixelSmall = 1.0 / (smallPixel * vec2(textureSize(smallImage, 0)));
     float centreDepth = texelFetch(sharpImage, ivec2(gl_FragCoord.xy), 0).a;
     float radius = abs(centreDepth * 2.0 - 1.0) * largestRadius;

@@ -15,14 +15,14 @@ layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
 // End of each tile's triangle list, as an index into `entries`.
 layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };
 layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
-// Bounds of the lens points of each ray over all variants (rays.glsl): min (u, k·v), max (u, k·v).
+// Bounds of the lens points of each ray over all sets of rays (rays.glsl): min (u, k·v), max (u, k·v).
 layout(std140, binding = 7) uniform BoundBlock { vec4 lensBounds[maxRays]; };
 
-// Number of tests of a triangle by all rays of a workgroup; 64-bit, low word first.
+// Number of tests of a triangle against all rays of a workgroup; 64-bit, low word first.
 layout(std430, binding = 8) buffer TestBlock { uint tests[2]; };
 
 layout(location = 2) uniform uint firstTile;   // first tile whose list is in `entries`
-// Part of each tile's list that this dispatch tests: first entry, number of entries. Mesa's software driver ends the
+// x: first entry of each tile's list that this dispatch tests; y: number of entries. Mesa's software driver ends the
 // loops of a thread after a total of 65,535 iterations. Long lists therefore need several dispatches, each of which
 // continues where the previous dispatch ended.
 layout(location = 3) uniform uvec2 part;

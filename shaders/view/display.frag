@@ -5,7 +5,7 @@
 layout(binding = 0) uniform sampler2D firstImage;    // linear, premultiplied
 layout(binding = 1) uniform sampler2D secondImage;
 layout(binding = 2) uniform sampler2D cocImage;      // signed CoC diameter (px)
-layout(binding = 3) uniform sampler2D levelImage;    // fractional level of detail λ; −1: no surface
+layout(binding = 3) uniform sampler2D levelImage;    // fractional level of detail λ (0: full detail); −1: no surface
 layout(binding = 4) uniform sampler2D wireImage;     // display-encoded
 layout(binding = 5) uniform sampler2D workImage;     // triangle count, summed over lens samples
 layout(binding = 6) uniform sampler2D mapColours;    // linear colour map of the overlay

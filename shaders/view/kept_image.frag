@@ -1,4 +1,4 @@
-// Rounds an image to half floats; radiance above their range is clamped.
+// Rounds an image to half floats. Radiance above the range of half floats is clamped.
 
 layout(binding = 0) uniform sampler2D image;
 

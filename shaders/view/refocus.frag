@@ -1,4 +1,4 @@
-// Mean of images that are moved by whole pixels (src/refocus/refocus.h).
+// Computes the mean of images that are moved by whole pixels (src/refocus/refocus.h).
 
 layout(binding = 0) uniform sampler2DArray images;
 layout(location = 0) uniform int imageCount;

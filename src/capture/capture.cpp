@@ -24,7 +24,7 @@ namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t framesWaiting = 2;  // max frames in the writer's queue; a longer queue would only take memory
+constexpr std::size_t framesWaiting = 2;  // max frames in the writer's queue; more would only take memory
 
 // Returns the file for a range of a frame's samples: frames/0012.exr → frames/0012.part00064-00128.exr.
 fs::path partPath(const fs::path& frame, const SampleRange& range) {
@@ -54,7 +54,7 @@ FrameState partState(const fs::path& path, const std::string& settings) {
 struct FrameTimes {
     double planMilliseconds = 0;
     double renderMilliseconds = 0;
-    double writeMilliseconds = 0;  // time of encoding and writing
+    double writeMilliseconds = 0;  // time for encoding and writing the files
 };
 
 void appendTimes(const FilmOptions& options, std::uint64_t memoryLimit, const FilmFrame& film, const FrameMoment& frame,
@@ -79,34 +79,35 @@ void appendTimes(const FilmOptions& options, std::uint64_t memoryLimit, const Fi
 
 // ---- one frame ------------------------------------------------------------------------------------------------------
 
-// Result of drawing a frame, passed to the writer while the driver draws the next frame.
+// The result of drawing a frame. The writer thread receives it and writes the frame's files while the driver draws the
+// next frame.
 struct DrawnFrame {
     FrameMoment moment;
     Image image;  // image of an untiled frame
     std::optional<LayerImages> layers;
     std::shared_ptr<const Scene> scene;
-    FramePart part;  // partial sums, if only some of the samples are drawn
+    FramePart part;  // partial sums; set if only some of the samples are drawn
     Metadata metadata;
     RenderStats stats;
     FrameTimes times;
-    bool written = false;  // whether the files are already complete, as for a frame in tiles
+    bool written = false;  // true: the files are already complete, as for a frame in tiles
 };
 
-// Returns the request's stop conditions without the time limit. The time limit ends the run instead of a frame, so that
-// a frame has the same samples in every run.
+// Returns the request's stop conditions without the time limit, because a frame must have the same samples in every
+// run. The time limit ends the run between two frames instead.
 StopSettings stopOf(const FilmOptions& options) {
     StopSettings stop = stopSettings(options.settings.request);
     stop.timeLimit.reset();
     return stop;
 }
 
-// Returns the metadata for the file with index `file` of a frame: `ofFrame` with that file's settings hash.
+// Returns the metadata for the file with index `file` of a frame: the metadata `ofFrame` with the file's settings hash.
 Metadata fileMetadata(const FilmFrame& film, std::size_t file, const Metadata& ofFrame) {
     Metadata metadata = ofFrame;
     metadata[settingsAttribute] = film.settings[file];
     const std::string ending = film.files[file].extension().string();
     if (ending != ".exr" && ending != ".png")
-        metadata["comments"] = film.settings[file];  // JPEG files store no other text attribute
+        metadata["comments"] = film.settings[file];  // JPEG files keep no other text attribute
     return metadata;
 }
 
@@ -199,7 +200,7 @@ DrawnFrame drawFrame(const FilmFrame& film, FrameMoment moment, World& world, Fr
     return drawn;
 }
 
-// Computes a frame of a run from lens images.
+// Computes a frame of `run` from the run's lens images (one image per lens sample).
 DrawnFrame refocusFrame(const RefocusRun& run, FrameMoment moment, World& world, FrameDriver& driver,
                         RefocusedPictures& pictures, const FilmMetadata& metadata,
                         const std::function<void(double)>& step) {
@@ -280,7 +281,7 @@ std::vector<FilmFrame> filmFrames(const Shot& shot, const SequenceBase& base, co
         const std::lock_guard lock(reporting);
         report(progress, "frames checked", ++done, frames.size());
     });
-    // Throw the exception of the first faulty frame in the shot's order.
+    // Throw the exception of the faulty frame that comes first in the shot.
     for (const std::exception_ptr& fault : faults)
         if (fault) std::rethrow_exception(fault);
     return film;

@@ -19,27 +19,27 @@
 
 namespace defocus::engine {
 
-// One frame of a shot and its files.
+// A frame of a shot, and the files to which it is written.
 struct FilmFrame {
     int frame = 0;
     std::vector<std::string> settings;         // settings hash, one per file
     std::vector<std::filesystem::path> files;  // image files, one per file name pattern
     WriteOptions write;                        // encoding of PNG, JPEG and video
     bool finished = false;                     // whether all files exist with the requested settings
-    std::filesystem::path other;               // with `resume`: first existing file to be replaced; empty: none
+    std::filesystem::path other;               // with `resume`: first existing file of other settings; empty: none
 };
 
 struct FilmOptions {
     std::vector<std::string> outputs;        // file name patterns, see capture/frame_files.h
-    std::optional<SampleRange> sampleRange;  // write partial sums to FRAME.partFIRST-END.exr; one EXR output only
-    FilmSettings settings;                   // settings without encoding; the time limit of a frame is ignored
-    bool metered = false;                    // whether FilmFrame::write gets a metered exposure later
+    std::optional<SampleRange> sampleRange;  // write only partial sums, to FRAME.partFIRST-END.exr; one EXR output only
+    FilmSettings settings;                   // settings without encoding; a frame's time limit is ignored
+    bool metered = false;                    // true: FilmFrame::write gets a metered exposure later
     std::filesystem::path timings;           // path of the sidecar file
-    bool resume = false;                     // keep the frames that are already finished
-    std::vector<RefocusRun> runs = {};       // frames that are computed from lens images; not with sampleRange
-    // Receives the first image that is drawn untiled, and the encoding of its 8-bit files.
+    bool resume = false;                     // true: keep the frames that are already finished
+    std::vector<RefocusRun> runs = {};       // frames that are computed from lens images; none with sampleRange
+    // Called with the first image that is drawn untiled, and with the encoding of its 8-bit files.
     std::function<void(const Image&, const WriteOptions&)> firstDrawn;
-    // Receives the number and the plan of each rendered frame, while the world has the pose of that frame.
+    // Called for each rendered frame with its number and plan, while the world has the pose of that frame.
     std::function<void(int frame, const FramePlan& plan)> frameDrawn;
 };
 
@@ -55,18 +55,18 @@ struct FilmFigures {
     int rendered = 0;
     int tiles = 1;  // number of tiles of the latest frame
     int finishedBefore = 0;
-    int refocused = 0;              // frames computed from lens images; also counted as rendered
-    std::uint64_t lensImages = 0;   // lens images that were rendered for refocused frames
-    double renderMilliseconds = 0;  // sum over all frames: time from the plan to the image
+    int refocused = 0;              // frames computed from lens images; `rendered` includes them
+    std::uint64_t lensImages = 0;   // number of lens images rendered for these frames
+    double renderMilliseconds = 0;  // sum over all frames of the time from plan to image
     double totalMilliseconds = 0;   // wall-clock time until the last file is written
     std::uint64_t triangles = 0;
-    std::optional<int> stoppedBefore;  // number of the next frame, if the run was stopped
+    std::optional<int> stoppedBefore;  // number of the next frame; nullopt if the run was not stopped
 };
 
-// Returns the metadata of a frame's files, without render times.
+// A function that returns the metadata of a frame's files, without render times.
 using FilmMetadata = std::function<Metadata(const FrameMoment&, const FramePlan&, const RenderStats&)>;
 
-// Bytes per pixel of the images that wait for the writer; value for DriverOptions::keptPixelBytes.
+// Bytes per pixel of the images that wait for the writer thread. Used as DriverOptions::keptPixelBytes.
 inline constexpr std::uint64_t filmPixelBytes = 3 * 16;
 
 // Renders the unfinished frames. `driver` must be constructed with `world`, whose pose and lights are set for each

@@ -9,8 +9,8 @@
 
 namespace defocus::engine {
 
-// Throws Error unless the file name of `pattern` has exactly one group of # and an extension that writeImage supports.
-// In "frames/####.exr", #### stands for the frame's number with leading zeros.
+// Throws Error unless the file name of `pattern` has exactly one sequence of # characters and an extension that
+// writeImage supports. In "frames/####.exr", #### stands for the frame's number with leading zeros.
 void checkFramePattern(const std::string& pattern);
 std::filesystem::path framePath(const std::string& pattern, int frame);
 

@@ -35,8 +35,8 @@ std::vector<Key<glm::dvec3>> pointsOf(const std::vector<Key<Place>>& keys, const
     return points;
 }
 
-// Returns the finished fraction of a camera movement at `frame`: 0 at its first frame, 1 at its last. `own`: the
-// movement's range; nullopt: the shot's range.
+// Returns the fraction of a camera movement that is finished at `frame`: 0 at the movement's first frame, 1 at its last
+// frame. `own`: range of the movement; nullopt: the range of the shot.
 double placeIn(const std::optional<FrameRange>& own, const FrameRange& shot, double frame) {
     const FrameRange range = own.value_or(shot);
     const double length = std::max(1, range.last - range.first);
@@ -91,7 +91,7 @@ double focusDistanceOf(const FocusTarget& target, const Scene& scene, const Pose
 double focusAt(const FocusTrack& focus, const Scene& scene, const FrameMoment& frame, const Lens& lens) {
     View view = frame.view;
     view.lens = lens;
-    // Skip keys that don't affect this frame: their nodes may be behind the camera.
+    // Skip keyframes that don't affect this frame: their nodes may be behind the camera.
     std::vector<Key<double>> dioptres;
     for (std::size_t i = 0; i < focus.keys.size(); ++i) {
         const bool early = i + 2 < focus.keys.size() && focus.keys[i + 2].frame <= frame.frame;
@@ -105,8 +105,8 @@ double focusAt(const FocusTrack& focus, const Scene& scene, const FrameMoment& f
 
 enum class Scale { plain, logarithmic, reciprocal, stepped };
 
-// Returns the scale on which keys of a lens value are interpolated: logarithmic for f-number, focal length, exposure
-// time and ISO, reciprocal (dioptres) for the focus distance.
+// Returns the scale on which keyframes of a lens value are interpolated: logarithmic for f-number, focal length,
+// exposure time and ISO, reciprocal (dioptres) for the focus distance.
 Scale scaleOf(const LensField& field) {
     if (!std::holds_alternative<double Lens::*>(field.member)) return Scale::stepped;
     const std::string_view name = field.name;

@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 class FrameWriter {
 public:
-    // `waiting`: max number of jobs in the queue, ≥ 1.
+    // `waiting`: max number of jobs that wait in the queue, ≥ 1.
     explicit FrameWriter(std::size_t waiting);
     // Blocks until all queued jobs are done, unless a job has failed.
     ~FrameWriter();

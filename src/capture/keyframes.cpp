@@ -1,4 +1,4 @@
-// Monotonic interpolation of Steffen 1990, A Simple Method for Monotonic Interpolation in One Dimension.
+// Implements the interpolation of Steffen 1990, A Simple Method for Monotonic Interpolation in One Dimension.
 
 #include "capture/keyframes.h"
 

@@ -13,8 +13,8 @@
 namespace defocus::engine {
 
 struct FramePop {
-    int frame = 0;       // number of the later frame
-    std::string object;  // name of the object
+    int frame = 0;       // number of the frame after the change of level
+    std::string object;  // name of the object that changes its level
     double rmse = 0;     // RMSE of display values (sRGB, [0, 1], EV 0) over the pixels that show the object or its blur
     double seedRmse = 0;  // RMSE over the same pixels between this frame and a rendering with another random seed
 };
@@ -24,14 +24,15 @@ public:
     // `world` must outlive the check.
     PopCheck(const World& world, const MethodUse& method, RendererOptions options);
 
-    // Compares the levels of detail in `plan` with those of the preceding frame. If they differ, draws the frame with
-    // both and compares the images. The world must have the pose of the frame. If this function was not called for the
-    // preceding frame, it only keeps the plan for the next call. Needs a current GL context.
+    // Compares the objects' levels of detail in `plan` with their levels in the preceding frame. If any differ, draws
+    // the frame with the new and with the old levels and compares the two images. The world must have the pose of the
+    // frame. If this function was not called for the preceding frame, it only keeps the plan for the next call. Needs a
+    // current GL context.
     void note(int frame, const FramePlan& plan);
 
     [[nodiscard]] const std::optional<FramePop>& largest() const { return largest_; }
-    [[nodiscard]] int compared() const { return compared_; }  // number of compared pairs of frames
-    // Returns the number of pairs that can't be compared, because their numbers of lens samples differ.
+    [[nodiscard]] int compared() const { return compared_; }  // number of pairs of frames that were compared
+    // Returns the number of pairs of frames that can't be compared because their numbers of lens samples differ.
     [[nodiscard]] int incomparable() const { return incomparable_; }
 
 private:

@@ -22,7 +22,7 @@ bool isShapeField(const LensField& field) {
     return field.feature == LensFeature::shape || field.name == std::string_view("anamorphicRatio");
 }
 
-// Returns the lens with the default aperture shape, a disk. Leaves an aperture image unchanged.
+// Returns the lens with a disk, the default, as its aperture shape. An aperture image stays unchanged.
 Lens withDisk(Lens lens) {
     const Lens standard;
     for (const LensField& field : lensFields())
@@ -36,7 +36,8 @@ bool sameShape(const Lens& a, const Lens& b) {
            });
 }
 
-// State of a frame. If two frames have equal keys, only focus distance, f-number and aperture shape differ.
+// Lens of a frame, and a key of everything else: if two frames have equal keys, only focus distance, f-number and
+// aperture shape differ.
 struct StillFrame {
     std::string key;
     Lens lens;

@@ -1,6 +1,7 @@
 #pragma once
-// Runs of neighbouring frames of a still scene in which only focus distance, f-number and aperture shape change. The
-// images of the lens samples are rendered once for a run, and all of its frames are computed from them (src/refocus).
+// Finds runs of neighbouring frames of a still scene in which only focus distance, f-number and aperture shape change.
+// One image per lens sample (lens image) is rendered for a run, and all frames of the run are computed from these
+// images (src/refocus).
 
 #include <cstdint>
 #include <optional>
@@ -18,34 +19,35 @@ struct RefocusRun {
     FrameRange frames;
     Lens lens;                  // lens with the run's widest aperture, focused at the middle of `range` in 1/distance
     FocusRange range;           // focus distances of the frames, m
-    std::uint32_t samples = 0;  // number of lens images; each frame uses at least the samples of a rendered frame
+    std::uint32_t samples = 0;  // number of lens images, at least the number of samples of a frame
 
-    // Returns a string that identifies the lens images, for hashes; runs with different lens images differ in it.
+    // Returns a string for hashes that identifies the lens images: runs with different lens images have different
+    // strings.
     [[nodiscard]] std::string text() const;
 };
 
 struct RefocusRuns {
     std::vector<RefocusRun> runs;       // runs in frame order
-    std::vector<std::string> rendered;  // why frames are rendered one by one although they could form a run
+    std::vector<std::string> rendered;  // reasons why frames are rendered one by one although they could form a run
 };
 
-// Returns the runs within `frames`, each with the length that saves the most lens samples. `samples`: lens samples of
-// each frame.
+// Returns the runs within `frames`, each with the length that saves the most lens samples. `samples`: number of lens
+// samples with which a single frame would be rendered.
 RefocusRuns refocusRuns(const Shot& shot, const SequenceBase& base, const FilmSettings& settings,
                         const FrameRange& frames, std::uint32_t samples);
 
 // Returns the run of frames that contains a frame; null if there is none.
 const RefocusRun* runOf(const std::vector<RefocusRun>& runs, int frame);
 
-// Returns the memory in bytes of a run's lens images. `view`: the view of one of its frames.
+// Returns the memory in bytes that a run's lens images take. `view`: the view of any of the run's frames.
 std::uint64_t memoryOf(const RefocusRun& run, const View& view);
 
-// Computes the pictures of the frames of runs. Keeps the lens images of one run in memory.
+// Computes the frames of runs from lens images. Keeps the lens images of one run in memory.
 class RefocusedPictures {
 public:
     struct Picture {
         Image image;
-        std::uint32_t samples = 0;  // lens images that the picture combines
+        std::uint32_t samples = 0;  // number of lens images that the picture combines
         FramePlan plan;             // plan of the lens images, with the picture's view
         bool rendered = false;      // whether the lens images were rendered for this picture
     };

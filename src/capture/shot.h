@@ -1,5 +1,5 @@
 #pragma once
-// A shot: scene, camera and lens of a sequence of frames, as in a shot file (docs/shot.schema.json). Plain data. Values
+// Defines a shot: scene, camera and lens of a sequence of frames, as in a shot file (docs/shot.schema.json). Values
 // missing in the file are taken from the scene's camera or the program's defaults. Frame 0 is at time 0.
 
 #include <filesystem>
@@ -32,7 +32,7 @@ struct LensTrack {
     Easing easing = Easing::smooth;
 };
 
-// Target on which a shot focuses. The target is evaluated for each frame, so that the focus follows moving objects. A
+// Target on which the lens is focused. It is evaluated for each frame, so that the focus follows moving objects. A
 // pixel refers to an image of the shot's size.
 using FocusTarget = std::variant<FocusDistance, FocusNode, FocusPixel, FocusAuto>;
 
@@ -87,7 +87,7 @@ struct Shot {
 
     double frameRate = 24;  // frames per second
     FrameRange range{0, 0};
-    double animationSpeed = 1;           // speed factor of the animation; 0: no motion
+    double animationSpeed = 1;           // factor on the animation's speed; 0: no motion
     std::optional<double> shutterAngle;  // degrees; replaces the exposure time in seconds; 360: always open
     ShotMovement movement;
     std::optional<FocusTrack> focus;

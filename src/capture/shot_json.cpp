@@ -67,7 +67,8 @@ std::optional<FrameRange> movementFrames(const JsonReader& reader) {
     return range;
 }
 
-// Returns the keys of a track with their frame numbers. Throws Error unless these are strictly increasing.
+// Returns the keyframes of a track with their frame numbers. Throws Error unless the frame numbers are strictly
+// increasing.
 std::vector<std::pair<double, JsonReader>> keysOf(const JsonReader& reader, const std::vector<std::string>& known) {
     std::vector<std::pair<double, JsonReader>> keys;
     for (const JsonReader& key : reader.elements(1, "one key or more, each with a frame")) {
@@ -205,7 +206,7 @@ std::map<std::string, LensTrack, std::less<>> lensOf(const JsonReader& reader) {
 
 // ---- the method
 
-// Returns the settings of all methods that may have keys, by name.
+// Returns the method settings that may have keyframes, by name, for all methods together.
 std::map<std::string, const MethodSetting*, std::less<>> keyedSettings() {
     std::map<std::string, const MethodSetting*, std::less<>> keyed;
     for (const Method& method : methods())
@@ -214,7 +215,7 @@ std::map<std::string, const MethodSetting*, std::less<>> keyedSettings() {
     return keyed;
 }
 
-// Reads the keys of a method's setting. Throws Error for values below 1e-6: 0 disables the setting and cannot be
+// Reads the keyframes of a method's setting. Throws Error for values below 1e-6: 0 disables the setting and cannot be
 // interpolated.
 LensTrack methodTrackOf(const JsonReader& reader, const MethodSetting& setting) {
     constexpr double min = 1e-6;
@@ -250,7 +251,7 @@ std::optional<JsonReader> findPlace(const JsonReader& reader, std::string_view p
 }
 
 // Returns the allowed keys of the shot's JSON object at the JSON pointer `place` ("" for the document): the keys of
-// settings at this location, and `own`.
+// settings at this location, and the keys `own`.
 std::vector<std::string> keysAt(std::string_view place, std::vector<std::string> own) {
     for (const Setting& setting : settings()) {
         const std::string_view path = setting.shotPlace;
@@ -262,13 +263,13 @@ std::vector<std::string> keysAt(std::string_view place, std::vector<std::string>
     return own;
 }
 
-// Resolves the text of a path setting relative to the shot's folder. Returns other texts unchanged.
+// Resolves a path in a shot relative to the shot's folder. Texts of settings that aren't paths stay unchanged.
 std::string relativeToShot(const Setting& setting, const std::string& text, const Shot& shot) {
     if (setting.name == "environment" && isBuiltInEnvironment(text)) return text;
     return setting.kind == SettingKind::path ? (shot.file.parent_path() / text).string() : text;
 }
 
-// Reads the values that are defined by the table of settings.
+// Reads the values of all settings that the settings table lists for shots.
 void readSettings(const JsonReader& reader, Shot& shot) {
     if (const auto fish = reader.find("fish")) {
         if (reader.has("scene"))

@@ -50,7 +50,7 @@ void scaleFocusPixels(Shot& shot, const Request& request) {
         }
 }
 
-// Returns whether the shot contains lengths in metres, which implies that the unit of its scene is the metre.
+// Returns whether the shot contains lengths in metres. If so, one unit of its scene is a metre.
 bool saysLength(const Shot& shot) {
     if (std::holds_alternative<CameraKeys>(shot.movement) || std::holds_alternative<Dolly>(shot.movement)) return true;
     return shot.focus && std::ranges::any_of(shot.focus->keys, [](const auto& key) {
@@ -58,7 +58,7 @@ bool saysLength(const Shot& shot) {
            });
 }
 
-// Throws Error if the shot has keys for a setting that the method doesn't have.
+// Throws Error if the shot has keyframes for a setting that the method doesn't have.
 void checkMethodKeys(const Shot& shot) {
     const Method& method = *chosenMethod(shot.request).method;
     for (const auto& [name, track] : shot.methodKeys)

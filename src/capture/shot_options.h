@@ -12,10 +12,10 @@
 namespace defocus::engine {
 
 // Sets the shot's constant values in the request as if they were given as options. Lens values are left out, because
-// these may have keys.
+// they may have keyframes.
 void applyShot(const Shot& shot, Request& request);
 
-// Records whether these options were given on the command line, which Request does not tell.
+// Records which of these options were given on the command line, because Request does not contain this information.
 struct GivenOptions {
     bool camera = false;
     bool shutter = false;
@@ -23,7 +23,7 @@ struct GivenOptions {
 
 // Merges shot and request after the command line is parsed. Removes overridden values from the shot: the lens fields
 // and the focus that `request` sets, and the movement if an option sets a camera or its position. Sets the lens values
-// of `request` to those of the shot's first keys, so that the scene can be placed.
+// of `request` to those of the shot's first keyframes, so that the scene can be placed.
 void settleShot(Shot& shot, Request& request, const GivenOptions& given);
 
 SequenceBase sequenceBase(const PreparedFrame& frame, const Request& request);

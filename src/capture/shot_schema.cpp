@@ -20,7 +20,7 @@ std::optional<Json> exampleOf(const Setting& setting) {
     return {};
 }
 
-// Returns the schema of a setting that may be animated: a value, or keys.
+// Returns the schema of a setting that may be animated: it accepts a value or keyframes.
 Json trackSchema(const Setting& setting) {
     Json value = {{"description", "Value at this frame"}};
     value.update(valueSchema(setting));

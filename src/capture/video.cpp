@@ -40,7 +40,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& encoders() 
         {".mov", {"-c:v", "libx264", "-crf", "18", "-movflags", "+faststart"}},
         {".mkv", {"-c:v", "libx264", "-crf", "18"}},
         {".webm", {"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0"}},
-        // One palette for the complete video, and ordered dithering, which doesn't flicker.
+        // Use one palette for the complete video, and ordered dithering, which doesn't flicker.
         {".gif", {"-filter_complex", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=bayer"}},
     };
     return table;
@@ -176,7 +176,7 @@ std::string lastLine(std::string text) {
     return text.substr(text.find_last_of("\r\n") + 1);
 }
 
-// Returns the reason why ffmpeg failed: ffmpeg's last message, or a text by this program if there is no message.
+// Returns the reason why ffmpeg failed: the last message of ffmpeg, or a text of this program if there is no message.
 std::string complaint(const Ffmpeg& ffmpeg, const fs::path& messages) {
     if (const std::string signal = ffmpeg.signalText(); !signal.empty()) return "ffmpeg " + signal;
     const std::string said = lastLine(textOf(messages));

@@ -1,7 +1,7 @@
 #pragma once
-// Sub-commands of the program. Each command's file registers the command with CLI11 and fills a struct from the
-// command's options. A callback runs after parsing, calls the library and throws Error on failure. runProgram prints
-// the error as one line and exits with 1, or with 2 for a wrong command line.
+// Declares functions that the sub-commands of the program share. Each command's file registers the command with CLI11
+// and fills a struct from the command's options. A callback runs after parsing, calls the library and throws Error on
+// failure. runProgram prints the error as one line and exits with 1, or with 2 for a wrong command line.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -15,8 +15,8 @@
 namespace defocus::engine {
 
 struct GlobalOptions {
-    bool quiet = false;               // print neither progress nor summary
-    bool verbose = false;             // print the device, the use of caches and other choices
+    bool quiet = false;               // print neither progress nor a summary
+    bool verbose = false;             // also print the device, the use of caches and automatic choices
     std::filesystem::path shaderDir;  // folder whose shaders replace the embedded ones, for live editing
     std::vector<std::string> words;   // command line, beginning with the program's name
 };
@@ -46,7 +46,7 @@ private:
     std::set<std::string> printed_;
 };
 
-// Prints how many pyramids were read from the cache, but only with --verbose.
+// Prints how many mesh pyramids were read from the cache, but only with --verbose.
 void printCacheUse(const PreparedFrame& frame, const GlobalOptions& global);
 
 void addRenderCommand(CLI::App& program, const GlobalOptions& global);

@@ -67,7 +67,8 @@ std::vector<std::string> optionsOf(const CLI::App& app) {
     return names;
 }
 
-// Returns the innermost command that was given, such as "speedup" for "bench speedup"; without a command, the program.
+// Returns the innermost command on the command line, such as "speedup" for "bench speedup"; without a command, the
+// program.
 const CLI::App& chosenCommand(const CLI::App& program) {
     const std::vector<CLI::App*> chosen = program.get_subcommands();
     return chosen.empty() ? program : chosenCommand(*chosen.front());
@@ -90,7 +91,8 @@ bool isOption(const std::string& word) {
     return word.size() > 1 && word.front() == '-';
 }
 
-// Returns the command's option that corresponds to `word`, the name of an option in other programs; empty if none.
+// Returns the option of the command that means the same as `word`, the name of an option in other programs; empty if
+// none.
 std::string knownForForeign(const CLI::App& command, std::string_view word) {
     static constexpr std::pair<std::string_view, const char*> table[] = {
         {"--aperture", "--fstop"},       {"--f-number", "--fstop"},
@@ -142,7 +144,7 @@ std::string parseFault(const CLI::App& program, const CLI::ParseError& error) {
     const bool unfinished = command.get_subcommands().empty() && !namesOf(command).empty();  // a sub-command is missing
     const bool strange = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr || unfinished;
     const std::vector<std::string> words = program.remaining(true);
-    // Report an unknown option rather than the word that the parser rejects, which may be the value of that option.
+    // Report an unknown option, not the word that the parser rejects: that word may be the value of the unknown option.
     if (!words.empty() && (strange || std::ranges::any_of(words, isOption))) return unexpected(program, words);
     if (const CLI::Option* option = repeatedOption(command))
         return fmt::format("{} is given {} times; give it once", option->get_name(), option->count());

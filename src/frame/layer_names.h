@@ -1,5 +1,5 @@
 #pragma once
-// Names of data layers (defocus/layers.h) in the option --exr-layers and in EXR files.
+// Lists the names of the data layers (defocus/layers.h) in the option --exr-layers and in EXR files.
 
 #include <array>
 #include <span>

@@ -23,7 +23,8 @@ inline glm::ivec2 asVector(const Pixel& pixel) {
     return {pixel.column, pixel.row};
 }
 
-// Returns the request's method with its settings. Throws UsageError for a setting that the method doesn't have.
+// Returns the method that the request names, with the request's settings of that method. Throws UsageError for a
+// setting that the method doesn't have.
 MethodUse namedMethod(const Request& request);
 
 // Returns namedMethod(request), but "accumulation" instead of "auto" if the request has a memory limit. The limit may
@@ -40,7 +41,8 @@ ShutterSettings shutterSettings(const Request& request);
 // instead.
 StopSettings stopSettings(const Request& request);
 
-// Returns the lens values that the request sets, including its focus distance, in the units of the lens fields.
+// Returns the lens values that the request sets, including the focus distance. Each value is in the unit of its
+// LensField.
 LensValues givenLensValues(const Request& request);
 // Sets a lens value of the request. `value`: in the unit of `field`. Throws Error in the same cases as setLensField.
 void giveLensValue(Request& request, const LensField& field, double value);

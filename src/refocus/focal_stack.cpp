@@ -53,10 +53,11 @@ Image allInFocus(LightField& field, const Progress& progress) {
     const LightFieldInfo& info = field.info();
     const PartSize& size = info.size;
     const Image depth = centralDepth(field);
-    const double tolerance = 1 / std::max(info.pixelsPerDioptre, 1e-12);  // one pixel of blur, in dioptres
+    const double tolerance = 1 / std::max(info.pixelsPerDioptre, 1e-12);  // tolerance in dioptres: one pixel of blur
     Image sum(size.width, size.height, 4);
     std::vector<int> counts(depth.pixels.size());
-    // The image of the lens's centre comes first. Its depth is not compared, so each pixel gets at least this colour.
+    // The image of the lens's centre comes first. Its depth is the reference and needs no comparison, so each pixel
+    // gets at least the colour of this image.
     std::vector<std::size_t> order = {field.central()};
     for (std::size_t i = 0; i < info.points.size(); ++i)
         if (i != field.central()) order.push_back(i);

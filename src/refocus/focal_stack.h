@@ -9,23 +9,23 @@
 
 namespace defocus::engine {
 
-// Returns distance number `i`, counted from 0, of `count` distances in m that are spaced evenly in 1/distance.
+// Returns one of `count` distances in m that are spaced evenly in 1/distance from `from` to `to`. `i`: index, from 0.
 double distanceAt(double from, double to, int i, int count);
 
 // Returns `count` focus distances over a range in m, evenly in 1/distance, the nearest first.
 std::vector<double> stackDistances(const FocusRange& range, int count);
 
-// Returns the depths in m of the surfaces that are visible from the lens's centre, one channel, without the margin; +∞
-// where no surface writes depth.
+// Returns the depths in m of the surfaces that are visible from the lens's centre: one channel, cropped to the picture
+// without the margin of lens images; +∞ where no surface writes depth.
 Image centralDepth(LightField& field);
 
 // Returns the signed diameters in px of the circles of confusion of the surfaces that are visible from the lens's
-// centre, > 0 behind the focus plane: one channel, without the margin.
+// centre, > 0 behind the focus plane. The image has one channel and the size of the picture, without a margin.
 Image centralCoc(LightField& field, const Refocusing& refocusing);
 
 // Returns the picture in which everything is in focus, seen from the lens's centre: linear, premultiplied RGBA. Each
-// pixel is the mean over the lens images that show its surface, shifted as for a focus on that surface. An image counts
-// as showing the surface if the difference in depth would cause at most one pixel of blur.
+// pixel shows one surface. It is the mean over the lens images that show this surface, shifted as for a focus on it. An
+// image counts as showing the surface if the difference in depth would cause at most one pixel of blur.
 Image allInFocus(LightField& field, const Progress& progress = {});
 
 }  // namespace defocus::engine

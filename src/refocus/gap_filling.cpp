@@ -17,7 +17,7 @@ constexpr std::size_t channels = 5;  // red, green, blue, alpha and weight
 constexpr double cellBlur = 0.5;
 constexpr double minVariance = 0.01;  // px²; subtracted from every variance, because a smaller blur is invisible
 
-// Returns the blur variance in px² of class k, a group of pixels with similar blur.
+// Returns the blur variance in px² of class k of the pixels sorted by blur.
 double classVariance(std::size_t k) {
     return 0.5 * std::ldexp(1.0, 2 * static_cast<int>(k));
 }
@@ -41,7 +41,7 @@ std::vector<float> blurred(const std::vector<float>& image, const PartSize& size
     const std::size_t rowFloats = width * depth;
     std::vector<float> result(image.size());
     parallelFor(static_cast<std::size_t>(size.height), [&](std::size_t row) {
-        // one row with a margin on each side
+        // Copy of a row of the image, with a margin of `reach` pixels on each side.
         std::vector<float> line(rowFloats + 2 * static_cast<std::size_t>(reach) * depth);
         float* const inner = line.data() + static_cast<std::size_t>(reach) * depth;
         for (int i = -reach; i <= reach; ++i) {
@@ -106,8 +106,8 @@ void GapFilling::add(std::span<const DeepMovedImage> images) {
     for (const DeepMovedImage& moved : images) weights_ += static_cast<double>(moved.weight);
 }
 
-// Composites a class (the pixels of similar blur, `shown`) over `image`. `nearer`: for each pixel, the weight of the
-// samples in nearer classes.
+// Composites the pixels `shown`, which have similar blur, over `image`. `nearer`: for each pixel, the weight of the
+// samples that lie nearer to the camera than this class of pixels.
 void GapFilling::layOver(Image& image, const Sum& shown, const std::vector<float>& nearer, double variance) const {
     std::vector<float> open(nearer.size());
     for (std::size_t p = 0; p < open.size(); ++p) open[p] = static_cast<float>(weights_) - nearer[p];
@@ -145,8 +145,8 @@ Image GapFilling::mean() const {
         if (!isEmpty(behind_[k])) layOver(image, behind_[k], nearer, classVariance(k));
         if (k > 0) addWeights(behind_[k - 1], -1, nearer);
     }
-    // Composite the sharp samples. At pixels where samples in front of the focus plane hide everything else, the mean
-    // of those samples replaces the unknown background.
+    // Composite the sharp samples. In pixels where samples in front of the focus plane hide everything else, the mean
+    // of these samples replaces the unknown background.
     for (std::size_t p = 0; p < pixels; ++p) {
         const float open = total - inFront[p];
         float* const pixel = image.pixels.data() + 4 * p;

@@ -1,8 +1,8 @@
 #pragma once
-// Fills the gaps between few lens images. A sum of N sharp images shows N separate copies of each blurred surface.
-// Instead, each image represents a cell, the part of the lens around its lens point. Its pixels are blurred as a lens
-// of that size would blur them: σ = 0.5 · c / √N px for a circle of confusion of c px (plan/lens_cells/lens_cells.h).
-//
+// Fills the gaps that a picture shows if it is computed from few lens images (one image per lens sample): the sum of N
+// sharp images shows N separate copies of each blurred surface. Instead, each image represents a cell, the part of the
+// lens around its lens point. The image's pixels are blurred as a lens of the cell's size would blur them: σ = 0.5 · c
+// / √N px for a circle of confusion of c px (plan/lens_cells/lens_cells.h).
 // As in method multirate, pixels are sorted by σ into a few classes on each side of the focus plane, and the sum of
 // each class is blurred once. A pixel contributes to the two classes with the nearest variances. The classes are
 // composited from the farthest to the nearest, each weighted by the fraction of the samples that no nearer class
@@ -34,9 +34,9 @@ struct DioptreBlur {
 
 class GapFilling {
 public:
-    static constexpr std::size_t classes = 5;  // number of groups of similar blur on each side of the focus plane
+    static constexpr std::size_t classes = 5;  // classes of similar blur on each side of the focus plane
 
-    // `images`: number of images that will be added.
+    // `images`: number of images that will be passed to add().
     GapFilling(const PartSize& size, const DioptreBlur& blur, std::size_t images);
 
     void add(std::span<const DeepMovedImage> images);
@@ -44,7 +44,7 @@ public:
     [[nodiscard]] Image mean() const;
 
 private:
-    // Sum of samples for each pixel: RGBA and the sum of weights.
+    // Weighted sum of samples for each pixel: RGBA and the sum of the weights.
     using Sum = std::vector<float>;
 
     void addPixel(std::size_t pixel, const std::uint16_t* colour, float depth, float weight);

@@ -1,5 +1,5 @@
 #pragma once
-// Lens images in memory, for the frames of a shot.
+// Renders lens images (one image per lens sample) and keeps them in memory, for the frames of a shot.
 
 #include <functional>
 #include <string>

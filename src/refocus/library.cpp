@@ -1,4 +1,4 @@
-// The public LightField. engine::LightField and LightFieldOutput do its work.
+// Implements the public class LightField with engine::LightField and LightFieldOutput.
 
 #include <utility>
 
@@ -29,7 +29,7 @@ LightField& LightField::operator=(LightField&&) noexcept = default;
 
 namespace {
 
-// Renders the lens images of a request. Returns the warnings.
+// Renders the lens images (one image per lens sample) of a request to the file `path`. Returns the warnings.
 std::vector<std::string> renderLensImages(std::shared_ptr<const engine::Scene> scene, const Request& request,
                                           const std::filesystem::path& path, const std::optional<FocusRange>& range,
                                           const Progress& progress) {

@@ -28,8 +28,8 @@ constexpr const char* pointNames[2] = {"defocus:lensU", "defocus:lensV"};
 constexpr const char* pixelNames[2] = {"defocus:sampleRight", "defocus:sampleUp"};
 constexpr const char* shiftNames[2] = {"defocus:pixelsRightPerDioptre", "defocus:pixelsUpPerDioptre"};
 
-// Lens fields that must have their default values. Otherwise, a change of focus would not merely shift the image of a
-// lens point (light_field.h), or would change the light that passes the lens point.
+// Lens fields that must have their default values. With other values, a change of focus would not merely shift the
+// image of a lens point (light_field.h), or the weights of the images would differ between pixels or colours.
 constexpr std::array unsuited = {
     "focusBreathing",  "catEye",          "axialChromaticAberration", "astigmatism", "coma",       "foregroundLimit",
     "backgroundLimit", "focusRangeFront", "focusRangeBehind",         "focusTilt",   "focusSwing", "fieldCurvature",
@@ -46,17 +46,18 @@ void checkThinLens(const Lens& lens) {
     }
 }
 
-// Returns the largest move of an image over the focus range, in px.
+// Returns the largest distance in px by which focusing within the focus range shifts the image of a lens point.
 double largestMove(const LightFieldInfo& info) {
     return std::max(std::abs(info.shift(info.range.nearest)), std::abs(info.shift(info.range.farthest)));
 }
 
-// Returns the margin in px that the focus range needs.
+// Returns the margin in px that the images need, so that shifted images still cover the picture.
 int marginOf(const LightFieldInfo& info) {
-    return static_cast<int>(std::ceil(std::min(largestMove(info), 1e6) + 0.5));  // see wholeMove
+    return static_cast<int>(std::ceil(std::min(largestMove(info), 1e6) + 0.5));  // + 0.5: see wholeMove
 }
 
-// Returns a number of a file's metadata; nullopt if it is missing, of another type, or not finite.
+// Returns the number stored under `name` in a file's metadata; nullopt if it is missing, of another type, or not
+// finite.
 std::optional<double> numberIn(const Metadata& metadata, const char* name) {
     const auto found = metadata.find(name);
     if (found == metadata.end()) return {};

@@ -1,6 +1,7 @@
 #pragma once
-// Files of lens images: the image of each lens sample, with its depth. Together they are a light field of the scene, as
-// the lens sees it (Levoy and Hanrahan 1996, Light Field Rendering; Ng 2005, Fourier Slice Photography).
+// Describes and reads files of lens images. A lens image is the image of the scene from one lens sample, with its
+// depth. Together, the images are a light field of the scene, as the lens sees it (Levoy and Hanrahan 1996, Light Field
+// Rendering; Ng 2005, Fourier Slice Photography).
 //
 // A point (u, v) of the lens moves a vertex in clip space by C(w)·(u, k·v), and C(w) = a + b·w for a thin lens
 // (lens/circle_of_confusion.h). The focus distance s is only in b = (A/2)/(tan(θx/2)·s). Another focus distance s′ thus
@@ -23,21 +24,21 @@
 namespace defocus::engine {
 
 struct LightFieldInfo {
-    PartSize size;                   // size in px; the margin holds pixels that shifts move into the picture
-    double focusDistance = 1;        // focus distance s in the equation above, m
+    PartSize size;                   // size of the picture, and width of the margin by which images exceed it, px
+    double focusDistance = 1;        // focus distance s of the rendered images, m
     double fStop = 1;                // f-number of the rendered aperture
-    double pixelsPerDioptre = 0;     // P in the equation above
+    double pixelsPerDioptre = 0;     // shift P of the image of lens point (1, 1) per dioptre of focus, px
     FocusRange range;                // focus distances for which margin and levels of detail suffice
     bool disk = true;                // the rendered aperture is a uniform disk
     std::vector<glm::dvec2> points;  // lens point (u, v) of each image
-    std::vector<glm::dvec2> pixels;  // sample position of each image in px from the pixel's centre, right and up
-    Metadata metadata;               // metadata of the frame, without the values above
+    std::vector<glm::dvec2> pixels;  // sample position of each image in its pixel, px from the centre, right and up
+    Metadata metadata;               // metadata of the frame, without the values of the other members
 
     // Returns by how many px a change to `otherFocus` moves the image of lens point (1, 1), to the right and up.
     [[nodiscard]] double shift(double otherFocus) const {
         return pixelsPerDioptre * (1 / otherFocus - 1 / focusDistance);
     }
-    // Returns a number of `metadata`, or `standard` if it is missing.
+    // Returns the number stored under `name` in `metadata`, or `standard` if it is missing.
     [[nodiscard]] double number(const char* name, double standard) const;
 };
 
@@ -50,10 +51,10 @@ LightFieldInfo lightFieldInfo(const View& view, const FocusRange& range);
 // or vertices with a blur scale of their own.
 void addSamples(LightFieldInfo& info, const FramePlan& plan);
 
-// Returns the metadata of each part of the file.
+// Returns the metadata for each part of the EXR file; a part is the image of one lens point.
 std::vector<Metadata> partMetadata(const LightFieldInfo& info);
 
-// Images of the lens points, in a file or in memory.
+// Access to the images of all lens points, in a file or in memory.
 class LensImages {
 public:
     virtual ~LensImages() = default;
@@ -75,7 +76,7 @@ public:
     [[nodiscard]] std::shared_ptr<const HalfImage> colour(std::size_t i) override;
     // Returns the depths in m of the image of lens point i, with its margin.
     [[nodiscard]] Image depth(std::size_t i) { return parts_.depth(i); }
-    // Keeps colours in memory after the first read if all of them fit into half of the free memory. Saves time if
+    // Keeps colours in memory after the first read if all of them fit into half of the free memory. This saves time if
     // several pictures are computed.
     void keepImages();
     // Returns the index of the image whose lens point is nearest to the lens's centre.
@@ -85,7 +86,7 @@ private:
     std::string name_;
     ImagePartReader parts_;
     LightFieldInfo info_;
-    std::vector<std::shared_ptr<const HalfImage>> kept_;  // colours of each image; empty: images are not kept
+    std::vector<std::shared_ptr<const HalfImage>> kept_;  // colours of each image; empty if the images are not kept
 };
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
 #pragma once
-// Renders a scene to a file of lens images, one image at a time:
+// Renders a scene to a file of lens images (one image per lens sample), one image at a time:
 //
 //   LightFieldOutput output(driver, path, range);
 //   output.start();
@@ -19,8 +19,8 @@ public:
     // Number of lens samples if the request gives none.
     static constexpr std::uint32_t defaultSamples = 64;
 
-    // `driver` must outlive the output. `range`: focus distances that the file must allow, in addition to the
-    // request's focus distance; nullopt: from the nearest to the farthest visible surface. Throws UsageError unless
+    // `driver` must outlive the output. `range`: focus distances that pictures from the file may have, in addition to
+    // the request's focus distance; nullopt: from the nearest to the farthest visible surface. Throws UsageError unless
     // 0 < nearest ≤ farthest.
     LightFieldOutput(SceneDriver& driver, std::filesystem::path path, std::optional<FocusRange> range);
 

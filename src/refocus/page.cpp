@@ -20,7 +20,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double curveFactor = 24;  // k of log2(1 + k·r); larger values keep more detail in shadows, less in lights
+constexpr double curveFactor = 24;  // k of log2(1 + k·r); larger values keep more detail in shadows, less in highlights
 constexpr double mostRadiance = 4096;
 constexpr int depthColumns = 256;  // max columns of the depth image from which a click reads the focus
 constexpr int maxQuality = 90;
@@ -69,8 +69,8 @@ std::vector<std::string> encodedImages(LightField& field, std::size_t count, dou
         pixels.push_back(encodedRadiance(*field.colour(i), maximum, stepOffset(i)));
         report(progress, "lens images", i + 1, 2 * count);
     }
-    // To find the quality quickly, encode only the first images until they fit into their part of `limit`. Then encode
-    // all images, at a lower quality if they are still too large.
+    // To find the quality quickly, encode only the first four images until they fit into a proportional fraction of
+    // `limit`. Then encode all images, at a lower quality if they are still too large.
     std::vector<std::string> images(count);
     for (int quality = maxQuality;; quality -= 10) {
         const std::size_t tried = quality > minQuality ? std::min<std::size_t>(count, 4) : count;
@@ -91,7 +91,7 @@ std::vector<std::string> encodedImages(LightField& field, std::size_t count, dou
     return images;
 }
 
-// Returns the depths of the central image at a lower resolution, as 16-bit fractions of the largest 1/depth.
+// Returns the depths seen from the lens's centre, at a lower resolution, as 16-bit fractions of the largest 1/depth.
 nlohmann::json depthsOf(LightField& field) {
     const PartSize& size = field.info().size;
     const Image depth = field.depth(field.central());

@@ -1,6 +1,6 @@
 #pragma once
-// Writes a web page in which a visitor refocuses the picture: one HTML file with the images as WebP and a WebGL 2
-// shader that moves and adds them (refocus.h). It needs no network.
+// Writes a web page in which a visitor refocuses the picture. The page is one HTML file that needs no network: lens
+// images (one image per lens sample) as WebP, and a WebGL 2 shader that moves and adds them (refocus.h).
 //
 // A radiance r is stored as log2(1 + k·r) / log2(1 + k·maximum) in 8 bits, so that lights far above white stay bright
 // when they are blurred. Each image is rounded with another dither offset, so that rounding errors cancel in the sum.

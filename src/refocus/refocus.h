@@ -1,6 +1,7 @@
 #pragma once
-// Computes pictures with another focus, f-number and aperture shape from lens images: shift and add (Levoy and Hanrahan
-// 1996; Isaksen, McMillan and Gortler 2000, Dynamically Reparameterized Light Fields).
+// Computes pictures with another focus, f-number and aperture shape from lens images (one image per lens sample), by
+// shift and add (Levoy and Hanrahan 1996; Isaksen, McMillan and Gortler 2000, Dynamically Reparameterized Light
+// Fields).
 //
 // Each image is shifted by the distance in light_field.h. An image has one sample per pixel, at a known position in the
 // pixel. The shift moves this position; the sample's colour is added unchanged to the pixel that contains the shifted
@@ -20,18 +21,18 @@
 namespace defocus::engine {
 
 struct Refocusing {
-    double focusDistance = 1;        // focus distance in m, within LightFieldInfo::range
-    double fStop = 1;                // f-number, at least LightFieldInfo::fStop
-    std::optional<Lens> shape = {};  // lens with the aperture's shape; nullopt: as rendered
+    double focusDistance = 1;        // distance in m, within LightFieldInfo::range
+    double fStop = 1;                // at least LightFieldInfo::fStop
+    std::optional<Lens> shape = {};  // lens with the shape of the aperture; nullopt: shape as rendered
     bool fillGaps = false;           // true: blur each image to hide the gaps between few images (gap_filling.h)
 };
 
 // Returns the focus and the aperture with which the lens images were rendered.
 Refocusing asRendered(const LightFieldInfo& info);
 
-// Contribution of a lens image to a refocused picture.
+// Shift and weight with which the image of one lens point is added to a refocused picture.
 struct ShiftedImage {
-    std::size_t image = 0;  // index of the lens image
+    std::size_t image = 0;  // index of the image in LightFieldInfo::points
     glm::ivec2 move{0};     // move in px, to the right and up
     double weight = 1;      // > 0
 };
@@ -40,9 +41,10 @@ struct ShiftedImage {
 // px. The rounding accounts for the sample's position within its pixel.
 glm::ivec2 wholeMove(const LightFieldInfo& info, std::size_t image, double shift);
 
-// Returns the images that the picture combines, in order. Throws Error, with `name` in its message, if the focus
-// distance or the f-number is outside the rendered range, if the shape needs light that the rendered aperture blocks,
-// or if no lens point lies within the aperture.
+// Returns shift and weight of each image that contributes to the picture, in the order of LightFieldInfo::points.
+// Throws Error, with `name` in its message, if the focus distance or the f-number is outside the rendered range. Also
+// throws if the picture needs another shape or f-number although the rendered aperture was not a full disk, and if no
+// lens point lies within the aperture.
 std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocusing& refocusing,
                                         const std::string& name);
 
@@ -59,10 +61,10 @@ double diameterPerDioptre(const LightFieldInfo& info, const Refocusing& refocusi
 // surface.
 double focusAtPixel(LightField& field, const Pixel& pixel);
 
-// Returns the metadata of the picture.
+// Returns the metadata of the refocused picture.
 Metadata refocusedMetadata(const LightFieldInfo& info, const Refocusing& refocusing);
 
-// Returns the exposure in EV of 8-bit images. The exposure depends on the f-number if the lens has an exposure time.
+// Returns the exposure (EV) of refocused 8-bit pictures. It depends on the f-number if the lens has an exposure time.
 double refocusedExposure(const LightFieldInfo& info, const Refocusing& refocusing);
 
 }  // namespace defocus::engine

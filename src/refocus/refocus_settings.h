@@ -15,8 +15,9 @@ namespace defocus::engine {
 // image cannot be read.
 std::optional<Lens> apertureShape(const LensSettings& settings);
 
-// Returns the values of `settings`; for values that are not set, those with which the lens images were rendered. Throws
-// in the cases of apertureShape and focusAtPixel, and UsageError for a focus that is neither a distance nor a pixel.
+// Returns the focus and aperture that `settings` give; values that are not set are those of the rendered lens images.
+// Throws in the cases of apertureShape and focusAtPixel, and UsageError for a focus that is neither a distance nor a
+// pixel.
 Refocusing refocusingOf(const RefocusSettings& settings, LightField& field);
 
 }  // namespace defocus::engine

@@ -1,4 +1,4 @@
-// Source of the compensated sum: Neumaier 1974, Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen.
+// Uses the compensated sum of Neumaier 1974, Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen.
 
 #include "refocus/shifted_sum.h"
 

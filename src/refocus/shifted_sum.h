@@ -1,8 +1,5 @@
 #pragma once
-// Weighted mean of images that are moved by whole pixels.
-//
-// Images are summed in blocks of 64 with Neumaier's compensated summation, as in render/accumulation/layer_sum.h. The
-// mean of images that are not moved and have weight 1 is therefore bit-identical to that of method accumulation.
+// Computes the weighted mean of images that are moved by whole pixels.
 
 #include <glm/vec2.hpp>
 #include <span>
@@ -12,7 +9,7 @@
 
 namespace defocus::engine {
 
-// An image that is moved and weighted.
+// An image, with the move and the weight with which it is added.
 struct MovedImage {
     const HalfImage* image = nullptr;  // image with its margin
     glm::ivec2 move{0};                // move in px, to the right and up; each component at most the margin
@@ -21,10 +18,10 @@ struct MovedImage {
 
 class ShiftedSum {
 public:
-    // The mean has the size without the margin.
+    // `size`: size and margin of all images. The mean has no margin.
     explicit ShiftedSum(const PartSize& size);
 
-    // Adds images, in order. The result doesn't depend on how images are divided between calls.
+    // Adds images in the given order. The result doesn't depend on how the images are divided between calls.
     void add(std::span<const MovedImage> images);
     // Returns the sum divided by the sum of the weights, which must be above 0.
     [[nodiscard]] Image mean() const;

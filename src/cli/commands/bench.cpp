@@ -49,7 +49,7 @@ void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) 
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     addPyramids(frame, progress);
     std::vector<SpeedupForm> forms = {formOf(frame, arguments.preset)};
-    PreparedFrame plain;  // same frame without the preset, for comparison
+    PreparedFrame plain;  // the same scene without the preset, for comparison
     if (!arguments.preset.empty()) {
         clearPreset(presetNamed(arguments.preset), scene);
         plain = placeFrame(frame.scene, scene, &frame.world.environment);
@@ -118,8 +118,8 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
             ->group("Output");
     addReport(*command, output, arguments->report);
     addAllowChanged(*command, arguments->allowChanged);
-    // Leave out settings that the bench varies itself, the cache (the results include the build time of the pyramids)
-    // and exposure (images are compared at EV 0).
+    // Leave out the settings that the bench varies itself. The cache is left out because the results include the build
+    // time of the pyramids, and exposure because images are compared at EV 0.
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"samples", "positions", "quality", "targetError", "timeLimit", "lod", "method",
                                          "cacheFolder", "noCache", "exposureTime", "iso"}));

@@ -1,5 +1,5 @@
 #pragma once
-// Sub-commands of `defocus bench` that have files of their own.
+// Declares the sub-commands of `defocus bench` that have files of their own, and functions that they share.
 
 #include <filesystem>
 #include <initializer_list>
@@ -17,7 +17,8 @@ namespace defocus::engine {
 // Throws Error if the folder or a file cannot be written.
 void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list<const char*> files);
 
-// Adds the option --allow-changed, which sets `allowed` to true.
+// Adds the option --allow-changed. It sets `allowed` to true, which allows results of a program built from changed
+// sources.
 void addAllowChanged(CLI::App& command, bool& allowed);
 
 // Throws Error if a program built from changed sources (see programCommit) would write results to `output`: such
@@ -28,8 +29,8 @@ void refuseChangedSources(const std::filesystem::path& output, bool allowed,
 // Returns the default request of a bench. The unit is set to the metre, so that no result depends on a guessed unit.
 Request measuredRequest();
 
-// Describes what a bench measures: program, command, machine and the device of `context`; with `frame`, also its scene,
-// camera and lens. `runs`: number of runs of each frame.
+// Describes what a bench measures: program, command, machine and the device of `context`. The second overload adds the
+// scene, camera and lens of `frame`, and `runs`, the number of runs of each frame.
 BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global);
 BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global, const PreparedFrame& frame, int runs);
 

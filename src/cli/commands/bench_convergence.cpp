@@ -37,8 +37,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns whether the program includes ray tracers. Ray tracers shade differently. If the program includes any, the
-// scene's lighting is baked into unlit colours.
+// Returns whether the program includes ray tracers. They shade differently from the renderer, so a program that
+// includes any bakes the scene's lighting into unlit colours.
 bool hasRayTracers() {
     return std::ranges::any_of(methods(), [](const Method& method) { return !method.needsGl; });
 }
@@ -73,8 +73,8 @@ std::string textIn(const fs::path& path) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// Returns the hash of the reference, the program, the device and the settings that affect the plan. All frames of a
-// journal (runs.csv) have the same hash.
+// Returns the hash of the reference image, the program, the device and the settings that affect the plan. All frames of
+// a journal (runs.csv) have the same hash.
 std::uint64_t subjectHash(std::uint64_t reference, const BenchSubject& bench, const Request& request) {
     std::string text = fmt::format("{} {} {} {}", bench.program, bench.commit, bench.device, bench.driver);
     for (const Setting& setting : settings()) {
@@ -161,8 +161,8 @@ private:
     std::vector<ConvergenceRun> runs_;
 };
 
-// Returns whether the options request `published`, a method with the settings of its paper. They do so if they list the
-// form "published" and either list no methods or list this method with default settings.
+// Returns whether the options request `published`, a method with the settings of its paper. Two conditions must hold:
+// the options list MethodForm::published, and they list either no methods or this method with default settings.
 bool isAsked(const ConvergenceOptions& options, const MethodUse& published) {
     if (std::ranges::find(options.forms, MethodForm::published) == options.forms.end()) return false;
     return options.methods.empty() || std::ranges::any_of(options.methods, [&](const MethodUse& use) {
@@ -170,8 +170,8 @@ bool isAsked(const ConvergenceOptions& options, const MethodUse& published) {
            });
 }
 
-// Returns the requested methods with the settings of their papers, built from the presets. Methods that draw levels of
-// detail get mesh pyramids of their own, in worlds stored in `frames`. `frame` needs no pyramids yet.
+// Returns the requested methods with the settings of their papers, taken from the presets. For methods that draw levels
+// of detail, builds separate mesh pyramids, in worlds stored in `frames`. `frame` needs no pyramids yet.
 std::vector<PublishedForm> publishedForms(const Request& scene, const PreparedFrame& frame,
                                           const ConvergenceOptions& options, std::deque<PreparedFrame>& frames,
                                           Progress& progress) {

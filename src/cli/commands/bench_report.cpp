@@ -15,7 +15,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Python interpreters to try. The first python3 in PATH may lack Debian's packages.
+// Python interpreters to try in order. The first python3 in PATH may lack packages that Debian has for
+// /usr/bin/python3.
 constexpr const char* interpreters[] = {"python3", "/usr/bin/python3"};
 
 // Exit codes of report_script.cpp.in for a missing interpreter and for an interpreter without matplotlib.

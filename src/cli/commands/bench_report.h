@@ -1,6 +1,6 @@
 #pragma once
-// The report of a bench: a single, self-contained index.html. Python modules of bench/figures, embedded in the program,
-// draw it with matplotlib.
+// Draws the report of a bench: a single, self-contained index.html. Python modules of bench/figures, which are embedded
+// in the program, draw it with matplotlib.
 
 #include <filesystem>
 
@@ -11,7 +11,8 @@ namespace defocus::engine {
 // Returns the source of the Python script that draws the report.
 const char* reportScript();
 
-// Adds --report FOLDER, which excludes `output`, the command's -o. The result files and the page are written to FOLDER.
+// Adds the option --report FOLDER, which excludes `output`, the command's option -o. The result files and the report's
+// page are written to FOLDER.
 void addReport(CLI::App& command, CLI::Option* output, std::filesystem::path& report);
 
 // Draws `report`/index.html from `results`/results.json and from the results of other benches in `report`. Prints the

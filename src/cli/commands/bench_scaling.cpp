@@ -30,7 +30,7 @@ struct ScalingArguments {
     Request request;      // request of which only the cache folder is used
     fs::path folder;      // folder of the results; empty: print the table only
     fs::path report;      // folder of the report; empty: no report
-    bool scenes = false;  // true: also measure the two large scenes
+    bool scenes = false;  // true: also measure two large scenes
     bool allowChanged = false;
 };
 

@@ -1,5 +1,5 @@
-// defocus bench stability: compares numerically difficult cases with exact results, and each method's blur with the
-// lens.
+// defocus bench stability: compares renderings of numerically difficult scenes with exact results, and compares the
+// blur that each method draws with the blur of a real lens.
 
 #include <fmt/format.h>
 
@@ -39,7 +39,8 @@ std::vector<StabilityRow> printedCases(const Progress& progress) {
     return rows;
 }
 
-// Compares each method's blur, with default settings, with the blur of the lens. Prints a row per method and a summary.
+// Compares the blur that each method draws, with default settings, with the blur of a real lens. Prints a row per
+// method and a summary.
 std::vector<HonestyRow> printedHonesty(const Progress& progress) {
     fmt::print(
         "\n"

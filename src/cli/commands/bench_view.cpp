@@ -25,7 +25,7 @@ namespace {
 struct ViewBenchArguments {
     Request request = measuredRequest();
     ViewBenchOptions options;
-    bool refocus = false;          // measure changes of focus and f-number
+    bool refocus = false;          // true: measure changes of focus and f-number
     std::filesystem::path folder;  // folder of the results; empty: print the table only
     bool allowChanged = false;
 };

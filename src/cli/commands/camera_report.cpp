@@ -23,9 +23,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Blur {
     double depth = 0;      // m
-    double pixels = 0;     // signed diameter; > 0 behind the focus
+    double pixels = 0;     // signed diameter; > 0 behind the focus plane
     double onSensor = 0;   // diameter, mm, ≥ 0
-    bool inFocus = false;  // the blur diameter is at most CameraFacts::acceptable
+    bool inFocus = false;  // true: the diameter is at most CameraFacts::acceptable
 };
 
 // All values that the report prints.
@@ -34,9 +34,9 @@ struct CameraFacts {
     glm::dvec2 sensor{0};       // mm
     glm::dvec2 fieldOfView{0};  // degrees
     double acceptable = 0;      // acceptable circle of confusion, mm
-    bool customary = false;     // whether `acceptable` is the customary sensor diagonal / 1500
+    bool customary = false;     // true: `acceptable` is the customary sensor diagonal / 1500
     DepthOfField depth;
-    bool plain = true;  // thin lens without artistic controls: near and far limits of focus are exact
+    bool plain = true;  // true: near and far limits of focus are exact (a thin lens without artistic controls)
     std::vector<Blur> blurs;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// Camera data for photographers, as printed by `defocus info --camera`: field of view, depth of field, exposure, and
-// the blur at chosen depths.
+// Reports camera data for photographers, for `defocus info --camera`: field of view, depth of field, exposure, and the
+// blur at chosen depths.
 
 #include <optional>
 #include <string>

@@ -59,8 +59,8 @@ struct CaptureArguments {
     bool resume = false;
     bool overwrite = false;
     bool dryRun = false;
-    bool check = false;    // measure image changes due to levels of detail
-    bool refocus = false;  // compute frames from lens images where possible
+    bool check = false;    // true: measure image changes due to levels of detail
+    bool refocus = false;  // true: compute frames from lens images where possible
 };
 
 // ---- rendering ------------------------------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 #pragma once
-// Chooses the runs of frames that `defocus capture --refocus` computes from lens images, and reports the saved work.
+// Chooses the runs of frames that `defocus capture --refocus` computes from lens images (one image per lens sample),
+// and reports the saved work.
 
 #include <string>
 #include <vector>
@@ -8,8 +9,9 @@
 
 namespace defocus::engine {
 
-// Returns the runs of frames in the complete shot, so that a frame doesn't depend on --range and --shard. Throws Error
-// if the lens images of a run don't fit into half of the memory.
+// Returns the runs of frames that are computed from lens images. Runs are chosen within the complete shot, so that a
+// frame doesn't depend on --range and --shard. Throws Error if the lens images of a run don't fit into half of the
+// memory.
 RefocusRuns chosenRuns(const Shot& shot, const SequenceBase& base, const FilmSettings& settings);
 
 // Returns a line that states how many lens samples --refocus saved.

@@ -34,7 +34,7 @@ struct CompareArguments {
     bool json = false;
     bool hdr = false;
     HdrFlipOptions hdrFlip;
-    std::vector<std::string> failAbove;  // METRIC=VALUE; validated while parsing
+    std::vector<std::string> failAbove;  // texts METRIC=VALUE; validated while parsing
 };
 
 struct Metric {
@@ -57,7 +57,7 @@ struct Limit {
     double value = 0;
 };
 
-// Parses METRIC=VALUE. For any other text, the result's metric is null.
+// Parses METRIC=VALUE. Returns a limit whose metric is null for any other text.
 Limit limitOf(const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) return {};
@@ -103,7 +103,7 @@ void printTable(const CompareArguments& arguments, const Difference& difference)
     row("non-finite", fmt::format("{} of {} pixels", difference.nonFinite, difference.pixelCount));
 }
 
-// Writes an error map in strips: raw values to an EXR file, false colours to other formats.
+// Writes an error map, a few rows at a time: raw values to an EXR file, false colours to files of other formats.
 class ErrorMap {
 public:
     ErrorMap(const std::filesystem::path& path, int width, int height)
@@ -160,7 +160,7 @@ void runCompare(const CompareArguments& arguments) {
     };
     const Difference difference = compareStrips(strips(reference), strips(test), options);
 
-    // Complete the error map and print the result.
+    // Complete the file of the error map and print the result.
     if (map) map->finish();
     if (arguments.json)
         printJson(difference);

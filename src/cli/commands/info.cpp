@@ -38,7 +38,7 @@ constexpr std::size_t meshesListed = 12;  // maximum number of meshes in text ou
 const std::string flagOnly = "true";      // CLI11's value for --camera without a name
 constexpr double degrees = 57.295779513082321;
 
-// Returns the name; for an empty name, a text such as "(mesh 3)".
+// Returns `name`, or a text such as "(mesh 3)" if it is empty.
 std::string nameOr(const std::string& name, const char* kind, std::size_t index) {
     return name.empty() ? fmt::format("({} {})", kind, index) : name;
 }
@@ -71,8 +71,8 @@ const char* alphaName(AlphaMode mode) {
 }
 
 struct Totals {
-    std::uint64_t triangles = 0;         // triangles of all meshes
-    std::uint64_t trianglesInScene = 0;  // sum over all objects of the scene
+    std::uint64_t triangles = 0;         // number of triangles of all meshes
+    std::uint64_t trianglesInScene = 0;  // number of triangles of all objects of the scene
     std::uint64_t vertices = 0;
     std::uint64_t points = 0;
     std::uint64_t lines = 0;  // number of line segments

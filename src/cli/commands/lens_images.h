@@ -1,5 +1,6 @@
 #pragma once
-// `defocus render --lens-images`: renders a file of lens images for `defocus refocus`.
+// Implements `defocus render --lens-images`, which renders a file of lens images (one image per lens sample) for
+// `defocus refocus`.
 
 #include <string>
 

@@ -85,7 +85,8 @@ std::string commandText(const CLI::App& command) {
            fmt::format(".PP\n.B {}\n[\\fIoptions\\fR]{}\n", name, usage) + options + footerText(command.get_footer());
 }
 
-// Returns the settings by group, each once, with the description of the first command that has it.
+// Returns the text about all settings, sorted by group. A setting of several commands appears once, with the
+// description of the first.
 std::string settingsText(const CLI::App& program) {
     std::vector<std::string> groups;
     std::map<std::string, std::string> texts;

@@ -26,10 +26,10 @@ struct MergeArguments {
     std::vector<std::filesystem::path> parts;
     std::vector<std::filesystem::path> outputs = {"out.exr"};
     ToneMap toneMap = Request{}.toneMap;
-    std::optional<double> exposure;  // exposure in EV; nullopt: from the metadata of the parts
+    std::optional<double> exposure;  // EV; nullopt: exposure in the metadata of the parts
 };
 
-// Returns the exposure (EV) in the metadata of a part; 0 if there is none.
+// Returns the exposure (EV) that the metadata of a part of a frame contain; 0 if they contain none.
 double ownExposure(const Metadata& metadata) {
     const auto found = metadata.find("defocus:exposure");
     const double* value = found == metadata.end() ? nullptr : std::get_if<double>(&found->second);

@@ -1,5 +1,4 @@
-// defocus view and defocus bench view, for a build without the window: report that the program was built without the
-// window.
+// defocus view and defocus bench view in a build without the window: both commands report that the window is missing.
 
 #include <string>
 

@@ -48,7 +48,7 @@ struct PyramidArguments {
     Request request;        // only the request's scene and levelVertices are used
     std::string mesh;       // name of the mesh; empty: all meshes
     fs::path exportFolder;  // folder for exported levels; empty: no export
-    fs::path turntable;     // file of the turntable; empty: no turntable
+    fs::path turntable;     // file of the contact sheet of the levels; empty: none
     fs::path cacheFolder;   // cache of pyramids; empty: no cache
     std::size_t points = 16'384;
     bool noMeasure = false;
@@ -65,7 +65,7 @@ struct MeshReport {
     Pyramid pyramid;
     std::optional<double> seconds;  // build time, s; nullopt if read from the cache
     std::vector<LevelReport> levels;
-    fs::path turntable;  // file of the turntable; empty: not drawn
+    fs::path turntable;  // file of the contact sheet; empty: not drawn
 };
 
 // Returns the mesh's name as `defocus info` prints it.
@@ -118,7 +118,7 @@ std::string buildOrLoad(const Mesh& mesh, const fs::path& folder, const PyramidO
     return {};
 }
 
-// Builds or loads the pyramids of all meshes. Returns why a pyramid couldn't be stored; empty if all were stored.
+// Builds or loads the pyramids of all meshes. Returns why a pyramid couldn't be stored in the cache; empty if all were.
 std::string buildAll(const Scene& scene, const fs::path& folder, const PyramidOptions& options,
                      std::vector<MeshReport>& reports, const Progress& progress) {
     std::uint64_t all = 0;
@@ -186,9 +186,9 @@ std::size_t exportAll(const Scene& scene, std::vector<MeshReport>& reports, cons
     return files;
 }
 
-// ---- turntables ---------------------------------------------------------------------------------
+// ---- contact sheets -----------------------------------------------------------------------------
 
-// Returns the file of a mesh's turntable: sheet.png, or sheet-STEM.png if there are several meshes.
+// Returns the file of a mesh's contact sheet: sheet.png, or sheet-STEM.png if there are several meshes.
 fs::path turntableFile(const fs::path& file, const std::string& stem, bool several) {
     if (!several) return file;
     fs::path named = file;
@@ -206,7 +206,7 @@ Object shownObject(const Scene& scene, const Pose& pose, std::size_t mesh) {
     return object;
 }
 
-// Draws a turntable sheet for each mesh that has triangles.
+// Draws for each mesh that has triangles a contact sheet, with views of each of its levels from all sides.
 void drawTurntables(const std::shared_ptr<const Scene>& drawn, std::vector<MeshReport>& reports, const fs::path& file,
                     const std::vector<std::string>& stems, const GlobalOptions& global, const Progress& progress) {
     const Scene& scene = *drawn;

@@ -1,4 +1,5 @@
-// defocus refocus: computes pictures with another focus, f-number and aperture from a file of lens images.
+// defocus refocus: computes pictures with another focus, f-number and aperture from a file of lens images, which holds
+// one image per lens sample.
 
 #include "refocus/refocus.h"
 
@@ -38,10 +39,10 @@ struct RefocusArguments {
     std::vector<std::filesystem::path> outputs = {"out.exr"};
     Request request;                 // values of ownSettings()
     std::optional<double> exposure;  // exposure in EV; nullopt: as rendered
-    std::filesystem::path page;      // write a web page to this file, instead of outputs
-    FocusPullFilm pull;              // write the video of a focus pull if pull.video isn't empty
-    bool fillGaps = true;            // fill the gaps between the lens images
-    int stack = 0;                   // number of pictures of a focal stack; 0: one picture
+    std::filesystem::path page;      // if not empty, write a web page to this file instead of outputs
+    FocusPullFilm pull;              // video of a focus pull; written if pull.video isn't empty
+    bool fillGaps = true;            // true: fill the gaps between the lens images
+    int stack = 0;                   // number of pictures in a focal stack; 0: write one picture
 };
 
 Refocusing requested(const RefocusArguments& arguments, LightField& field) {

@@ -1,5 +1,6 @@
 #pragma once
-// Series of pictures from one file of lens images: the video of a focus pull, and a focal stack.
+// Writes series of pictures from one file of lens images (one image per lens sample): the video of a focus pull, or a
+// focal stack.
 
 #include <filesystem>
 #include <functional>
@@ -22,7 +23,7 @@ struct FocusPullFilm {
 // Parses "A:B", two distances in m. Throws Error for other text.
 void parseFocusPull(const std::string& text, FocusPullFilm& pull);
 
-// Writes a video in which the focus moves from one distance to the other, evenly in 1/distance. `refocusing` gives the
+// Writes a video in which the focus moves from one distance to another, evenly in 1/distance. `refocusing` gives the
 // aperture.
 void writeFocusPull(LightField& field, const Refocusing& refocusing, const FocusPullFilm& pull,
                     const WriteOptions& write, const GlobalOptions& global);

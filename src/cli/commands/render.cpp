@@ -183,7 +183,7 @@ void printChoices(const GlContext& context, const RenderReport& report) {
                  report.stats.renderMilliseconds);
 }
 
-// Image of the samples drawn so far, with the data that is needed to write it without the driver.
+// Image of the samples drawn so far, with all data that is needed to write it to a file.
 struct PartialImage {
     Image image;
     WriteOptions options;
@@ -192,7 +192,7 @@ struct PartialImage {
     std::uint32_t sampleTotal = 0;
 };
 
-// Returns nullopt if there is nothing to keep; see FrameOutput::partialImage.
+// Returns the image of the samples drawn so far; nullopt if there is none to keep (see FrameOutput::partialImage).
 std::optional<PartialImage> partialImage(FrameOutput& output, SceneDriver& driver) {
     std::optional<Image> image = output.partialImage();
     if (!image) return {};
@@ -201,7 +201,7 @@ std::optional<PartialImage> partialImage(FrameOutput& output, SceneDriver& drive
                         frame.sampleTotal()};
 }
 
-// Writes the image. Returns the message about the stop.
+// Writes the image of an interrupted render. Returns the message that the render was stopped.
 std::string writePartial(const std::vector<std::filesystem::path>& outputs, const PartialImage& partial) {
     for (const std::filesystem::path& path : outputs)
         writeOutput(path, partial.image, partial.metadata, partial.options);
@@ -235,7 +235,8 @@ private:
     Clock::time_point copied_;
 };
 
-// Draws the frame. Writes parts that go to files as soon as they are finished. Returns false if a signal stops drawing.
+// Draws the frame. Writes each part of the frame that goes to a file as soon as the part is finished. Returns false if
+// a signal stops drawing.
 bool draw(FrameOutput& output, SceneDriver& driver, const Progress& progress, const RenderArguments& arguments) {
     const FrameDriver& frame = driver.driver();
     PartialCopies copies(output, driver, arguments.outputs);

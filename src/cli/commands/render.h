@@ -1,5 +1,5 @@
 #pragma once
-// Arguments and options of `defocus render`.
+// Declares the arguments and options of `defocus render`.
 
 #include <filesystem>
 #include <optional>
@@ -27,10 +27,10 @@ struct RenderArguments {
     AovRequest aovs;
     std::optional<SampleRange> sampleRange;  // draw only these samples, for `merge`; nullopt: all
     std::optional<TileShare> tile;           // draw only these rows, for `merge`; nullopt: all
-    bool resume = false;                     // keep finished parts of an interrupted run
-    std::filesystem::path lensImages;        // write the images of the lens samples to this file, instead of outputs
-    std::optional<FocusRange> focusRange;    // focus distances that the lens images must allow
-    bool keepPartial = false;                // write the image of the samples drawn so far if a signal stops the run
+    bool resume = false;                     // true: keep finished parts of an interrupted run
+    std::filesystem::path lensImages;        // write lens images (one per lens sample) to this file instead of outputs
+    std::optional<FocusRange> focusRange;    // focus distances that the lens images must support
+    bool keepPartial = false;                // true: if a signal stops the run, write the image of the samples so far
 };
 
 // Adds all options of the command. `arguments` must outlive the parsing.

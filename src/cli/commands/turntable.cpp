@@ -22,7 +22,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Camera for the images on the sheet; the elevation is in radians above the horizontal.
+// Camera for the images on the contact sheet; the elevation is in radians above the horizontal.
 constexpr double viewElevation = glm::radians(14.0);
 constexpr double viewTangent = 18.0 / 85;  // tan of half the horizontal field of view: an 85 mm lens on a 36 mm sensor
 constexpr double viewFill = 0.9;           // fraction of the cell that the object may fill
@@ -30,7 +30,7 @@ constexpr double minAspect = 0.75;
 constexpr double maxAspect = 1.6;
 constexpr int cellArea = 320 * 240;  // width · height of a cell, px²
 
-// Layout of the sheet, px.
+// Layout of the contact sheet, px.
 constexpr int sheetMargin = 16;
 constexpr int cellGap = 4;
 constexpr int labelColumn = 210;
@@ -54,7 +54,7 @@ Object turnedObject(const Object& object, const glm::dmat4& turn) {
     return result;
 }
 
-// For each view and vertex, calls `visit` with the vertex's offset from `centre` in camera axes.
+// Calls `visit` for each view and each vertex, with the vertex's offset from `centre` in the axes of the camera.
 template <typename Visit>
 void forEachTurnedPoint(const Mesh& mesh, const std::vector<glm::dvec3>& points, const glm::dvec3& centre,
                         const Visit& visit) {

@@ -13,9 +13,9 @@
 
 namespace defocus::engine {
 
-inline constexpr int turntableViews = 6;  // views at equal angles; the first is from the front (+z)
+inline constexpr int turntableViews = 6;  // number of views, at equal angles; the first is from the front (+z)
 
-// Position of a view's image on the sheet, px; row 0 is at the top.
+// Position of a view's image on the contact sheet, px; row 0 is at the top.
 struct TurntableCell {
     int x = 0;
     int y = 0;
@@ -28,14 +28,15 @@ struct TurntableSheet {
     std::vector<std::vector<TurntableCell>> cells;  // positions by level, then by view
 };
 
-// Camera and rotations of the views on a sheet. Both are the same for all levels of detail, so that levels can be
-// compared.
+// Camera and rotations of the views on a contact sheet. Both are the same for all levels of detail, so that levels can
+// be compared.
 struct TurntableView {
     View view;                          // pinhole camera with the size of a cell
     std::vector<glm::dmat4> worldTurn;  // rotation about the object's vertical axis, by view
 };
 
-// Returns views of `mesh` in the pose of `object`, with a camera that keeps the mesh in the image from all sides.
+// Returns the views of `mesh` in the pose of `object`, with a camera for which the mesh is completely visible from all
+// sides.
 TurntableView turntableView(const Mesh& mesh, const Object& object);
 
 // Returns settings that draw the only object of `world` at `level`, with a threshold equal to the error of that level.

@@ -51,7 +51,7 @@ std::string inColumns(const std::string& left, const std::string& text, std::siz
     return lines + '\n';
 }
 
-// Returns the named options of a group: all of them, or only the options that --help shows.
+// Returns the options of a group, without positional arguments: all of them, or only the options that --help shows.
 std::vector<const CLI::Option*> optionsOf(const CLI::App& app, const std::string& group, bool all) {
     return app.get_options([&](const CLI::Option* option) {
         return option->nonpositional() && option->get_group() == group && (all || isEveryday(*option));

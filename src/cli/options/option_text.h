@@ -33,7 +33,7 @@ bool isEveryday(const CLI::Option& option);
 // Returns all names of an option, such as "-o" and "--output"; for a positional argument, its placeholder.
 std::vector<std::string> namesOf(const CLI::Option& option);
 
-// Returns a copy of `check` that adds nothing to --help, for options whose description already gives the allowed
+// Returns a copy of `check` that adds no text to --help, for options whose description already gives the allowed
 // values.
 inline CLI::Validator unnamed(const CLI::Validator& check) {
     return check.description("");

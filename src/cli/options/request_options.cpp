@@ -56,7 +56,8 @@ std::string valuesOf(const MethodSetting& setting) {
     return setting.integer ? "N" : "R";
 }
 
-// Returns the default of a method setting for --help: one value, or a value for each method if the methods differ.
+// Returns the default that --help shows for a method setting: one value, or a value for each method if the methods
+// differ.
 std::string defaultOf(const std::string& name) {
     std::set<std::string> values;
     std::vector<std::string> texts;

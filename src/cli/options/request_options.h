@@ -10,8 +10,8 @@
 
 namespace defocus::engine {
 
-// Adds an option for each of the named settings; commands should name only settings that they use. Options for the same
-// value exclude each other. `request` provides the defaults in --help and must outlive the parsing.
+// Adds an option for each of the settings `names`. Options that set the same value exclude each other. `request`
+// provides the defaults in --help and must outlive the parsing.
 void addSettings(CLI::App& command, Request& request, const std::vector<std::string>& names);
 
 // Rewrites boolean options with a value, because CLI flags take no value: "--dof false" and "--dof=false" become
@@ -35,10 +35,10 @@ const Setting* settingOf(const CLI::Option& option);
 // Returns the method setting that an option sets; null if it sets none.
 const MethodSetting* methodSettingOf(const CLI::Option& option);
 
-// Groups of settings that affect a frame, except the display of PNG and JPEG and the developer settings.
+// Groups of all settings that affect a frame, without the settings for displaying PNG and JPEG and for developers.
 inline const std::vector<SettingGroup> frameGroups = {SettingGroup::scene, SettingGroup::camera, SettingGroup::lens,
                                                       SettingGroup::samples, SettingGroup::method};
-// Groups of settings that affect a frame and its display as PNG and JPEG.
+// Groups of all settings that affect a frame or its display as PNG and JPEG.
 inline const std::vector<SettingGroup> pictureGroups = {SettingGroup::display, SettingGroup::scene,
                                                         SettingGroup::camera,  SettingGroup::lens,
                                                         SettingGroup::samples, SettingGroup::method};

@@ -8,17 +8,18 @@
 
 namespace defocus::engine {
 
-// Installs the handlers and starts the second thread.
+// Installs the signal handlers and starts the second thread.
 void stopWhenAsked();
 // Returns whether a signal has requested a stop.
 bool stopAsked();
 // Sets the line that is printed if the second thread ends the process, such as "stopped: 3 of 9 rows are kept".
 void setStopMessage(std::string message);
-// Sets a function that the second thread calls before it ends the process, to save what is finished. It replaces the
-// line of setStopMessage(): the function returns the line to print. It runs while the main thread may be inside a draw.
+// Sets a function with which the second thread saves finished results before it ends the process. The function returns
+// the line to print, which replaces the line of setStopMessage(). The function may run while the main thread is inside
+// a draw.
 void setStopAction(std::function<std::string()> save);
-// Makes the calling thread responsible for saving finished results and for ending the process, instead of the second
-// thread. Doesn't return if the second thread has begun to end the process.
+// Makes the calling thread, instead of the second thread, responsible for saving finished results and for ending the
+// process. Doesn't return if the second thread has begun to end the process.
 void endWithoutSecondThread();
 
 }  // namespace defocus::engine

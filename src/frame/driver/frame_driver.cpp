@@ -93,8 +93,8 @@ public:
     [[nodiscard]] int tiles() const override { return walk_.tiles(); }
 
 private:
-    // Copies a finished tile into kept_. If there is a row sink, copies the tile into its band instead and passes each
-    // complete band to the sink.
+    // Copies a finished tile into kept_. If the order has a row sink (FrameOrder::takeRows), copies the tile into its
+    // band, a row of tiles, instead and passes each complete band to the sink.
     void take(const Tile& tile, Image&& pixels) {
         if (!takeRows_) return placeTile(kept_, 0, tile, pixels);
         const Band& band = bands_[band_];
@@ -116,7 +116,7 @@ private:
     std::vector<Band> bands_;
     std::size_t band_ = 0;  // index in bands_ of the band that is being drawn
     Image rowsOfBand_;
-    Image kept_;  // complete frame; empty if there is a row sink
+    Image kept_;  // complete frame; empty if finished rows go to a row sink
     int rows_ = 0;
     TileWalk walk_;
 };
@@ -252,15 +252,15 @@ FrameDriver::Fit FrameDriver::fitOf(const FrameOrder& order) {
             order.rows};
 }
 
-// Returns the max number of samples per wave (samples drawn together) for a frame that must be able to stop soon. On a
-// CPU, returns 1, because a sample may take long. On a GPU, returns a few, which take little time and keep the GPU
-// busy. Returns 0 (no limit) for other frames.
+// Returns the max number of samples drawn together (in a wave) for a frame that must be able to stop soon. On a CPU,
+// returns 1, because a sample may take long. On a GPU, returns a few, which take little time and keep the GPU busy.
+// Returns 0 (no limit) for other frames.
 std::uint32_t FrameDriver::shortWave(const FrameOrder& order) {
     if (!fitOf(order).shortDraws) return 0;
     return currentIsSoftware() ? 1 : 8;
 }
 
-// Chooses whether the frame is drawn untiled or in tiles, and how many lens samples are drawn together (a wave).
+// Chooses whether the frame is drawn untiled or in tiles, and how many lens samples are drawn together (in a wave).
 void FrameDriver::fit(const FrameOrder& order) {
     const Method& method = *options_.method.method;
     const DrawLimits& limits = options_.limits;
@@ -323,8 +323,8 @@ void FrameDriver::fitTiles(const FrameOrder& order, const FramePlan& plan, const
 
 namespace {
 
-// Throws UsageError if the method or the order cannot draw the data layers in RenderSettings::layers. Otherwise forbids
-// tiles if there are layers.
+// Throws UsageError if RenderSettings::layers contains data layers that the method or the order cannot draw. Otherwise
+// forbids tiles if there are layers.
 void checkLayers(FrameOrder& order, const Method& method, bool perSample) {
     if (order.settings.layers.empty()) return;
     if (!method.drawsLayers)

@@ -30,8 +30,8 @@ struct DriverOptions {
     std::uint64_t keptPixelBytes = 0;    // bytes per pixel of the images that the caller holds in main memory
 };
 
-// Returns the options of a request: its method, memory limit, number of threads, number of lens samples per wave (drawn
-// together) and layer format. Throws Error for an unknown method.
+// Returns the options of a request: its method, memory limit, number of threads, number of lens samples that are drawn
+// together (in a wave) and layer format. Throws Error for an unknown method.
 DriverOptions driverOptions(const Request& request, std::filesystem::path shaderFolder,
                             std::uint64_t keptPixelBytes = 0);
 
@@ -47,9 +47,9 @@ struct FrameOrder {
     View view;
     RenderSettings settings;
     StopSettings stop = {};
-    std::optional<SampleRange> samples = {};         // draw only these lens samples, for sums(); nullopt: all samples
+    std::optional<SampleRange> samples = {};         // draw only partial sums over these samples; nullopt: all samples
     std::optional<std::vector<RowRange>> rows = {};  // draw only these rows, in tiles; nullopt: all rows
-    RowSink takeRows = {};                           // receives finished rows of tiles; empty: image() returns them
+    RowSink takeRows = {};                           // receives finished rows of tiles; if empty, image() returns them
     SampleSink takeSample = {};                      // receives each lens sample's image; if set, no mean is computed
     std::string untiledReason = {};                  // reason why tiles are forbidden; empty: tiles are allowed
     bool shortDraws = false;                         // advance() draws few samples; implied by a time limit
@@ -68,10 +68,10 @@ public:
     // options. Throws Error if the frame fits into memory neither untiled nor in tiles, if the method cannot draw the
     // requested part alone, and for settings that the method doesn't support.
     void start(FrameOrder order);
-    // Draws one wave, a batch of lens samples. Returns false once the frame is complete.
+    // Draws a batch (wave) of lens samples. Returns false once the frame is complete.
     bool advance();
 
-    // Returns whether a frame was started. All members below require a started frame.
+    // Returns whether a frame was started. All functions below require a started frame.
     [[nodiscard]] bool started() const { return drawing_ != nullptr; }
     [[nodiscard]] std::uint32_t samples() const;      // samples so far; in tiles: mean over all rows, rounded down
     [[nodiscard]] std::uint32_t sampleTotal() const;  // expected total when the frame is complete
@@ -82,7 +82,7 @@ public:
     [[nodiscard]] int tiles() const;  // number of tiles drawn so far; 1 for an untiled frame
     [[nodiscard]] bool inTiles() const;
     // Returns the linear RGBA mean of the samples so far; unfinished tiles are black with alpha 0. Not available if
-    // FrameOrder::takeRows is set.
+    // FrameOrder::takeRows is set, because finished rows are then not kept.
     [[nodiscard]] Image image();
     // Returns the images of the layers in RenderSettings::layers; nullopt if there are none.
     [[nodiscard]] std::optional<LayerImages> layerImages();
@@ -102,7 +102,7 @@ private:
     class Summed;
     class Separate;
 
-    // Inputs that may change from frame to frame and that decide whether a frame is drawn in tiles.
+    // Inputs that decide whether a frame is drawn in tiles, and that may change from frame to frame.
     struct Fit {
         int width = 0;
         int height = 0;
@@ -128,8 +128,8 @@ private:
     DriverOptions options_;
     std::uint64_t limit_ = 0;  // maximum memory of the process, bytes
     bool crowded_ = false;
-    std::optional<Fit> fitted_;               // inputs for which the samples per wave and bands_ were chosen
-    std::optional<std::vector<Band>> bands_;  // bands: rows of tiles; nullopt: frames are drawn untiled
+    std::optional<Fit> fitted_;               // inputs for which bands_ and the number of samples per wave were chosen
+    std::optional<std::vector<Band>> bands_;  // each band is a row of tiles; nullopt: frames are drawn untiled
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<Drawing> drawing_;
     mutable double share_ = 0;  // largest result of share(), so that progress never falls

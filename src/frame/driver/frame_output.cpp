@@ -196,7 +196,7 @@ std::string FrameOutput::stopMessage() const {
     return fmt::format("stopped after {} of {} samples: no image is written", driver.samples(), driver.sampleTotal());
 }
 
-// Joins the tiles into the output files, then removes the tiles.
+// Joins the temporary tiles into the output files, then removes the tiles.
 void FrameOutput::join() {
     const fs::path folder = tilesFolder();
     std::vector<fs::path> paths;

@@ -25,7 +25,7 @@ struct FrameFiles {
     std::optional<TileShare> share;              // write only this part of the rows, for `merge`
     bool resume = false;                         // keep rows that an interrupted run with the same settings finished
     std::string untiledReason;                   // reason why tiles are forbidden; empty: tiles are allowed
-    bool keepPartial = false;                    // return the image of the samples so far if the run is interrupted
+    bool keepPartial = false;                    // true: partialImage() returns the image of the samples so far
 };
 
 class FrameOutput {
@@ -39,10 +39,10 @@ public:
     // Begins the frame of the driver's request, or the missing part of an interrupted run. Throws Error in the same
     // cases as SceneDriver::start.
     void start(const Progress& progress = {});
-    // Draws one wave, a batch of lens samples, and writes the finished rows. Returns false once the frame is complete.
+    // Draws a batch (wave) of lens samples and writes the finished rows. Returns false once the frame is complete.
     bool advance();
     // Writes the partial sums, completes the file of FrameFiles::share, or joins the tiles into the output files.
-    // Returns the image of an untiled frame; the caller writes that image.
+    // Returns an untiled frame's image; the caller must write that image.
     std::optional<Image> finish();
 
     [[nodiscard]] double share() const;  // finished fraction of the work, 0 … 1, including rows of an earlier run

@@ -1,4 +1,4 @@
-// Functions of the public API that need no renderer object.
+// Implements the functions of the public API that need no renderer object.
 
 #include <fmt/format.h>
 

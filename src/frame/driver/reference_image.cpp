@@ -92,7 +92,7 @@ Difference remainingIn(const Metadata& metadata) {
 // ---- rendering ------------------------------------------------------------------------------------------------------
 
 struct Half {
-    std::uint32_t first = 0;  // index of the first lens sample, counted from referenceOffset
+    std::uint32_t first = 0;  // index of the half's first lens sample, counted from referenceOffset
     std::uint32_t count = 0;
 };
 
@@ -104,7 +104,7 @@ Part rendered(const World& world, const View& view, const ReferenceOptions& opti
     settings.firstSample = referenceOffset + half.first;
     settings.lod = LodMode::off;
     settings.shadows = options.shadows;
-    settings.keepAll = true;  // without culling, no culling error can affect the reference
+    settings.keepAll = true;  // without culling, the reference has no culling error
     RendererOptions precise = options.renderer;
     precise.layerFormat = LayerFormat::rgba32f;
     precise.settings.clear();
@@ -133,15 +133,15 @@ Half secondHalf(std::uint32_t samples) {
     return {samples / 2, samples - samples / 2};
 }
 
-// Sets the reference's image to the mean of its two halves, and its error to the difference between that mean and a
-// half.
+// Sets the reference's image to the mean of its two halves, and the estimate of its error to the difference between
+// that mean and one half.
 void complete(ReferenceImage& reference, const Part& one, const Part& other) {
     reference.image = meanOf(one.image, firstHalf(reference.samples), other.image, secondHalf(reference.samples));
     reference.remaining = compareImages(reference.image, one.image);
     reference.milliseconds = one.milliseconds + other.milliseconds;
 }
 
-// Returns a reference without an image, with only its number of samples and its hash set.
+// Returns a reference without an image: only its number of samples and its hash are set.
 ReferenceImage askedFor(const World& world, const View& view, const ReferenceOptions& options) {
     if (options.samples < 2 || options.samples > maxSamples)
         fail("a reference of {} samples is not possible; choose 2 to {}", options.samples, maxSamples);

@@ -26,7 +26,7 @@ inline constexpr std::uint32_t referenceOffset = 1u << 20;
 inline constexpr Sequence referenceSequence = Sequence::halton;
 
 struct ReferenceOptions {
-    std::uint32_t samples = 4096;  // lens samples of both halves together, 2 … maxSamples
+    std::uint32_t samples = 4096;  // number of lens samples of both halves together, 2 … maxSamples
     RendererOptions renderer;      // RendererOptions::layerFormat is ignored
     Shadows shadows = Shadows::automatic;
 };
@@ -35,13 +35,13 @@ struct ReferenceImage {
     Image image;
     std::uint32_t samples = 0;
     std::uint64_t hash = 0;   // hash of the world, the view, the shaders and the samples
-    Difference remaining;     // estimate of the reference's own error: mae, rmse, psnr, ssim and flip are set
+    Difference remaining;     // estimated error of the reference itself: mae, rmse, psnr, ssim and flip are set
     double milliseconds = 0;  // render time
     bool reused = false;      // whether the image was read from a file
 };
 
-// Returns a remark for a row of a table of errors. `psnr`, `flip`: whether the row's error by that measure is below the
-// reference's own error. Empty if both are false.
+// Returns a remark for a row of an error table; empty if no remark is needed. `psnr`, `flip`: whether the error of the
+// row's image, by that measure, is below the error of the reference itself.
 std::string belowReferenceText(bool psnr, bool flip);
 
 // Renders a reference without storing it. Needs a current GL context. Throws Error if the number of samples is outside

@@ -34,7 +34,7 @@ bool sameSurroundings(const Request& a, const Request& b) {
            a.background == b.background;
 }
 
-// Returns whether one FrameDriver can draw both requests.
+// Returns whether a single FrameDriver can draw both requests.
 bool sameDriver(const Request& a, const Request& b) {
     return chosenMethod(a).text() == chosenMethod(b).text() && a.layerFormat == b.layerFormat && a.wave == b.wave &&
            a.threads == b.threads && a.memory == b.memory && sameSurroundings(a, b);
@@ -112,8 +112,8 @@ std::shared_ptr<Scene> SceneDriver::scaledScene(const Request& request) const {
     return scaled;
 }
 
-// Moves the pyramids of the previous frame to `next`, or stores them for later frames if `next` needs pyramids of
-// another kind. Doesn't throw.
+// Moves the pyramids of the previous frame to `next`. If `next` needs pyramids of another `kind` (see pyramidKinds),
+// stores the previous pyramids for later frames instead. Doesn't throw.
 void SceneDriver::handOnPyramids(PreparedFrame& next, std::size_t kind) {
     if (kind == pyramidKind(frame_.settings)) {
         next.world.pyramids = std::move(frame_.world.pyramids);

@@ -20,7 +20,8 @@
 
 namespace defocus::engine {
 
-// Images of the individual lens samples, from which pictures with another focus are computed later (src/refocus).
+// Order for images of the individual lens samples, from which pictures with another focus are computed later
+// (src/refocus).
 struct LensImageOrder {
     FocusRange range;  // focus distances of the later pictures; see RenderSettings::refocus
     int margin = 0;    // width in px by which the images extend beyond the request's size on each side
@@ -49,7 +50,7 @@ public:
 
     // Begins a frame. If the request fails its checks, throws Error and leaves the previous frame unchanged.
     void start(const Request& request, const FrameParts& parts = {}, const Progress& progress = {});
-    // Draws one wave, a batch of lens samples. Returns false once the frame is complete.
+    // Draws a batch (wave) of lens samples. Returns false once the frame is complete.
     bool advance();
 
     [[nodiscard]] const Request& firstRequest() const { return first_; }
@@ -68,12 +69,12 @@ public:
     // Returns the hash that all parts of the frame share; see frame/setup/settings_hash.h.
     [[nodiscard]] std::string settingsHash() const;
 
-    // All members below require a started frame.
+    // All functions below require a started frame.
     [[nodiscard]] FrameDriver& driver();
     [[nodiscard]] const FrameDriver& driver() const;
     [[nodiscard]] Image image();  // throws Error before the first sample is drawn
     [[nodiscard]] AovImages aovs();
-    [[nodiscard]] std::optional<LayerImages> layerImages();  // returns nullopt without Request::layers
+    [[nodiscard]] std::optional<LayerImages> layerImages();  // nullopt without Request::layers
     [[nodiscard]] Image work();
     [[nodiscard]] Image sweptWork() const;
     // Returns the settings for encoding the image as PNG and JPEG. A metered exposure is measured for the first frame
@@ -86,12 +87,12 @@ public:
     void write(const std::filesystem::path& path, const ImageView& image);
 
 private:
-    // Makes the driver's context current during the object's lifetime, then restores the caller's context.
+    // Makes the driver's GL context current during the object's lifetime, then restores the caller's context.
     struct InContext {
         explicit InContext(GlContext& context) { context.makeCurrent(); }
         CurrentContextKeeper callers;
     };
-    static constexpr std::size_t pyramidKinds = 4;  // full detail only, and one kind for each value of LevelVertices
+    static constexpr std::size_t pyramidKinds = 4;  // 0: full detail only; others: 1 + value of LevelVertices
 
     [[nodiscard]] std::shared_ptr<Scene> scaledScene(const Request& request) const;
     void handOnPyramids(PreparedFrame& next, std::size_t kind);

@@ -1,4 +1,4 @@
-// The public SceneRenderer. SceneDriver does all its work.
+// Implements the public class SceneRenderer with SceneDriver.
 
 #include <utility>
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t ranksPerPixel = 6;  // customary number of (id, coverage) pairs; an RGBA image holds two
 
-// Returns the ids and sample counts of a pixel, sorted by count, then by id. Equal ids are merged.
+// Returns the hashed names (ids) of a pixel and their sample counts, sorted by count, then by id. Equal ids are merged.
 void ranksOf(const std::uint32_t* entries, int count, const std::vector<float>& ids,
              std::vector<std::pair<std::uint32_t, float>>& ranks) {
     ranks.clear();

@@ -1,7 +1,7 @@
 #pragma once
-// Cryptomatte: masks of objects or materials as pairs of a hashed name and its coverage, sorted by coverage. Source:
-// Cryptomatte specification 1.2.0 (Friedman and Jones 2015, Fully Automatic ID Mattes with Support for Motion Blur and
-// Transparency).
+// Computes Cryptomattes: masks of objects or materials as pairs of a hashed name and its coverage, sorted by coverage.
+// Source: Cryptomatte specification 1.2.0 (Friedman and Jones 2015, Fully Automatic ID Mattes with Support for Motion
+// Blur and Transparency).
 
 #include <string>
 #include <string_view>

@@ -1,5 +1,5 @@
 #pragma once
-// Multi-layer EXR files: a picture with its data layers.
+// Writes multi-layer EXR files: a picture with its data layers.
 
 #include <filesystem>
 #include <string>
@@ -12,15 +12,15 @@
 
 namespace defocus::engine {
 
-// Returns the picture and its layers with the channel names of `names`, and adds the metadata of Cryptomattes. Object
-// indices refer to `pose`, material indices to `scene`.
+// Returns the channels of the picture and of its layers, named in the style `names` (of Nuke or Blender). Adds the
+// metadata of Cryptomattes. Object indices refer to `pose`, material indices to `scene`.
 std::vector<NamedChannels> layerChannels(const ImageView& picture, const LayerImages& layers, const Scene& scene,
                                          const Pose& pose, ExrNames names, Metadata& metadata);
 
-// Returns whether files with this name can hold layers.
+// Returns whether a file with this name, by its extension, can hold layers.
 bool holdsLayers(const std::filesystem::path& path);
 
-// Writes a picture like writeImage. A file that holds layers also gets `layers` unless they are null.
+// Writes a picture like writeImage, with its layers if holdsLayers(path) is true and `layers` isn't null.
 void writePicture(const std::filesystem::path& path, const ImageView& picture, const LayerImages* layers,
                   const Scene& scene, const Pose& pose, ExrNames names, Metadata metadata, const WriteOptions& options);
 

@@ -46,7 +46,7 @@ std::string nothingBlurred(const FramePlan& plan) {
 }
 
 // Distance in px between the images of a point in neighbouring lens samples. With lens cells (each sample is blurred to
-// fill the gaps), the σ of that blur in px.
+// fill the gaps), the σ in px of the blur of a cell instead.
 struct Gaps {
     double size = 0;
     double max = 16;  // largest distance without a warning
@@ -55,7 +55,7 @@ struct Gaps {
 
 Gaps gapsOf(const FramePlan& plan, const MethodUse& use, double blur, std::uint64_t samples) {
     if (const LensCells cells = use.method->blursCells ? lensCells(plan) : LensCells{}; cells.blur > 0) {
-        const double widest = std::sqrt(cellClassVariance(maxCellClasses - 1));  // σ of the widest lens cell, px
+        const double widest = std::sqrt(cellClassVariance(maxCellClasses - 1));  // σ of the most blurred lens cell, px
         return {cells.blur * blur, widest, 0.7 * widest};
     }
     return {blur * std::sqrt(std::numbers::pi / (4.0 * static_cast<double>(samples)))};
@@ -87,8 +87,8 @@ std::vector<std::string> immenseBlur(const FramePlan& plan) {
         roundNumber(plan.view.lens.blurScale * visibleShare * plan.view.width / largest))};
 }
 
-// Returns a warning if the circle of confusion is so curved that triangles are divided less than planned; otherwise
-// empty.
+// Returns a warning if the blur varies so much inside triangles that the limit on their division leaves an error;
+// otherwise empty.
 std::vector<std::string> coarseDivisions(const FramePlan& plan) {
     const auto bounded = [](const ObjectPlan& object) {
         return object.refinement == Refinement::subdivide && object.maxParts < maxEdgeParts;
@@ -102,7 +102,7 @@ std::vector<std::string> coarseDivisions(const FramePlan& plan) {
                     count, std::ranges::find_if(plan.objects, bounded)->maxParts)};
 }
 
-// Returns the names or numbers of all nodes that the request refers to.
+// Returns the texts, names or numbers, with which the request refers to nodes.
 std::vector<std::string> namedNodes(const Request& request) {
     std::vector<std::string> names = request.hide;
     for (const auto& [name, scale] : request.nodeBlur) names.push_back(name);
@@ -110,7 +110,7 @@ std::vector<std::string> namedNodes(const Request& request) {
     return names;
 }
 
-// Returns a warning that lists the nodes with this name and says which is used; empty if at most one node has the name.
+// Returns a warning that lists all nodes named `name` and says which of them is used; empty unless there are several.
 std::vector<std::string> sharedName(const std::string& name, const PreparedFrame& frame) {
     const std::vector<Node>& nodes = frame.scene->nodes;
     std::vector<std::string> sharing;

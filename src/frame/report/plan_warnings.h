@@ -1,5 +1,5 @@
 #pragma once
-// Warnings about a picture that are derived from its plan, its request and its scene.
+// Returns warnings about a picture that are derived from its plan, its request and its scene.
 
 #include <cstdint>
 #include <string>
@@ -23,7 +23,7 @@ namespace defocus::engine {
 std::vector<std::string> planWarnings(const FramePlan& plan, const MethodUse& use, std::uint64_t samples = 0);
 
 // Returns a line for each feature of the scene's file that isn't drawn, up to 20 lines, and a line with the number of
-// further features. damageWarnings (frame/setup/prepared_frame.h) reports faults of the file.
+// features that are not listed. damageWarnings (frame/setup/prepared_frame.h) reports faults of the file.
 std::vector<std::string> ignoredWarnings(const Scene& scene);
 
 // Returns all warnings about a request that need no plan: about the scene, the camera, and settings without effect.

@@ -81,7 +81,7 @@ Request requestOf(const RenderCommandText& text) {
     const double metresPerUnit = text.frame.scene->metresPerUnit;
     if (metresPerUnit != 1) request.units = metresPerUnit;  // without --units, `render` may guess another unit
     request.toneMap = text.write.toneMap;
-    // Give either the lens's exposure time or an exposure value: the options exclude each other.
+    // Write either the lens's exposure time or an exposure value, because the options exclude each other.
     request.exposure = DefaultExposure{};
     const bool byLens = text.view.lens.exposureTime > 0;
     const bool meters = !text.frame.scene->school && !text.frame.scene->lights.empty();

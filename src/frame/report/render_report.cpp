@@ -1,6 +1,6 @@
-// The matrices in the metadata follow OpenEXR, "Standard Attributes". The matrices transform world space to a
-// left-handed camera space that looks along +z, and world space to NDC: (0, 0) is the upper left corner of the image,
-// (1, 1) the lower right corner.
+// Writes the metadata, statistics and summary of a render. The matrices in the metadata follow OpenEXR, "Standard
+// Attributes". They transform world space to a left-handed camera space that looks along +z, and world space to NDC:
+// (0, 0) is the upper left corner of the image, (1, 1) the lower right corner.
 
 #include "frame/report/render_report.h"
 
@@ -48,8 +48,8 @@ glm::dmat4 ndcFromWorld(const FramePlan& plan) {
     return ndcFromCamera * cameraFromWorld(plan.view);
 }
 
-// Adds the settings with Setting::recorded to the metadata. Camera and lens have attributes of their own and paths are
-// private, so both are left out.
+// Adds the settings that have Setting::recorded set to the metadata. Camera and lens have attributes of their own and
+// paths are private, so they are left out.
 void addSettings(Metadata& metadata, const Request& request) {
     for (const Setting& setting : settings()) {
         const std::optional<std::string> text = setting.text(request);

@@ -1,6 +1,6 @@
 #pragma once
-// Reasons why a setting has no effect in a request. Each function returns a reason, or an empty string if the setting
-// has an effect.
+// Gives reasons why a setting has no effect in a request. Each function returns a reason, or an empty string if its
+// condition doesn't apply.
 
 #include <initializer_list>
 #include <string>
@@ -12,9 +12,9 @@ namespace defocus::engine {
 using Condition = std::string (*)(const SettingContext&);
 
 std::string methodWithoutSamples(const SettingContext& context);     // the method draws no lens samples
-std::string methodWithoutPositions(const SettingContext& context);   // draws one pixel position per lens sample
+std::string methodWithoutPositions(const SettingContext& context);   // the method draws one position per sample
 std::string methodWithoutShapes(const SettingContext& context);      // the method supports only round or oval apertures
-std::string methodWithoutLensPoints(const SettingContext& context);  // uses one lens for all colours and pixels
+std::string methodWithoutLensPoints(const SettingContext& context);  // the method uses the same lens everywhere
 std::string methodWithoutThreads(const SettingContext& context);     // the method draws in one thread
 std::string methodWithoutMotion(const SettingContext& context);
 std::string withoutLayers(const SettingContext& context);

@@ -22,8 +22,8 @@ std::span<const Preset> presets() {
           {"lodMetric", "proportional"},
           {"lodCoc", "centre"},
           {"levelVertices", "surviving"}}},
-        // Tzeng et al. 2012. The paper gives no values for blurThreshold, bin-size and lines-per-position; the values
-        // below are this program's choice.
+        // Tzeng et al. 2012. The paper gives no values for blurThreshold, bin-size and lines-per-position; these values
+        // are this program's choice.
         {"tzeng2012",
          "line samples with a buffer of fixed size (Tzeng et al. 2012)",
          {{"focusBreathing", "true"},

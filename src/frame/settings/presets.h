@@ -1,6 +1,7 @@
 #pragma once
-// Presets: named groups of settings. Applying a preset sets all its settings; settings given later override them. A
-// request doesn't store the name of a preset: it matches a preset as long as all values of the preset are set.
+// Defines presets, which are named groups of settings. Applying a preset sets all its settings; settings given later
+// override them. A request doesn't store the name of a preset: it matches a preset as long as all values of the preset
+// are set.
 
 #include <optional>
 #include <span>
@@ -13,7 +14,7 @@
 namespace defocus::engine {
 
 struct PresetValue {
-    std::string setting;  // name of the setting in the settings table
+    std::string setting;  // name of a setting in the settings table
     std::string text;     // value in the format of Setting::text
 };
 
@@ -34,7 +35,7 @@ void applyPreset(const Preset& preset, Request& request);
 // Resets all settings of the preset to their defaults.
 void clearPreset(const Preset& preset, Request& request);
 
-// Returns the first preset whose values the request has; null if no preset matches.
+// Returns the first preset whose values all equal the request's values; null if no preset matches.
 const Preset* presetOf(const Request& request);
 
 }  // namespace defocus::engine

@@ -1,4 +1,4 @@
-// The settings table.
+// Builds the settings table from the groups of rows in the files rows_*.cpp.
 
 #include "frame/settings/rows.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Groups of rows of the settings table, in the order of --help.
+// Declares the groups of rows of the settings table, in the order of --help.
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Settings of the lens and the focus.
+// Defines the settings of the lens and the focus.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -26,7 +26,7 @@ std::string unitOf(std::string_view metavar) {
     return "";
 }
 
-// Returns the function that gives the reason why a lens field has no effect.
+// Returns the function that gives the reason why a setting of the lens has no effect.
 Setting::Unused unusedLensField(LensFeature feature) {
     switch (feature) {
         case LensFeature::camera:

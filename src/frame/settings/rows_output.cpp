@@ -1,4 +1,4 @@
-// Settings of the method, of the display, and for developers.
+// Defines the settings of the method and of the display, and the settings for developers.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

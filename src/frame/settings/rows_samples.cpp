@@ -1,4 +1,4 @@
-// Settings of lens samples and levels of detail.
+// Defines the settings of lens samples and levels of detail.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,8 +19,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Row of the setting "preset", which stores no value; see presets.h. This row precedes the rows of all settings that a
-// preset sets, so that options given explicitly override the preset.
+// Returns the row of the setting "preset", which stores no value; see presets.h. This row precedes the rows of all
+// settings that a preset sets, so that options given explicitly override the preset.
 Row presetRow() {
     std::vector<std::string> names;
     std::vector<std::string> lines;

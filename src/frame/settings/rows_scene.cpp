@@ -1,4 +1,4 @@
-// Settings of the scene and the camera.
+// Defines the settings of the scene and the camera.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,8 @@
 #pragma once
-// The settings table: one row for each value of a request. The command line, shot files and their schema, image
+// The settings table has one row for each value of a request. The command line, shot files and their schema, image
 // metadata, the settings hash, the window, Python's keywords and docs/settings.md are generated from it. A new setting
-// needs a member of Request (include/defocus/request.h), a row in rows.cpp, and the code that uses the value.
+// needs a member of Request (include/defocus/request.h), a row in one of the files rows_*.cpp, and the code that uses
+// the value.
 //
 // Values are parsed and formatted as text, in the format of the command line: set(request, *text(request)) changes
 // nothing.
@@ -20,7 +21,7 @@ namespace defocus::engine {
 
 enum class SettingGroup { scene, camera, lens, samples, method, display, developer };
 
-// Kind of results that change with a setting.
+// Which results change with a setting.
 enum class SettingEffect {
     pixels,   // the linear image
     display,  // only the 8-bit output: PNG, JPEG and video
@@ -36,7 +37,7 @@ struct SettingContext {
 };
 
 struct Setting {
-    // Returns the reason why the option has no effect, for a warning; empty if it has an effect.
+    // Returns the reason why the setting has no effect, for a warning; empty if the setting has an effect.
     using Unused = std::function<std::string(const SettingContext&)>;
 
     std::string name;    // name in shots, metadata and glTF extras: "blurThreshold"; snake_case in Python
@@ -47,17 +48,17 @@ struct Setting {
     std::string unit;     // "mm", "m", "s", "px", "degrees" …; empty: none
     double min = 0;       // allowed range of numbers and integers
     double max = 0;
-    std::vector<std::string> choices;  // allowed words; for a number: words allowed instead of it
+    std::vector<std::string> choices;  // allowed words; a number setting also accepts numbers
     std::string help;
     bool everyday = false;              // shown by --help; --help-all shows all settings
     std::string example;                // example value, for settings that have neither default nor choices
-    std::vector<std::string> excludes;  // names of settings that exclude this one
+    std::vector<std::string> excludes;  // names of settings that cannot be given together with this one
     SettingEffect effect = SettingEffect::pixels;
-    bool recorded = true;     // whether the setting is written to image metadata
+    bool recorded = true;     // true: the setting is written to image metadata
     bool repeated = false;    // the option may be given several times; all values are kept
     bool lensField = false;   // field of lens/lens_fields.h, which a file's camera may also set
     std::string shotPlace;    // JSON pointer in a shot, "/animation/clip"; empty: not in shots
-    bool keyed = false;       // whether a shot may animate the setting with keyframes
+    bool keyed = false;       // true: a shot may animate the setting with keyframes
     std::string schema;       // JSON schema of the value; empty: derived from the kind
     char arraySeparator = 0;  // separates array elements in the text; 0: the JSON value isn't an array
     Unused unused = {};       // empty function: the setting always has an effect

@@ -1,7 +1,7 @@
 #pragma once
-// Parses and formats values such as "320x240", "x,y", "circular:far-components=5". Private to rows.cpp. Each set…
-// function throws Error, with the allowed values in its message, for any other text. Each …Text function returns
-// nullopt if the value is unset.
+// Parses and formats values such as "320x240", "x,y", "circular:far-components=5". Only the settings table (rows*.cpp)
+// uses this header. Each set… function throws Error, with the allowed values in its message, for any other text. Each
+// …Text function returns nullopt if the value is unset.
 
 #include <optional>
 #include <string>

@@ -21,7 +21,7 @@ constexpr double backgroundAtMost = 0.5;
 constexpr int meterWidth = 160;  // width of the metered image, px
 constexpr std::uint32_t meterSamples = 4;
 
-// Shows or hides the environment for the lifetime of this object.
+// Makes the environment visible or invisible during the lifetime of this object.
 struct ShownEnvironment {
     ShownEnvironment(World& changed, bool shown)
         : world(changed), visible(std::exchange(changed.environment.visible, shown)) {}
@@ -38,7 +38,8 @@ double logAverage(const std::vector<double>& luminances) {
     return logarithms / static_cast<double>(luminances.size());
 }
 
-// Replaces the colours of the background pixels (alpha ≤ 0.5) with those of an image that shows the environment.
+// Replaces the colours of the background pixels (alpha ≤ 0.5) of `image` with the colours of `withEnvironment`, the
+// same view in front of the environment.
 void addBackground(Image& image, const Image& withEnvironment) {
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)

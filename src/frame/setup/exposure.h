@@ -10,8 +10,8 @@
 
 namespace defocus::engine {
 
-// Returns whether the exposure is metered. The default is to meter scenes with lights, because a light may be as bright
-// as the sun, but not if the lens has an exposure time and not for the built-in school of fish.
+// Returns whether the exposure is metered. By default, scenes with lights are metered, because a light may be as bright
+// as the sun. Not metered by default are the built-in school of fish, and scenes whose lens has an exposure time.
 bool metersExposure(const Request& request, const Scene& scene, const Lens& lens);
 
 // Returns the exposure (EV) that maps the log-average luminance of the surfaces in a linear image to middle grey, 18 %

@@ -1,5 +1,6 @@
 #pragma once
-// State of the scene, lights and camera in one frame: everything that changes between the frames of a shot.
+// Describes the state of the scene, lights and camera in one frame: everything that changes between the frames of a
+// shot.
 
 #include <vector>
 

@@ -46,8 +46,8 @@ double largestBlur(const PreparedFrame& frame) {
     return circleOfConfusionRange(coc, all, view.width).largest;
 }
 
-// Returns how often one lens sample draws an average triangle of the meshes: the mean number of objects per mesh,
-// weighted by triangles.
+// Returns how often one lens sample draws an average triangle: the mean number of objects that use a mesh, weighted by
+// the mesh's triangles.
 double drawsPerSample(const PreparedFrame& frame) {
     double built = 0;
     for (const Mesh& mesh : frame.scene->meshes) built += static_cast<double>(mesh.triangleCount());

@@ -13,7 +13,7 @@ int clipOf(const Request& request, const Scene& scene);
 ShutterSettings shutterOf(const Request& request, const Scene& scene);
 
 // Returns the scene's pose at the middle of the exposure, without the nodes that the request hides. Throws Error if the
-// scene doesn't have the requested animation.
+// scene doesn't have the animation that the request names.
 Pose exposedPose(const Request& request, const Scene& scene);
 
 // Calls openShutter (plan/motion/shutter.h) for the request's animation and for `camera`, a camera of the world's

@@ -16,7 +16,7 @@ namespace defocus::engine {
 struct PreparedFrame {
     std::shared_ptr<Scene> scene;
     World world;
-    std::vector<PlacedLight> ownLights;  // lights before the request's sizes are applied
+    std::vector<PlacedLight> ownLights;  // lights before the request's light sizes are applied
     View view;
     RenderSettings settings;
     std::string sceneName;                 // file name, "fish school", or the name of a scene without a file
@@ -63,7 +63,7 @@ void setStrokes(const Request& request, Scene& scene);
 // the start of the animation, so that all frames of a shot share it. The scene's units must already be set.
 void setGround(const Request& request, Scene& scene);
 
-// Returns the lights `own`, moved by `pose`, with the light sizes that the request gives.
+// Returns the lights `own`, moved with the scene to `pose`, and with the light sizes that the request gives.
 std::vector<PlacedLight> sizedLights(const Request& request, const std::vector<PlacedLight>& own, const Pose& pose);
 
 // Sets camera and lens of a placed frame for a request with another camera. The lights stay unchanged.
@@ -76,7 +76,8 @@ Environment chosenEnvironment(const Request& request, const Scene& scene, const 
 // Loads an aperture image. Throws Error for an image that can't be read or is entirely black.
 std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path);
 
-// Returns the near plane (m) for a camera that the user moves: `cameraNear`, or a smaller value if the scene is small.
+// Returns the near plane (m) for a camera that the user moves: `cameraNear`, or a smaller distance if the scene is
+// small.
 double wanderingNearPlane(double cameraNear, const Bounds& sceneBounds);
 
 // Returns the cache folder for simplified meshes; empty if the request disables the cache.
@@ -90,12 +91,12 @@ void addPyramids(PreparedFrame& frame, const Progress& progress = {});
 PreparedFrame prepareFrame(const Request& request, const Progress& progress = {});
 
 // Returns a line for each missing or damaged part of the scene's file, up to 20 lines, and a line with the number of
-// further parts.
+// parts that are not listed.
 std::vector<std::string> damageWarnings(const Scene& scene);
 
-// Returns all warnings about a frame: damage in its file, a guessed unit, a scene too large or too small, invalid lens
-// values in the camera's extras, a focus that no real lens can have, too many lights, and pyramids that couldn't be
-// stored.
+// Returns all warnings about a prepared frame: damage in its file, a guessed unit, a scene too large or too small,
+// invalid lens values in the camera's extras, a focus that no real lens can have, too many lights, and pyramids that
+// couldn't be stored.
 std::vector<std::string> frameWarnings(const PreparedFrame& frame);
 
 }  // namespace defocus::engine

@@ -12,12 +12,12 @@
 
 namespace defocus::engine {
 
-// Settings that all frames of a shot, or all parts of a frame, have in common.
+// Settings that are the same for all frames of a shot, or for all parts of a frame.
 struct FilmSettings {
     std::uint64_t world = 0;      // worldHash of meshes, materials, environment and shaders
     Request request;              // provides the method, the layer format and other settings that affect pixels
-    std::string encoding;         // encoding of the pixels, such as tone map and exposure; empty: linear EXR
-    std::string lensImages = {};  // lens images from which the frame is computed; empty: the frame is rendered
+    std::string encoding;         // how pixels are encoded, such as tone map and exposure; empty: linear EXR
+    std::string lensImages = {};  // RefocusRun::text() of a frame computed from lens images; empty: rendered
 };
 
 // Returns the settings that `frame` has in common with the other frames of its shot. `frame` needs no pyramids.
