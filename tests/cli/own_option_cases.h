@@ -1,6 +1,6 @@
 #pragma once
-// For each option that belongs to a single command: two command lines that differ only by this option. option_cases.h
-// has the program's settings and the methods' settings.
+// Lists two command lines, which differ by a single option, for each option that belongs to only one command.
+// option_cases.h lists the settings of the program and of its methods.
 
 #include "cli/option_cases.h"
 
@@ -73,7 +73,8 @@ inline Words lineOfOwnCase(const std::string& command, const OwnOptionCase& trie
     return joined(line, tried.words);
 }
 
-// Cases, keyed by command and option, such as "render -o". Keys of the program's own options begin with a space.
+// Returns the test cases, keyed by command and option, such as "render -o". The keys of options of `defocus` itself,
+// without a command, begin with a space.
 inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
     static const Words part = {"render", "ball.glb", "--size", "16x12", "--fstop", "0.5", "--samples", "128"};
     static const std::vector<Words> parts = {joined(part, {"--sample-range", "0:64", "-o", "a.exr"}),
