@@ -80,7 +80,7 @@ TEST_P(EstimatedError, isWithinAFactorOfOneAndAHalfOfTheTrueOne) {
         const StoppedFrame frame =
             stoppedFrame(frame_, *renderer_, {.targetError = target, .timeLimit = {}, .sampleLimit = 768});
         const double difference = compareImages(reference.image, frame.image, {}).rmse;
-        // the reference is too noisy to judge this image
+        // skip: the reference is too noisy to judge this image
         if (reference.remaining.rmse > 0.5 * difference) continue;
         const double trueError = std::sqrt(difference * difference - std::pow(reference.remaining.rmse, 2));
         const double ratio = frame.stats.estimatedError.value() / trueError;

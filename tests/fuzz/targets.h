@@ -13,7 +13,7 @@ namespace defocus::engine {
 struct FuzzTarget {
     const char* name = "";
     void (*run)(std::span<const std::byte> bytes) = nullptr;
-    std::vector<std::vector<std::byte>> (*seeds)() = nullptr;  // initial inputs
+    std::vector<std::vector<std::byte>> (*seeds)() = nullptr;  // returns the initial inputs
     // max length of an input; longer inputs find no further faults
     std::size_t maxBytes = 0;
 };

@@ -17,8 +17,8 @@ std::vector<float> shown(std::vector<float> rgb, ToneMap toneMap, double exposur
     return displayEncoded(image, toneMap, exposure).pixels;
 }
 
-// Returns Hill's rational fit of ACES for a grey value. The matrices before and after the curve preserve greys, since
-// their rows sum to 1.
+// Returns Hill's rational fit of the ACES tone map for a grey value. The matrices before and after the curve preserve
+// greys, since their rows sum to 1.
 double hillCurve(double v) {
     return (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
 }

@@ -296,7 +296,7 @@ TEST(ConvergenceCases, followTheTableAndTheLists) {
                                   "rays standard 16", "embree standard 16"}));
 
     // The cases always include full detail and the ray tracer `embree`. Without a list of methods, they include every
-    // method except `auto`, which equals another method.
+    // method except `auto`, which only chooses between two of the others.
     options.lods = {LodMode::nearest};
     options.sampleCounts = {4};
     options.methods = {parseMethodUse("blur")};

@@ -33,7 +33,8 @@ GltfBuilder polygon() {
     return builder;
 }
 
-// Both in focus and blurred, the lines have the total light of a strip that is as long and one pixel wide.
+// The sum of all pixel values equals the length of the lines in pixels, because the lines are white and one pixel wide.
+// This holds for lines in focus and for blurred lines.
 TEST_F(StrokesImage, linesHaveTheLightOfOnePixelTimesTheirLength) {
     const ScratchFolder folder;
     GltfBuilder::save(folder / "polygon.glb", polygon().glb());
