@@ -69,7 +69,8 @@ TEST_F(Partial, mergedBlocksAreTheSingleRun) {
     }
 }
 
-// A file with a part of a frame's samples has only finished blocks: their numbers, sample counts and sums.
+// The file of a part of a frame's samples contains only finished blocks of samples: for each block the number and the
+// sum of its samples.
 TEST_F(Partial, blocksHoldTheSumOfTheirSamples) {
     const auto small = fiveSpheres();
     FrameDriver driver = drawn(*small, LodMode::fractional, SampleRange{64, 150});

@@ -115,7 +115,7 @@ TEST_F(SceneRendererTest, pyramidsAreBuiltWhereThereAreNone) {
     EXPECT_GT(renderer.statistics().pyramidMilliseconds, before);
     EXPECT_EQ(stagesOf(renderer, movedRequest()), Stages{"samples"});
     EXPECT_EQ(stagesOf(renderer, sharp), Stages{"samples"});
-    EXPECT_EQ(stagesOf(renderer, movedRequest()), Stages{"samples"});  // the renderer keeps both kinds of pyramids, so it builds none
+    EXPECT_EQ(stagesOf(renderer, movedRequest()), Stages{"samples"});  // both kinds of pyramids are kept
 }
 
 TEST_F(SceneRendererTest, aProgressThatThrowsCancelsAndTheRendererGoesOn) {

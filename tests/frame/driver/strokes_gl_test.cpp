@@ -33,8 +33,8 @@ GltfBuilder polygon() {
     return builder;
 }
 
-// The sum of all pixel values equals the length of the lines in pixels, because the lines are white and one pixel wide.
-// This holds for lines in focus and for blurred lines.
+// The pixel values of a channel add up to the length of the lines in pixels, because the lines are white and one pixel
+// wide. This holds for lines in focus and for blurred lines.
 TEST_F(StrokesImage, linesHaveTheLightOfOnePixelTimesTheirLength) {
     const ScratchFolder folder;
     GltfBuilder::save(folder / "polygon.glb", polygon().glb());
