@@ -44,8 +44,8 @@ def check_headers(prefix, source):
 
 
 def check_package_files(prefix, kind):
-    """Checks the dependencies in the package files: none for the shared library, the linked libraries for the static
-    library, and never the libraries of the window.
+    """Checks the dependencies that the CMake and pkg-config files of the package list: none for the shared library, the
+    linked libraries for the static library, and never the libraries of the window.
     """
     files = list(prefix.rglob("*.cmake")) + list(prefix.rglob("*.pc"))
     check(len(files) >= 4, f"package files: {files}")

@@ -1,4 +1,4 @@
-// Tests that points and lines become quads that are one pixel wide in the view's projection.
+// Tests that points and lines become quads that are one pixel wide when they are projected to the image.
 
 #include "scene/strokes.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int pointsMode = 0, linesMode = 1, loopMode = 2, stripMode = 3;
 
-// Four points at different depths, off the view's axis.
+// Positions of four points at different depths, off the view's axis.
 const std::vector<float> places = {0.5f, 0.4f, 0, 1.5f, -0.3f, -2, -1, -1, 1, -1.2f, 0.8f, -0.5f};
 
 StrokeView viewFromSide() {

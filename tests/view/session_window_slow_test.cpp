@@ -1,4 +1,4 @@
-// Tests `defocus view` with longer sequences of mouse and keyboard input.
+// Tests the window of `defocus view` with longer sequences of mouse and keyboard input.
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// Tests of tools beside the picture that take several steps: undo, dialogs, the scene tree, saved views.
+// Tests tools of the window that take several steps: undo, dialogs, the scene tree, saved views.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// USD text files with cameras, for tests and as seeds of the fuzzer.
+// Contains USD text files with cameras, for tests and as seeds of the fuzzer.
 
 namespace defocus::engine::usda_samples {
 

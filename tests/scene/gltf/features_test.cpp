@@ -44,8 +44,8 @@ TEST(GltfTopology, stripsDropTheirStitches) {
     GltfBuilder builder;
     const int indices = builder.indices({0, 1, 2, 2, 3, 4});
     builder.mesh({{{"attributes", {{"POSITION", builder.positions(numbered)}}}, {"indices", indices}, {"mode", 5}}});
-    // The strip yields the triangles 0 1 2, (1 2 2), (2 2 3) and 2 4 3; degenerate triangles are dropped. The last
-    // triangle is the fourth, so its winding is reversed.
+    // The strip yields the triangles 0 1 2, (1 2 2), (2 2 3) and 2 4 3; degenerate triangles, in parentheses, are
+    // dropped. The winding of every second triangle, such as the fourth, is reversed.
     EXPECT_EQ(cornerNumbers(builder.load()), (std::vector<int>{0, 1, 2, 2, 4, 3}));
 }
 
