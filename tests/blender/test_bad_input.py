@@ -1,4 +1,4 @@
-"""Tests of faulty scenes and systems. Each gives one message, leaves no files or data, and keeps the last picture."""
+"""Tests that each faulty scene or system gives one message, leaves no files or data, and keeps the last image."""
 
 import os
 import pathlib

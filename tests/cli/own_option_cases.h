@@ -13,8 +13,8 @@ struct OwnOptionCase {
     std::vector<Words> before = {};  // command lines to run before the case
 };
 
-// For each command, a command line that runs quickly, without the command's name. Options of a case replace the same
-// options of this line.
+// Returns, for each command, arguments with which it runs quickly. Options of a test case replace the same options of
+// these arguments.
 inline const std::map<std::string, Words>& usualLines() {
     static const Words ball = {"ball.glb", "--size", "16x12", "--fstop", "0.5"};
     static const Words written = {"-o", "result", "--allow-changed"};

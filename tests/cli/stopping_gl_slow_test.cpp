@@ -27,8 +27,8 @@ protected:
         std::string said;
     };
 
-    // Runs the program. Sends `signal` after `after` seconds; 0 sends no signal. `End::seconds` is the time from the
-    // signal to the end, or the duration of the program without a signal.
+    // Runs the program `defocus`. Sends `signal` after `after` seconds; 0 sends no signal. `End::seconds` is the time
+    // from the signal to the end, or the duration of the program without a signal.
     [[nodiscard]] End ended(Words words, int signal = 0, double after = 0) const {
         const pid_t child = ::fork();
         if (child == 0) {

@@ -1,4 +1,4 @@
-"""Tests of figures.cold, which times the first render with empty caches."""
+"""Tests figures.cold, which times the first render with empty caches."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Tests of the comparison of two results of the same bench."""
+"""Tests the comparison of two results of the same bench."""
 
 import csv
 import io

@@ -1,4 +1,4 @@
-"""Tests of figures.layers, which measures how much CPU time the data layers of a render add."""
+"""Tests figures.layers, which measures how much CPU time the data layers of a render add."""
 
 import pytest
 

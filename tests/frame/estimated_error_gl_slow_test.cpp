@@ -1,6 +1,6 @@
 // Compares the estimated error of frames with the true error against a converged reference at full detail. The scenes
-// are the project's own, the school of fish and two public models. Levels of detail are on, and their error is part of
-// the true error.
+// are models of this project, the school of fish and two public models. Levels of detail are on, and their error is
+// part of the true error.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -20,8 +20,8 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Data of a scene with a square in the plane z = 0 and every other kind of content. Each test changes one part of the
-// data.
+// Data of a scene with a square in the plane z = 0, two textures, a camera and a light. Each test changes one part of
+// the data.
 struct Square {
     std::vector<std::array<float, 3>> positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
     std::vector<std::array<float, 3>> normals;

@@ -1,4 +1,4 @@
-// Tests of the tabulated directional albedo of GGX against an integral over all normals of the distribution.
+// Tests the tabulated directional albedo of GGX against an integral over all normals of the distribution.
 
 #include "scene/specular_albedo.h"
 

@@ -168,7 +168,7 @@ TEST(RenderCommandText, namesWhatDiffersFromTheStandard) {
 
 // ---- random views
 
-// Expects equal options, except those of camera, lens and exposure, which the command takes from the view.
+// Expects equal options, except options of camera, lens and exposure, which the command takes from the view.
 void expectSameOptions(const Request& a, const Request& b) {
     for (const Setting& setting : settings()) {
         if (setting.group == SettingGroup::camera || setting.group == SettingGroup::lens ||

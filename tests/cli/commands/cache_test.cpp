@@ -1,4 +1,4 @@
-// Tests of the cache on the command line: --cache-dir, --no-cache, `defocus cache list` and `defocus cache clear`.
+// Tests the cache on the command line: --cache-dir, --no-cache, `defocus cache list` and `defocus cache clear`.
 
 #include <regex>
 

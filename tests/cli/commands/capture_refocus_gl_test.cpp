@@ -13,7 +13,7 @@ using nlohmann::json;
 
 class CaptureRefocus : public Capture {
 protected:
-    // Returns a shot in which only the focus changes, with 64 samples per frame.
+    // Returns a shot in which only the focus distance changes, with 64 samples per frame.
     static json focusPull() {
         json document = shot();
         document.erase("camera");

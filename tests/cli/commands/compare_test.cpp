@@ -1,4 +1,4 @@
-// Tests of `defocus compare`, which runs in the test process.
+// Tests `defocus compare`, which runs in the test process.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Tests of the options that set the camera and the lens, with `defocus plan --json`.
+// Tests the options that set the camera and the lens, with `defocus plan --json`.
 
 #include "cli/options/request_options.h"
 

@@ -1,4 +1,4 @@
-// Tests of `bench convergence` on a small world: its measurements, its checks, and which runs it skips or resumes.
+// Tests `bench convergence` on a small world: its measurements, its checks, and which runs it skips or resumes.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,8 @@ private:
 
 class Convergence : public testing::Test {
 protected:
-    // Renders the reference once for all tests, since rendering it takes longer than most of the compared images.
+    // Renders the reference image once for all tests, since this takes longer than rendering most of the compared
+    // images.
     static void SetUpTestSuite() {
         context_ = createHeadlessContext();
         const std::unique_ptr<SmallWorld> small = smallSpheres();

@@ -1,4 +1,4 @@
-// Tests of the reference image: the stored mean, the accuracy of its error estimate, and its reuse.
+// Tests the reference image: the stored mean, the accuracy of its error estimate, and its reuse.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Tests of the public API without a GPU: scenes, settings, plans, and invalid requests.
+// Tests the public API without a GPU: scenes, settings, plans, and invalid requests.
 
 #include <gtest/gtest.h>
 

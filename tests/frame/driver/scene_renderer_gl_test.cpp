@@ -44,7 +44,7 @@ TEST_F(SceneRendererTest, stepsEndInTheImageOfRender) {
     EXPECT_FALSE(statistics.device.empty());
 }
 
-// Methods that draw one position per sample ignore a request for four positions.
+// Methods that draw one subpixel position per sample ignore a request for four.
 TEST_F(SceneRendererTest, otherMethodsHaveOnePosition) {
     for (const Method& method : methods()) {
         if (method.drawsPositions) continue;

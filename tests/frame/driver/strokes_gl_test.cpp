@@ -1,4 +1,4 @@
-// Tests of the brightness of line primitives in a glTF file.
+// Tests the brightness of line primitives in a glTF file.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Tests of meshes of many separate parts, whose simplification continues after each part has reached its min size.
+// Tests the simplification of meshes of many separate parts. It continues after each part has reached its min size.
 
 #include <gtest/gtest.h>
 

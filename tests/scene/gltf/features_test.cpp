@@ -1,4 +1,4 @@
-// Tests of features of core glTF 2.0 and of the supported extensions, each with a file of a few triangles.
+// Tests features of core glTF 2.0 and of the supported extensions, each with a file of a few triangles.
 
 #include <gtest/gtest.h>
 
@@ -544,7 +544,7 @@ TEST(GltfScene, physicalCamerasInMillimetresAreIgnoredWithAReason) {
 }
 
 // Extras of a camera's node are also lens values: Blender exports custom properties of the camera's data as extras of
-// the camera, and those of the object as extras of the node.
+// the camera, and custom properties of the camera object as extras of the node.
 TEST(GltfScene, customPropertiesOfACamerasNodeAreLensValuesToo) {
     GltfBuilder builder;
     builder.json["cameras"] = {
