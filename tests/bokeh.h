@@ -82,7 +82,7 @@ inline Scene rectangleScene(const View& view, const std::vector<Rectangle>& area
     return scene;
 }
 
-// Returns the world of a scene whose nodes are all roots without children. The world has no pyramids.
+// Returns the world of a scene whose nodes are all roots without children. The world has no levels of detail.
 inline World flatWorld(const Scene& scene, const Environment& environment) {
     World world;
     world.scene = std::make_shared<const Scene>(scene);

@@ -15,7 +15,7 @@ LIGHTS = "KHR_lights_punctual"
 class GltfFile:
     folder: str  # folder that contains the file, its buffers and its images
     content: dict
-    nodes: list  # (node index, key of its instance, whether the exporter rotates its axes)
+    nodes: list  # list of (node index, key of its instance, whether the exporter rotates its axes)
     words: list  # command-line options of `defocus` that are the same for all frames
     notes: list  # one line for each item that is not exported
 

@@ -84,7 +84,7 @@ protected:
     void school() {
         options_.fishCount = 6;
         options_.trianglesPerFish = 12'000;
-        options_.lens.blurScale = 4;  // the same blur in pixels as in a larger image
+        options_.lens.blurScale = 4;  // gives this small image as many px of blur as a large one
     }
 
     // Sets up a fox of 576 triangles, 100 m long. With few pixels and strong blur, coarse levels are drawn.

@@ -1,7 +1,7 @@
 #pragma once
-// Functions that process untrusted bytes. The fuzzer calls them with generated inputs (scripts/fuzz), and a test calls
-// them with inputs that once caused faults (tests/fuzz/corpus). An Error is a correct rejection. Any other outcome is a
-// defect: another exception, a sanitizer's report, or minutes of work.
+// Declares functions that process untrusted bytes. The fuzzer calls them with generated inputs (scripts/fuzz), and a
+// test calls them with inputs that once caused faults (tests/fuzz/corpus). An Error is a correct rejection. Any other
+// outcome is a defect: another exception, a sanitizer's report, or minutes of work.
 
 #include <cstddef>
 #include <span>

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""package_test.py BUILD SOURCE CMAKE COMPILER
+"""Tests the installed library from an outside project.
 
-Installs the library of the build tree BUILD, once static and once shared, and uses it from an outside project. The
-programs of examples/ are copied to a folder outside the tree, built with find_package and with pkg-config, and run.
-Their images must have the requested size, show something, and have the same bits for both kinds of library.
+    package_test.py BUILD SOURCE CMAKE COMPILER
+
+Installs the library of the build tree BUILD, once static and once shared. The programs of examples/ are copied to a
+folder outside the tree, built with find_package and with pkg-config, and run. Their images must have the requested
+size, show something, and have the same bits for both kinds of library.
 """
 
 import os

@@ -181,7 +181,7 @@ TEST(SceneFromData, texturesAreEncodedAsFilesStoreThem) {
     grey.pixels = {1.001f};
     EXPECT_EQ(textureImage({.image = grey}, "texture 0").rgba[0], 255);
 
-    // Every byte of both encodings survives the conversion to linear floats and back.
+    // Every byte of both encodings, sRGB and linear, survives the conversion to linear floats and back.
     Image all(256, 1, 1);
     for (const TextureContent content : {TextureContent::color, TextureContent::data}) {
         for (std::size_t i = 0; i < 256; ++i) {

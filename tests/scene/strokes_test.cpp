@@ -32,7 +32,7 @@ Scene drawn(const Scene& scene, const StrokeView& view) {
     return withStrokes(scene, poseAt(scene, 0), view);
 }
 
-// Returns the position of a vertex of the pose's first object in the image, in pixels from the centre.
+// Returns the image position, in pixels from the centre, of a vertex of the pose's first object.
 glm::dvec2 pixelOf(const Scene& scene, const StrokeView& view, std::uint32_t vertex) {
     const Object object = poseAt(scene, 0).objects.at(0);
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];

@@ -233,7 +233,7 @@ TEST_F(Convergence, methodsThatCanOnlyShowAnotherImageAreLeftOut) {
         EXPECT_EQ(measured + leftOut_.size(), 3u);
         return names;
     };
-    EXPECT_EQ(namesLeftOut(), "unshaded ");  // unshaded methods are left out, since the spheres are lit
+    EXPECT_EQ(namesLeftOut(), "unshaded ");  // method `unshaded` is left out, since the spheres are lit
 
     Pose moved = small_->world.pose;
     for (Object& object : moved.objects) object.worldFromObject[3].x += 0.2;

@@ -200,7 +200,7 @@ TEST_F(SceneRendererTest, aovsPlanAndFilesAreOfTheFrame) {
     request.size.width = 64;
     request.size.height = 48;
     request.samples = 4;
-    request.lens.fStop = 0.2;  // enough blur that the plan keeps the lens
+    request.lens.fStop = 0.2;  // so much blur that the plan does not use a pinhole
     request.focus = FocusDistance{4};
     SceneRenderer renderer(request);
     const Image image = renderer.render();

@@ -116,9 +116,9 @@ std::vector<glm::vec3> rectangle(const glm::vec2& low, const glm::vec2& high) {
 }
 
 // A level lacks strips of width w and length l beside a plate. Without blur, the error is the fraction of the area that
-// the strips cover. Patches of side s that are wider than a strip spread its light, so the sum of squares is (w/s)² · l
-// · s. Foreshortening in each view direction changes w and l. The strips are thinner than a pixel of the images from
-// which errors are measured.
+// the strips cover. Patches of side s, wider than a strip, average its radiance with black, so the sum of squares is
+// (w/s)² · l · s. Foreshortening in each view direction changes w and l. The strips are thinner than a pixel of the
+// images from which errors are measured.
 TEST(BlurredError, lostWiresCountByTheirWidthUnderThePixel) {
     constexpr double width = 0.004, plate = 0.5;
     constexpr int count = 12;

@@ -60,7 +60,7 @@ TEST(BuildMemory, boundHolds) {
     }
 }
 
-// The bound is no more than a few times the memory of the mesh and its levels, so that it refuses no plausible limit.
+// The bound is at most a few times the memory of the mesh and its levels, so that no plausible memory limit is refused.
 TEST(BuildMemory, boundIsProportionalToTheMesh) {
     const Mesh small = sphere(100, 50), large = sphere(200, 100);
     const PyramidOptions full = fullDetailOnly();

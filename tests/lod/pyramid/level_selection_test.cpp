@@ -106,7 +106,7 @@ TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
             return metric == LodMetric::size ? std::log(pyramid.levels[level].meanEdge) : pyramid.levels[level].error;
         };
         const auto coordinate = [&](double target) { return metric == LodMetric::size ? std::log(target) : target; };
-        // Returns the integral of the slope between two targets, in object units.
+        // Returns the integral of the slope of λ between two targets, in object units.
         const auto growth = [&](double from, double to) {
             double sum = 0;
             for (std::size_t l = 0; l + 1 < pyramid.levels.size(); ++l) {

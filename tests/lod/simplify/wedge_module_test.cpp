@@ -8,7 +8,7 @@
 namespace defocus::engine {
 namespace {
 
-// Returns a grid of 2 × 2 quads that form one chart.
+// Returns a grid of 2 × 2 quads that form one UV chart.
 //
 // 6---7---8
 // | / | / |
