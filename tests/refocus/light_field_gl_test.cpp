@@ -13,7 +13,7 @@ namespace defocus::engine {
 namespace {
 
 // Method accumulation stores the image of each sample in half floats. With a transparent background, nothing is
-// composited over these images, so a file of lens images keeps every bit.
+// composited over these images, so a file of lens images (views from lens points) keeps every bit.
 TEST_F(LightFieldTest, atTheRenderedFocusHasTheBitsOfAccumulation) {
     Request request = smallSchool();
     request.background = TransparentBackground{};
@@ -71,8 +71,8 @@ TEST_F(LightFieldTest, findsTheFocusOfAPixel) {
     EXPECT_THROW(focusAtPixel(field, {128, 0}), Error);
 }
 
-// The image with everything in focus equals an antialiased pinhole image. Only outlines may differ, where few lens
-// images show the surface.
+// The image with everything in focus equals an antialiased pinhole image. Only outlines may differ, where only few
+// views from lens points show the surface.
 TEST_F(LightFieldTest, theSharpPictureIsThatOfAPinhole) {
     Request request = smallSchool();
     request.lod = LodMode::off;

@@ -129,7 +129,8 @@ TEST(Refocus, refusesWhatWasNotRendered) {
               "again without blades and other shapes");
 }
 
-// Returns the message with which lens images of `lens`, focused at 2 m, are rejected; empty if they are accepted.
+// Returns the message with which lens images (views from lens points) of `lens`, focused at 2 m, are rejected; empty if
+// they are accepted.
 std::string refusalOf(const Lens& lens, double nearest = 1.5) {
     View view;
     view.lens = lens;

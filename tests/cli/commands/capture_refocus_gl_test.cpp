@@ -90,7 +90,8 @@ TEST_F(CaptureRefocus, smallAperturesHaveAsManySamples) {
     document["lens"]["fStop"]["keys"][1]["value"] = 5.6;  // closing by four stops needs 16 · 64 lens images
     writeShot(document);
     const std::string plan = filmed("far", {"--refocus", "--dry-run"}).out;
-    // Several small sets of lens images, each for some of the frames, cost less than one set of 16 · 64.
+    // Several small sets of lens images (views from lens points), each for some frames, cost less than one set of 16 ·
+    // 64.
     EXPECT_NE(plan.find("0000.exr (refocused)"), std::string::npos) << plan;
 }
 

@@ -202,7 +202,7 @@ TEST_F(PictureAtRest, isReplacedOnceTheImageHasAsManySamples) {
     EXPECT_GT(compareImages(picture_.image(), refocused).psnr, 38);
     rest();
     EXPECT_EQ(picture_.samples(), 128u);
-    request_.view.lens.focusDistance = 1.3;  // the kept lens images also cover this focus distance
+    request_.view.lens.focusDistance = 1.3;  // the kept views from lens points also cover this focus distance
     draw();
     EXPECT_TRUE(picture_.refocused());
 }
