@@ -13,7 +13,7 @@ endif()
 # In unity builds, GCC's garbage collection takes up to a fifth of the compile time. A larger initial heap delays the
 # first collection.
 if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_options(defocus_options INTERFACE --param=ggc-min-heapsize=1000000)  # kB
+    target_compile_options(defocus_options INTERFACE --param=ggc-min-heapsize=1000000)  # in kB
 endif()
 if(DEFOCUS_WARNINGS_AS_ERRORS)
     target_compile_options(defocus_options INTERFACE -Werror)

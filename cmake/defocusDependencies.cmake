@@ -1,4 +1,4 @@
-# Packages that the program and the library need; with DEFOCUS_VIEWER, also the packages that the window needs.
+# Finds the packages that the program and the library need; with DEFOCUS_VIEWER, also those that the window needs.
 
 find_package(fmt REQUIRED)
 find_package(glm REQUIRED)

@@ -23,7 +23,7 @@ class Document:
         values = [value for row in rows for value in row]
         data = struct.pack(f"<{len(values)}{code}", *values)
         view = {"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data)}
-        if target:  # views of vertices and indices have a target
+        if target:  # only buffer views of vertices and indices have a target
             view["target"] = target
         self.json["bufferViews"].append(view)
         self.binary += data + b"\0" * (-len(data) % 4)
@@ -84,7 +84,7 @@ class Document:
         return len(self.json["textures"]) - 1
 
     def slide(self, name, moves):
-        """Adds an animation of one second that moves nodes evenly. moves: {node: (x, y, z)}, distances in m."""
+        """Adds an animation of 1 s that moves nodes at constant speed. moves: {node: (x, y, z)}, distances in m."""
         times = self.accessor([(0.0,), (1.0,)], FLOAT, "SCALAR", bounds=True)
         samplers, channels = [], []
         for node, move in moves.items():
@@ -103,7 +103,7 @@ class Document:
         return number
 
     def camera(self, yfov, aspect, lens, **placement):
-        """Adds a camera. lens: the camera's extras: fStop, focusDistance (m) and horizontalAperture (mm)."""
+        """Adds a camera. lens: extras of the camera, which are fStop, focusDistance (m) and horizontalAperture (mm)."""
         self.json["cameras"].append({"name": "Camera", "type": "perspective", "extras": lens,
                                      "perspective": {"yfov": round(yfov, 7), "aspectRatio": aspect, "znear": 0.01}})
         self.node("Camera", camera=len(self.json["cameras"]) - 1, **placement)

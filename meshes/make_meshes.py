@@ -26,7 +26,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 
 def bokeh():
-    """Returns bokeh.gltf: small bright squares at seven depths in a dark room, with the focus on the third row."""
+    """Returns bokeh.gltf: small bright squares at seven depths in a dark room. The third row is in focus."""
     document = Document()
     dark = document.material("Room", extensions={"KHR_materials_unlit": {}},
                              pbrMetallicRoughness={"baseColorFactor": [0.004, 0.005, 0.008, 1]})
@@ -51,7 +51,7 @@ def bokeh():
         square.quad([(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, 0.5, 0)], normal=(0, 0, 1))
         meshes.append(document.mesh(f"{name} square", square, material))
 
-    # Rows at these depths; sizes grow with depth so that each square is about three pixels wide at 1024 x 768.
+    # One row of squares at each depth. Squares grow with depth; each is about three pixels wide at 1024 x 768.
     for row, depth in enumerate([0.8, 1.2, 2.0, 3.5, 6.0, 10.0, 15.0]):
         half_width, half_height = 0.36 * depth, 0.27 * depth
         for column in range(5 + row % 2):
@@ -161,7 +161,8 @@ def thicket():
     for k in range(count):
         turn = 137.507764 * k
         depth = 0.08 + 0.07 * ((k * 0.754877666) % 1)
-        reach = math.sqrt(1.3 + 4.2 * (k + 0.5) / count)  # distance from the view axis; 1: left and right image edge
+        # distance of the leaf from the view axis; 1 is the distance of the left and right image edges
+        reach = math.sqrt(1.3 + 4.2 * (k + 0.5) / count)
         x, y = (0.36 * depth * reach * f(math.radians(turn)) for f in (math.cos, math.sin))
         document.node(f"Leaf {k + 1}", mesh=mesh, translation=[round(x, 5), round(y, 5), round(-depth, 5)],
                       rotation=quaternion((0, 0, 1), turn + 90 + 40 * math.sin(5.0 * k)))
@@ -173,7 +174,7 @@ def thicket():
 # ---- artefacts ------------------------------------------------------------------------------------------------------
 
 # One scene for each artefact of image-space methods. The scenes are unlit, so that only the blur matters. The lens has
-# 50 mm on a 36 mm sensor at 3:2, so the image of a plane at depth d is 0.72 d wide and 0.48 d high.
+# 50 mm on a 36 mm sensor at 3:2, so the field of view at depth d is 0.72 d wide and 0.48 d high.
 
 
 def unlit(document, name, color, strength=None):

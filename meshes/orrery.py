@@ -11,8 +11,8 @@ SECONDS = 5.0
 KEYS = 8  # key frames per second
 TURN = 2 * math.pi
 
-# Each planet: name; radius, distance from the sun and height in m; start angle about the sun and rotation during the
-# animation in degrees; turns about its own axis.
+# Each planet: name; radius, distance from the sun and height in m; angle about the sun at the start, and rotation about
+# the sun during the animation, in degrees; turns about the planet's own axis.
 PLANETS = [
     ("Mercury", 0.006, 0.042, 0.100, 200, 330, 2),
     ("Venus", 0.010, 0.067, 0.094, 330, 190, 1),
@@ -300,7 +300,7 @@ class Orrery:
         return self.document.node(name, parent=parent, mesh=self.document.mesh(name, surface, material), **place)
 
     def globe(self, name, radius, material, parent=None, **place):
-        """Adds a sphere; all globes share their vertices."""
+        """Adds a globe. All globes share the vertices of one sphere."""
         if self.shared is None:
             surface = ball(64, 32)
             self.shared = {"attributes": self.document.attributes(surface), "indices": self.document.indices(surface)}

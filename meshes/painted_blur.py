@@ -6,7 +6,7 @@ from gltf_document import FLOAT, Document, Surface, as_float32, linear, quaterni
 
 
 def painted(document, surface, blurs):
-    """Returns the attributes of a surface. blurs: {attribute name: function of a vertex's position that returns mm}."""
+    """Returns vertex attributes. blurs: {attribute name: function of a vertex's position that returns mm}."""
     attributes = document.attributes(surface)
     for name, blur in blurs.items():
         attributes[name] = document.accessor([(as_float32(round(blur(p), 5)),) for p in surface.positions], FLOAT, "SCALAR",
@@ -60,7 +60,7 @@ def painted_blur():
         angle = 2 * math.pi * (k + 0.5) / count
         lamp = Surface()
         lamp.quad([(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, 0.5, 0)], normal=(0, 0, 1))
-        share = 0.5 - 0.5 * math.cos(angle)   # position of the lamp: 0 at the top, 1 at the bottom
+        share = 0.5 - 0.5 * math.cos(angle)   # position of the lamp in its arc: 0 at the top, 1 at the bottom
         size = 0.15 + 1.65 * share
         left = math.sin(angle) < 0
         blurs = ({"_COC": lambda _, size=size: size} if left else

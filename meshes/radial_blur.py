@@ -2,8 +2,9 @@
 
     meshes/radial_blur.py FILE
 
-The blur at the clip-space position p = (x, y, w) of a vertex is C(p) = (a + b·w)·(1 + x² + y²). The first factor is the
-blur of the thin lens. The vertex attribute _COC_SCALE is the second factor. Needs only Python's standard library.
+The blur at the clip-space position p = (x, y, w) of a vertex is C(p) = (a + b·w)·(1 + x² + y²). The first factor, with
+constants a and b, is the blur of the thin lens. The vertex attribute _COC_SCALE is the second factor. Needs only
+Python's standard library.
 """
 
 import math

@@ -231,7 +231,7 @@ def add_school(document, clip):
     kinds = [("Coral", fish(coral, lambda v: mixed((240, 104, 22), (40, 24, 20), (v - 0.8) / 0.2))),
              ("Azure", fish(azure, lambda v: mixed((250, 206, 40), (22, 60, 170), (v - 0.55) / 0.45)))]
 
-    # Both kinds have the same shape and different colours.
+    # Both kinds of fish have the same shape and different colours.
     surface = kinds[0][1]
     shape = document.attributes(surface)
     weights = [joint_weights(p) for p in surface.positions]

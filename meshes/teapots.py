@@ -1,10 +1,10 @@
-"""Writes a scene for figures of line sampling: a near, a sharp and a far teapot on a checkered floor, before lamps.
+"""Writes a scene for figures of line sampling: a near, a sharp and a far teapot on a checkered floor before lamps.
 
     meshes/teapots.py FILE [--steps N]
 
-The teapots have the control points of Martin Newell's teapot (1975): two Bézier patches each for handle and spout, and
-a profile for body and lid, which are exact surfaces of revolution without patches. N: segments of each Bézier curve
-(default 6, which gives 2,300 triangles per teapot). Needs only Python's standard library.
+The teapots have the control points of Martin Newell's teapot (1975): two Bézier patches each for handle and spout. Body
+and lid are exact surfaces of revolution of his profile curves, not patches. N: segments of each Bézier curve (default
+6, which gives 2,300 triangles per teapot). Needs only Python's standard library.
 """
 
 import argparse

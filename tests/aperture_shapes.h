@@ -1,5 +1,5 @@
 #pragma once
-// Reference aperture shapes and their light distributions, computed from the definitions. Tests compare aperture maps,
+// Computes reference aperture shapes and their light distributions from the definitions. Tests compare aperture maps,
 // the rasterizer and the ray tracer with these references.
 
 #include <algorithm>
@@ -24,11 +24,11 @@ inline double edgeTowards(const Lens& lens, const glm::dvec2& p) {
     return (1 - lens.bladeCurvature) * chord + lens.bladeCurvature;
 }
 
-// Returns the light density at a point of the lens, without normalization.
+// Returns the light density, in arbitrary units, at a point p of the lens.
 inline double lightDensity(const Lens& lens, glm::dvec2 p) {
     p.x *= std::max(lens.anamorphicRatio, 1.0);
     p.y /= std::min(lens.anamorphicRatio, 1.0);
-    // Fraction of the aperture's area inside the aperture's outline scaled to pass through p.
+    // Fraction of the aperture's area that lies inside a copy of its outline, scaled to pass through p.
     const double area = glm::dot(p, p) / std::pow(edgeTowards(lens, p), 2);
     const double hidden = lens.obstruction * lens.obstruction;
     if (area > 1 || area < hidden) return 0;
@@ -74,7 +74,7 @@ inline const ApertureShape apertureShapes[] = {
     {.name = "creamyRing", .obstruction = 0.6, .aberration = -0.7},
 };
 
-// Returns the value of the aperture image at a point of the lens; 0 outside the unit disk.
+// Returns the value of the aperture image's pixel at a point of the lens; 0 outside the unit disk.
 inline double apertureImageAt(const Image& image, const glm::dvec2& p) {
     const double half = 0.5 * std::max(image.width, image.height);
     const int x = static_cast<int>(std::floor(p.x * half + 0.5 * image.width));
@@ -83,15 +83,15 @@ inline double apertureImageAt(const Image& image, const glm::dvec2& p) {
     return *image.at(x, y);
 }
 
-// Returns the light distribution over the lens as a function: the aperture image if the lens has one, else
-// lightDensity(). Blade rotation and anamorphic ratio do not apply to the image.
+// Returns a function of the lens position that gives the light density: the value of the aperture image if the lens has
+// one, else lightDensity(). Blade rotation and anamorphic ratio do not apply to the image.
 inline auto lightOf(const Lens& lens) {
     return [lens](const glm::dvec2& p) {
         return lens.apertureImage ? apertureImageAt(*lens.apertureImage, p) : lightDensity(lens, p);
     };
 }
 
-// Aperture image that is wider than tall, with black parts, a black last row and values far above 1.
+// Returns an aperture image that is wider than tall, with black parts, a black last row and values far above 1.
 inline Image lopsidedImage() {
     Image image(9, 5, 1);
     const char* const rows[] = {"001230000", "000450021", "090002112", "003300220", "000000000"};

@@ -1,7 +1,7 @@
 #pragma once
-// Bakes a scene's lighting so that two renderers must agree on its colours. Every material becomes unlit and opaque,
-// and textures are dropped. Lambert shading from one fixed direction goes into vertex colours, which both renderers
-// interpolate linearly. Remaining differences come from geometry, visibility, projection and the lens.
+// Bakes lighting into the colours of a scene, so that two renderers must give the same colours. Every material becomes
+// unlit and opaque, and textures are dropped. Lambert shading from one fixed direction goes into vertex colours, which
+// both renderers interpolate linearly. Remaining differences come from geometry, visibility, projection and the lens.
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ inline glm::vec4 bakedColor(const Material& material, std::size_t index) {
 }
 
 inline void bakeLighting(Mesh& mesh) {
-    const glm::vec3 towardsLight = glm::normalize(glm::vec3(0.4f, 0.8f, 0.6f));  // object space
+    const glm::vec3 towardsLight = glm::normalize(glm::vec3(0.4f, 0.8f, 0.6f));  // in object space
     if (mesh.vertices.normals.empty()) {
         std::vector<std::uint32_t> indices;
         for (const Primitive& primitive : mesh.primitives) {

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes with known images, such as a blurred emissive square on black, and measurements of rendered images.
+// Builds scenes with known images, such as a blurred emissive square on black, and measures rendered images.
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +82,7 @@ inline Scene rectangleScene(const View& view, const std::vector<Rectangle>& area
     return scene;
 }
 
-// Returns the world of a scene whose nodes are all roots without children. The world has no pyramids.
+// Returns the world of a scene whose nodes are all roots without children. The world has no levels of detail.
 inline World flatWorld(const Scene& scene, const Environment& environment) {
     World world;
     world.scene = std::make_shared<const Scene>(scene);
@@ -103,9 +103,9 @@ inline Environment blackBackground() {
     return environment;
 }
 
-// Returns the expected image of a centred square of `square` px at a depth behind the focus plane: the convolution of
-// the lens's light distribution `light`, a function of the lens position, with the square and the pixels. The sum of
-// all pixel values is `energy`.
+// Returns the expected image of a centred square of `square` px at a depth behind the focus plane. It is the
+// convolution of `light`, the light density as a function of the lens position, with the square and the pixels. The sum
+// of all pixel values is `energy`.
 template <typename Light>
 Image expectedBokeh(const View& view, double depth, double square, double energy, const Light& light) {
     constexpr int size = 400;  // number of grid points along each side of the lens
@@ -131,7 +131,8 @@ Image expectedBokeh(const View& view, double depth, double square, double energy
     return image;
 }
 
-// Returns the fraction of b's light that must move between blocks of 2 × 2 px to give `a`, in the first channel.
+// Returns the fraction of b's radiance, summed over pixels, that must move between blocks of 2 × 2 px to give `a`. Only
+// the first channel counts.
 inline double misplacedLight(const Image& a, const Image& b) {
     double sum = 0;
     double all = 0;

@@ -54,9 +54,9 @@ const char* extensionOf(GLenum stage) {
     }
 }
 
-// Redirects a function pointer of libepoxy to `mine` and keeps its original value. The original value is first
-// libepoxy's resolver, which must be called through the pointer: it looks up the driver's function and stores it there.
-// Later calls use the driver's function, so that threads do not see the pointer without the redirection.
+// Redirects a function pointer of libepoxy to `mine` and keeps its original value. That value is first libepoxy's
+// resolver, which must be called through the pointer: it looks up the driver's function and stores it in the pointer.
+// Later calls use the driver's function directly, so that the pointer stays redirected for all threads.
 template <typename Function>
 class Detour {
 public:
@@ -88,7 +88,7 @@ private:
     Function& pointer_;
     Function mine_;
     Function before_;
-    bool resolved_ = false;  // before_ is the driver's function
+    bool resolved_ = false;  // whether before_ is the driver's function
 };
 
 GLuint EPOXY_CALLSPEC createShader(GLenum stage);
@@ -191,7 +191,7 @@ public:
             std::ofstream(folder / name) << text;
             files[name] = &text;
         }
-        // Validates all shaders at once. If that fails, validates them one by one to find the invalid ones.
+        // Validates all shaders in one run. If that fails, validates them one by one to find the invalid ones.
         if (!outputOf(validate + "*.*").second)
             for (const auto& [name, text] : files) {
                 const auto [output, valid] = outputOf(validate + name);

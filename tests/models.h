@@ -13,7 +13,7 @@
 
 namespace defocus::engine {
 
-// Return the folders of public models: the small ones in the repository, and the complete set.
+// The next two functions return the folders of public models: the small ones in the repository, and the complete set.
 inline std::filesystem::path keptModelsDirectory() {
     return std::filesystem::path(DEFOCUS_SOURCE_DIR) / "tests/data/models";
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Setting that tests add to the table of settings.
+// Defines a setting that tests add to the table of settings.
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-// Returns a numeric setting that has no member of its own in Request. Its functions store the value in Request::clip.
+// Returns a numeric setting for which Request has no member; its functions store the value in Request::clip.
 inline Setting newSetting() {
     Setting setting;
     setting.name = "newSetting";

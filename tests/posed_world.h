@@ -92,8 +92,8 @@ inline Mesh bakedLevel(const Mesh& mesh, const Pyramid& pyramid, std::uint32_t l
     return flat;
 }
 
-// Returns the same scene without skins and morph targets: one mesh for each object, at level `level` or at the object's
-// coarsest level if that is finer.
+// Returns the scene of `small` without skins and morph targets: one mesh for each object, at level `level`, or at the
+// object's coarsest level if that is finer.
 inline std::unique_ptr<SmallWorld> bakedWorld(const SmallWorld& small, std::uint32_t level) {
     auto baked = std::make_unique<SmallWorld>();
     baked->scene = small.scene;

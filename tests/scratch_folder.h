@@ -1,5 +1,5 @@
 #pragma once
-// A temporary folder for one test, removed at its end.
+// Creates a temporary folder for one test, and removes it at the end of the test.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Small scenes for tests of plans and renderers: bumpy spheres and quads with pyramids.
+// Builds small scenes for tests of plans and renderers: bumpy spheres and quads with pyramids of levels of detail.
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -17,7 +17,7 @@ struct SmallWorld {
     SmallWorld(const SmallWorld&) = delete;
     SmallWorld& operator=(const SmallWorld&) = delete;
 
-    Scene& scene;  // scene of the world, filled by the test
+    Scene& scene;  // the scene that `world` refers to, filled by the test
     World world;
     View view;
 

@@ -1,5 +1,5 @@
 #pragma once
-// Special and extreme floating-point values for tests.
+// Lists special and extreme floating-point values for tests.
 
 #include <limits>
 

@@ -1,6 +1,6 @@
 #pragma once
-// Scenes for comparing the rasterizer with the ray tracer: baked to unlit materials, each with a view through a wide
-// lens. Further functions compare two images in more detail than a single number.
+// Builds scenes for comparing the rasterizer with the ray tracer: baked to unlit materials, each with a view through a
+// wide lens. Further functions compare two images in more detail than by a single number.
 
 #include <algorithm>
 #include <array>
@@ -31,8 +31,8 @@ struct TruthScene {
 
 namespace truth_detail {
 
-// Focuses at a third of the scene's depth range, and sets the f-number that blurs the nearest or farthest point by
-// `blur` px. Values of the camera's own lens take precedence.
+// Focuses at a third of the scene's depth range, and sets the f-number with which the nearest or farthest point is
+// blurred by `blur` px. Lens values of the scene's camera take precedence.
 inline void setLens(TruthScene& baked, const Camera& camera, double blur) {
     View& view = baked.view;
     const double tanHalf = std::tan(camera.yfov / 2) * view.width / view.height;
@@ -54,8 +54,8 @@ inline void setLens(TruthScene& baked, const Camera& camera, double blur) {
 
 }  // namespace truth_detail
 
-// Returns the scene at full detail in an image of `width` × `height` px. The lens is the camera's own, if it has one;
-// otherwise the blur is at most 24 px at a width of 512 px.
+// Returns the scene at full detail in an image of `width` × `height` px. The lens is that of the scene's camera, if it
+// has one; otherwise the largest blur is 24 px per 512 px of image width.
 inline std::unique_ptr<TruthScene> truthScene(Scene scene, int width, int height) {
     auto baked = std::make_unique<TruthScene>(std::make_shared<Scene>(bakedUnlit(std::move(scene))));
     baked->world.pose = poseAt(baked->scene, 0, -1);
@@ -111,8 +111,9 @@ inline BlockDifference blockDifference(const Image& a, const Image& b) {
     return result;
 }
 
-// Shift in px (right, down) and relative growth about the centre of an image `b` against `a`: least-squares fit of the
-// first-order change b − a ≈ −∇a·(shift + growth·(p − centre)) (Lucas and Kanade 1981).
+// Displacement of an image `b` against `a`: a shift in px (right, down) and a relative growth about the centre. Both
+// are the least-squares fit of the first-order change b − a ≈ −∇a·(shift + growth·(p − centre)) (Lucas and Kanade
+// 1981).
 struct Misplacement {
     double right = 0;
     double down = 0;

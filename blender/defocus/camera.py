@@ -1,7 +1,7 @@
-"""Converts the camera of a scene to options of the program.
+"""Converts Blender's camera to command-line options of `defocus`.
 
-Blender can shift the camera, and can render only a part of the picture. The program can do neither, so it draws a
-larger picture centred on the optical axis, the canvas. Blender's picture is a part of the canvas.
+Blender can shift the camera, and can render only a part of the frame. `defocus` can do neither, so it draws a larger
+image centred on the optical axis, the canvas. The image that Blender shows is a part of the canvas.
 """
 
 import dataclasses
@@ -12,11 +12,11 @@ from .failure import Failure
 
 @dataclasses.dataclass
 class View:
-    """Sizes of the canvas, which the program draws, and of the part that Blender shows, in pixels; y points up."""
+    """Sizes in px of the canvas, the image that `defocus` draws, and of its part that Blender shows; y points up."""
 
-    width: int  # size of the canvas
+    width: int  # width and height of the canvas
     height: int
-    x: int  # lower left corner of Blender's picture, from the lower left corner of the canvas
+    x: int  # lower left corner of the part that Blender shows, from the lower left corner of the canvas
     y: int
     picture_width: int
     picture_height: int
@@ -24,7 +24,7 @@ class View:
 
 
 def frame_size(render):
-    """Returns the size of the whole frame in pixels, without the render border."""
+    """Returns the size in pixels of the whole frame, as if there were no render border."""
     share = render.resolution_percentage / 100
     return int(render.resolution_x * share), int(render.resolution_y * share)
 
@@ -60,7 +60,7 @@ def margin(shift):
 
 
 def view_of(camera, render):
-    """Returns the View of a camera's data. Throws Failure if the camera is not a perspective camera."""
+    """Returns the View of a camera's data. Raises Failure if the camera is not a perspective camera."""
     if camera.type != "PERSP":
         kind = {"ORTHO": "orthographic", "PANO": "panoramic"}.get(camera.type, camera.type.lower())
         raise Failure(f"The camera '{camera.name}' is {kind}; Defocus needs a perspective camera")
@@ -91,7 +91,7 @@ def focus_distance(camera_object):
 
 
 def camera_words(camera_object, view):
-    """Returns the options of the program for an evaluated camera."""
+    """Returns the command-line options of `defocus` for an evaluated camera."""
     camera, dof = camera_object.data, camera_object.data.dof
     words = ["--size", f"{view.width}x{view.height}", "--units", "m",
              "--focal-length", f"{camera.lens:.7g}mm", "--horizontal-aperture", f"{view.sensor_width:.7g}mm"]
@@ -100,8 +100,8 @@ def camera_words(camera_object, view):
     words += ["--fstop", f"{dof.aperture_fstop:.7g}", "--focus-distance", f"{max(focus_distance(camera_object), 1e-5):.7g}m",
               "--anamorphic-ratio", f"{dof.aperture_ratio:.7g}"]
     if dof.aperture_blades >= 3:
-        # At rotation 0, the rightmost point of the aperture is the middle of an edge in Blender, but a corner in the
-        # program.
+        # At rotation 0, the rightmost point of the aperture is the middle of an edge in Blender, but a corner in
+        # `defocus`.
         rotation = math.degrees(dof.aperture_rotation) + 180 / dof.aperture_blades
         words += ["--blades", str(dof.aperture_blades), "--blade-rotation", f"{rotation:.7g}"]
     return words

@@ -1,4 +1,4 @@
-"""The render engine: one run of the program for each frame."""
+"""Defines the render engine, which runs the program `defocus` once for each frame."""
 
 import os
 import tempfile
@@ -17,8 +17,8 @@ from .passes import passes_of, read_passes, words_for
 from .preferences import find_program
 from .scratch import new_folder
 
-pictures = {}  # picture_key() → last picture: (pixels of each pass, metadata texts, width, height)
-reports = {}  # scene name → lines about everything that the last export left out
+pictures = {}  # picture_key() → last image: (pixels of each pass, metadata texts, width, height)
+reports = {}  # scene name → messages about items that the last export left out
 
 
 class DefocusEngine(bpy.types.RenderEngine):
@@ -46,7 +46,7 @@ class DefocusEngine(bpy.types.RenderEngine):
         return on_main_thread(function, self.test_break)
 
     def render_frame(self, depsgraph):
-        """Renders a frame. Returns the pixels of each pass (name → flat array), the metadata texts, and the View."""
+        """Renders a frame. Returns pixels of each pass (name → flat array), metadata texts, and the camera.View."""
         scene = depsgraph.scene_eval
         found = find_program()
         with new_folder("render", tempfile.TemporaryDirectory) as folder:
@@ -70,16 +70,18 @@ class DefocusEngine(bpy.types.RenderEngine):
         self.update_progress(share)
 
     def show_last(self, depsgraph):
-        """Shows the view layer's last picture if it has the size of the render.
+        """Shows the view layer's last image if it has the size of the render.
 
-        Blender clears the render result before each render. After a failure, the picture of an earlier render stays.
+        Blender clears the render result before each render. After a failed render, the user thus still sees the last
+        image.
         """
         pixels, texts, *size = pictures.get(picture_key(depsgraph), ({}, {}, 0, 0))
         if tuple(size) != picture_size(depsgraph.scene_eval.render):
             return
         result = self.begin_result(0, 0, *size, layer=depsgraph.view_layer_eval.name)
         passes = result.layers[0].passes
-        # Only the collection's foreach_set accepts arrays of vectors. Its array has the pixels of all passes in order.
+        # Only foreach_set of the collection of passes accepts arrays of vectors. Its array holds the pixels of all
+        # passes.
         passes.foreach_set("rect", numpy.concatenate([
             pixels.get(one.name, numpy.zeros(size[0] * size[1] * one.channels, numpy.float32)) for one in passes]))
         self.end_result(result)
@@ -94,7 +96,7 @@ def picture_key(depsgraph):
 
 @persistent
 def forget(*_):
-    """Forgets the pictures and reports of a file when another one is opened."""
+    """Forgets the images and reports of a Blender file when another file is opened."""
     pictures.clear()
     reports.clear()
 

@@ -1,4 +1,4 @@
-"""Exports a scene for the program: a glTF file, an environment map, and options. Must run on the main thread."""
+"""Exports a scene for `defocus`: a glTF file, an environment map, and options. Must run on the main thread."""
 
 import contextlib
 import dataclasses
@@ -22,8 +22,8 @@ EXPORTER = "io_scene_gltf2"
 
 @dataclasses.dataclass
 class Export:
-    words: list  # scene file and options, as command-line arguments of the program
-    view: object  # camera.View
+    words: list  # scene file and options, as command-line arguments of `defocus`
+    view: object  # camera.View: sizes of the canvas and of the part that Blender shows
     notes: list  # one line for each item that is not exported
 
 
@@ -59,13 +59,13 @@ def reason_of(error):
 
 
 def export_gltf(scene, file):
-    """Writes a scene as glTF. If that fails, throws Failure with the last line of the exporter's message."""
+    """Writes a scene as glTF. If that fails, raises Failure with the last line of the exporter's message."""
     if EXPORTER not in bpy.context.preferences.addons:
         raise Failure("Blender's glTF exporter is off; turn on the add-on 'Import-Export: glTF 2.0 format'")
     said = io.StringIO()
     try:
         with shown_scene(scene), contextlib.redirect_stdout(said):
-            # COMPAT keeps Blender's watts, so that the picture has the same radiances as in Cycles.
+            # COMPAT keeps the light units of Blender (W), so that the image has the same radiances as in Cycles.
             bpy.ops.export_scene.gltf(filepath=file, check_existing=False, export_format="GLTF_SEPARATE", use_active_scene=True,
                                       export_cameras=True, export_lights=True, export_extras=True, export_apply=False,
                                       export_animations=False, export_skins=False, export_morph=False, export_current_frame=True,
@@ -77,7 +77,7 @@ def export_gltf(scene, file):
 
 
 def light_words(copy):
-    """Returns the light size options. The program has one angle for all suns and one radius for all other lights."""
+    """Returns the options for light sizes. `defocus` has one angle for all suns and one radius for other lights."""
     words = []
     for sizes, option, factor, what in ((copy.light_angles, "--light-angle", 180 / math.pi, "sun lights have different angles"),
                                         (copy.light_radii, "--light-radius", 1, "point and spot lights have different radii")):

@@ -1,6 +1,6 @@
-"""Reads the program's EXR files: a single part of scan lines, uncompressed or ZIP-compressed.
+"""Reads EXR files that `defocus` writes: a single part of scan lines, uncompressed or ZIP-compressed.
 
-Blender's Python has no reader for channels of a multi-layer file. Source of the format: OpenEXR File Layout, openexr.com.
+Blender's Python has no reader for channels of a multi-layer file. Format: OpenEXR File Layout, openexr.com.
 """
 
 import math
@@ -22,7 +22,7 @@ def text_at(data, place):
 
 
 def read_header(data):
-    """Returns the attributes (name → bytes), and the offset after them."""
+    """Returns the attributes of an EXR file's header (name → bytes), and the offset after the header."""
     if data[:4] != b"\x76\x2f\x31\x01":
         raise Failure("the picture is not an EXR file")
     attributes, place = {}, 8
@@ -36,7 +36,7 @@ def read_header(data):
 
 
 def channels_of(attribute):
-    """Returns (name, type) of each channel, in the order of the file."""
+    """Returns (name, type) of each channel, in the order in which the file stores the channels."""
     channels, place = [], 0
     while attribute[place]:
         name, place = text_at(attribute, place)

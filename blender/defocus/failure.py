@@ -1,9 +1,9 @@
-"""Exceptions of this add-on."""
+"""Defines the exceptions of this add-on."""
 
 
 class Failure(Exception):
-    """An error. Its message is one line for Blender's report: what failed and what to do."""
+    """An error whose message is one line for Blender's report: what failed and what to do."""
 
 
 class Cancelled(Exception):
-    """The user cancelled the render."""
+    """Raised when the user cancels the render."""

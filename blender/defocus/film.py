@@ -1,4 +1,4 @@
-"""Reuses the exported file for all frames of an animation between which only poses, camera or lens change.
+"""Reuses the exported glTF file for all frames of an animation between which only poses, camera or lens change.
 
 Blender makes a depsgraph for each frame, without information about earlier frames. Frames are therefore compared by a
 hash of everything that the exporter writes except object poses.
@@ -42,7 +42,7 @@ def mesh_hash(mesh):
 
 
 def signature_of(depsgraph):
-    """Returns a hash of the exported scene without object poses, except sheared ones, which no glTF node can store."""
+    """Returns a hash of the exported scene without object poses. Sheared poses count: glTF nodes cannot store them."""
     digest, meshes = hashlib.blake2b(), {}
     scene = depsgraph.scene_eval
     camera = scene.camera.evaluated_get(depsgraph).data
@@ -50,7 +50,7 @@ def signature_of(depsgraph):
     for instance in depsgraph.object_instances:
         thing = instance.object
         if not instance.show_self or thing.type not in {"MESH", "LIGHT"}:
-            continue  # such as curves and texts; Blender also lists their meshes as instances
+            continue  # not a mesh or a light; Blender lists the meshes of curves and texts as instances
         digest.update(repr((instance_key(instance), thing.type)).encode())
         if thing.type == "LIGHT":
             digest.update(repr([tuple(value) if name == "color" else value for name in (*LIGHT_VALUES, "angle", "shadow_soft_size")
@@ -70,14 +70,14 @@ def signature_of(depsgraph):
 
 
 def folder():
-    """Returns the folder of the animation's files."""
+    """Returns the temporary folder of the animation's files, which the first call makes."""
     if _film["folder"] is None:
         _film["folder"] = new_folder("film")
     return _film["folder"]
 
 
 def last_file(signature):
-    """Returns the GltfFile of an earlier frame with this signature; None if there is none."""
+    """Returns the GltfFile of an earlier frame whose scene has this hash; None if there is none."""
     return _film["file"] if signature == _film["signature"] else None
 
 

@@ -13,10 +13,10 @@ LIGHTS = "KHR_lights_punctual"
 
 @dataclasses.dataclass
 class GltfFile:
-    folder: str  # folder of the file, its buffers and its images
+    folder: str  # folder that contains the file, its buffers and its images
     content: dict
-    nodes: list  # (node index, key of its instance, whether the exporter rotates its axes)
-    words: list  # options of the program that are the same for all frames
+    nodes: list  # list of (node index, key of its instance, whether the exporter rotates its axes)
+    words: list  # command-line options of `defocus` that are the same for all frames
     notes: list  # one line for each item that is not exported
 
     @property

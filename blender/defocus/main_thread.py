@@ -16,8 +16,8 @@ SECONDS_BETWEEN_CHECKS = 0.1
 def on_main_thread(function, is_cancelled):
     """Calls function() on the main thread and returns its result; its exceptions are raised here.
 
-    Throws Cancelled if is_cancelled() is true before the call begins. The main thread may then wait for the calling
-    thread to end, so the call would never begin.
+    Raises Cancelled if is_cancelled() is true before the call begins. In that case the main thread may be waiting for
+    the calling thread to end, and would never begin the call.
     """
     if threading.current_thread() is threading.main_thread():
         return function()

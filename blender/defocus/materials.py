@@ -12,7 +12,7 @@ INPUTS = ("Base Color", "Metallic", "Roughness", "Normal", "Alpha", "Emission", 
 
 
 def upstream(socket, seen):
-    """Adds all nodes that an input depends on to `seen`, and returns it."""
+    """Adds to the set `seen` all nodes that an input depends on, and returns the set."""
     for link in socket.links:
         if link.from_node not in seen:
             seen.add(link.from_node)

@@ -6,7 +6,7 @@ import struct
 
 from mathutils import Quaternion
 
-SEGMENTS = 4  # straight segments per path
+SEGMENTS = 4  # straight segments by which the path of a moving object is approximated
 # The exporter rotates cameras and lights, because they look along a different axis in glTF's coordinate system.
 TURNED = Quaternion((math.sqrt(0.5), -math.sqrt(0.5), 0, 0))
 FLOAT = 5126  # glTF's component type for floats
@@ -24,7 +24,7 @@ def exposure_of(scene):
 
 
 def instance_key(instance):
-    """Returns a key that identifies an instance in all frames."""
+    """Returns a key that is the same in all frames for the same instance of an object."""
     parent = instance.parent.name if instance.parent else ""
     return instance.object.name, parent, tuple(instance.persistent_id)
 
@@ -39,7 +39,7 @@ def poses_at(depsgraph):
 
 
 def poses_during(engine, depsgraph, frames):
-    """Returns the poses at each of the frames. The depsgraph returns to its original frame."""
+    """Returns the poses at each of the frames. Sets the depsgraph back to its original frame."""
     if not frames:
         return []
     scene = depsgraph.scene

@@ -9,10 +9,10 @@ from .passes import PROPERTIES
 
 LETTER_WIDTH = 6.5  # mean width of a letter in Blender's font, px
 
-# Panels that Blender shows for Eevee, with data that this engine exports.
+# Names of panels that Blender shows for Eevee; this engine exports the data that they edit.
 EEVEE_PANELS = {"EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "EEVEE_MATERIAL_PT_settings", "EEVEE_WORLD_PT_surface",
                 "DATA_PT_EEVEE_light"}
-# Blender's generic panels (engine BLENDER_RENDER) for features that this engine lacks.
+# Names of Blender's generic panels (engine BLENDER_RENDER) for features that this engine lacks.
 NOT_FOR_US = {"VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "RENDER_PT_gpencil", "RENDER_PT_freestyle", "RENDER_PT_stereoscopy",
               "DATA_PT_light", "DATA_PT_area", "DATA_PT_spot", "DATA_PT_falloff_curve"}
 

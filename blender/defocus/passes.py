@@ -1,4 +1,4 @@
-"""Blender's render passes: which ones a view layer needs, the program's layers for them, and their pixels."""
+"""Lists Blender's render passes: which passes a view layer needs, the EXR layers for them, and their pixels."""
 
 import dataclasses
 
@@ -7,16 +7,16 @@ import numpy
 from . import exr
 
 FAR = 1e10  # depth of the background in Blender, m
-CRYPTOMATTE_PASSES = 3  # each pass stores two of the six ranks in the program's files
+CRYPTOMATTE_PASSES = 3  # the EXR files store six ranks of ids per pixel, two in each pass
 
 
 @dataclasses.dataclass
 class Pass:
-    name: str  # name in Blender and in the program's files with --exr-names blender
+    name: str  # name of the pass in Blender, and in EXR files written with --exr-names blender
     channels: str
     kind: str  # Blender's type of the pass's values
-    wanted: str = ""  # property of the view layer that enables the pass; empty: always enabled
-    layer: str = ""  # layer name in --exr-layers; empty: none
+    wanted: str = ""  # property of the view layer that enables the pass; empty if the pass is always enabled
+    layer: str = ""  # layer name for --exr-layers; empty if the pass needs no layer
 
 
 def cryptomatte(name, wanted, layer):
@@ -37,12 +37,12 @@ PROPERTIES = list(dict.fromkeys(one.wanted for one in ALL if one.wanted))
 
 
 def passes_of(view_layer):
-    """Returns the passes that a view layer enables; for None, the passes that are always enabled."""
+    """Returns the passes that a view layer enables, or for None, the passes that are always enabled."""
     return [one for one in ALL if not one.wanted or (view_layer is not None and getattr(view_layer, one.wanted))]
 
 
 def words_for(passes):
-    """Returns the options of the program for the passes."""
+    """Returns the command-line options of `defocus` for the passes."""
     layers = list(dict.fromkeys(one.layer for one in passes if one.layer))
     words = ["--exr-layers", ",".join(layers), "--exr-names", "blender"] if layers else []
     # Blender's depth pass has the depths of a pinhole image, from which compositor nodes can compute blur.
@@ -50,7 +50,7 @@ def words_for(passes):
 
 
 def in_blender(name, pixels):
-    """Converts the values of a pass from the program's axes (glTF, y up) to Blender's axes (z up)."""
+    """Converts the values of a pass from glTF's axes (y up) to Blender's axes (z up)."""
     if name in ("Position", "Normal"):
         return numpy.stack([pixels[..., 0], -pixels[..., 2], pixels[..., 1]], -1)
     if name == "Depth":
@@ -60,7 +60,7 @@ def in_blender(name, pixels):
 
 def read_passes(passes, file, depth_file, view):
     """Returns the values of each pass (name → flat array), cropped to the part that Blender shows, and the texts that
-    Cryptomatte needs in the picture's metadata."""
+    Cryptomatte needs in the image's metadata."""
     channels, texts = exr.read(file)
     if any(one.name == "Depth" for one in passes):
         depth = exr.read(depth_file)[0]

@@ -1,4 +1,4 @@
-"""Preferences of the add-on: the path of the program."""
+"""Defines the preferences of the add-on: the path of the program `defocus`."""
 
 import os
 import shutil
@@ -24,7 +24,7 @@ class DefocusPreferences(bpy.types.AddonPreferences):
 
 
 def find_program():
-    """Returns the path of the program. Throws Failure if there is none."""
+    """Returns the path of the program `defocus`. Raises Failure if the program is not found."""
     addon = bpy.context.preferences.addons.get(__package__)
     given = bpy.path.abspath(addon.preferences.program) if addon else ""
     if given:

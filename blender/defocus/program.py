@@ -1,4 +1,4 @@
-"""Runs the program: reports its progress and messages, and cancels it on request."""
+"""Runs the program `defocus`, reports its progress and messages, and cancels it on request."""
 
 import os
 import queue
@@ -30,10 +30,10 @@ def stop(process):
 
 
 def run(words, folder, on_progress, is_cancelled):
-    """Runs the program in `folder` and returns its messages.
+    """Runs `defocus` in `folder` and returns its messages.
 
-    on_progress(stage, share) receives a share from 0 to 1. If the program fails, throws Failure with its last message.
-    Throws Cancelled once is_cancelled() is true.
+    on_progress(stage, share) receives the finished share of a stage, from 0 to 1. If `defocus` fails, raises Failure
+    with its last message. Raises Cancelled once is_cancelled() is true.
     """
     try:
         process = subprocess.Popen(words, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,

@@ -29,9 +29,9 @@ class SceneCopy:
         self.notes = []
         self.light_angles = set()  # angles of the sun lights, rad
         self.light_radii = set()  # radii of the point and spot lights, m
-        self.made = []  # data-blocks to remove with the copy
+        self.made = []  # data-blocks to remove together with the scene
         self.materials = {}  # material that changes with time → its copy
-        self.meshes = {}  # key of the evaluated data → mesh
+        self.meshes = {}  # key of an object's evaluated mesh and materials → copied mesh
         self.noted = set()
 
     def note(self, *lines):
@@ -55,19 +55,19 @@ class SceneCopy:
 
 
 def is_sheared(matrix):
-    """Returns whether a matrix is sheared, which translation, rotation and scale of a glTF node cannot represent."""
+    """Returns whether a matrix is sheared. A glTF node cannot represent shear by translation, rotation and scale."""
     x, y, z = matrix.to_3x3().col
     scale = max(x.length, y.length, z.length) ** 2
     return max(abs(x.dot(y)), abs(y.dot(z)), abs(z.dot(x))) > 1e-5 * scale
 
 
 def new_mesh(thing, depsgraph):
-    """Returns a new mesh of an evaluated object."""
+    """Returns a new mesh data-block with the geometry of an evaluated object."""
     source = thing.original.evaluated_get(depsgraph)
     if thing.type != "MESH" or source.data.as_pointer() == thing.data.as_pointer():
         # preserve_all_data_layers=True would evaluate the modifiers again, without unfinished changes in edit mode.
         return bpy.data.meshes.new_from_object(source, preserve_all_data_layers=False, depsgraph=depsgraph)
-    mesh = thing.data.copy()  # geometry nodes have created and instanced this mesh
+    mesh = thing.data.copy()  # geometry nodes have created this mesh and its instances
     for index, material in enumerate(mesh.materials):
         mesh.materials[index] = material.original if material else None
     return mesh
@@ -161,7 +161,7 @@ def add_camera(copy, camera, view):
     for name, value in camera.data.items():
         data[name] = value
     data.shift_x = data.shift_y = 0
-    # The field of view is the canvas's, whose width on the sensor is known.
+    # The field of view is that of the canvas, which is sensor_width wide on the sensor.
     data.sensor_fit, data.sensor_width = "HORIZONTAL", view.sensor_width
     copy.scene.camera = copy.add(camera.name, data, camera.matrix_world.copy(), turned=True)
     render = copy.scene.render
@@ -171,7 +171,7 @@ def add_camera(copy, camera, view):
 
 @contextlib.contextmanager
 def scene_copy(depsgraph, camera, view):
-    """Yields a SceneCopy of the objects that a render of the depsgraph shows, and finally removes the copy."""
+    """Yields a SceneCopy of the objects that a render of the depsgraph shows. Removes the copy at the end."""
     copy = SceneCopy()
     try:
         add_camera(copy, camera, view)

@@ -1,4 +1,4 @@
-"""Temporary folders of exports and pictures."""
+"""Makes temporary folders for exports and images."""
 
 import tempfile
 
@@ -6,7 +6,7 @@ from .failure import Failure
 
 
 def new_folder(purpose, make=tempfile.mkdtemp):
-    """Returns a new temporary folder made by a function of tempfile. Throws Failure if it cannot be made."""
+    """Returns a new temporary folder made by a function of tempfile. Raises Failure if it cannot be made."""
     try:
         return make(prefix=f"defocus-{purpose}-")
     except OSError as error:

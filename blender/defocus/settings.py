@@ -1,4 +1,4 @@
-"""Render settings of a scene, and their conversion to options of the program."""
+"""Defines the render settings of a scene, and converts them to command-line options of `defocus`."""
 
 import shlex
 
@@ -61,7 +61,8 @@ class DefocusSettings(bpy.types.PropertyGroup):
 
 
 def setting_words(settings, for_view=False):
-    """Returns the options of the program. Settings at their default give no option, so that the preset can set them.
+    """Returns the command-line options of `defocus`, without options for default values, so that the preset can set
+    these.
 
     If a file of another version stores an unknown choice, Blender returns an empty string, which means the default.
     """

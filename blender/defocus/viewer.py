@@ -1,4 +1,4 @@
-"""The button that opens the scene in the program's window."""
+"""Defines the button that opens the scene in the window of `defocus`."""
 
 import shutil
 import subprocess
@@ -12,7 +12,7 @@ from .preferences import find_program
 from .scratch import new_folder
 
 SECONDS_BETWEEN_CHECKS = 1.0
-views = []  # open windows: (process, folder with its files)
+views = []  # open windows: (process, temporary folder of the exported scene)
 
 
 class DefocusView(bpy.types.Operator):
@@ -34,7 +34,7 @@ class DefocusView(bpy.types.Operator):
 
 
 def open_view(depsgraph):
-    """Opens the scene in the program's window, and returns the export's warnings. Throws Failure or OSError."""
+    """Opens the scene in the window of `defocus`, and returns the export's warnings. Raises Failure or OSError."""
     found = find_program()
     folder = new_folder("view")
     try:

@@ -1,4 +1,4 @@
-"""Converts the world of a scene to an environment map for the program."""
+"""Converts the world of a scene to an environment map for `defocus`."""
 
 import math
 import os
@@ -6,7 +6,7 @@ import os
 import bpy
 import numpy
 
-PLAIN_SIZE = (16, 8)  # size in px of the map for a world of one colour
+PLAIN_SIZE = (16, 8)  # size in px of the environment map for a world of one colour
 
 
 def linked_node(socket):
@@ -56,7 +56,7 @@ def linear_pixels(image):
 def write_exr(pixels, file):
     image = bpy.data.images.new("defocus world", pixels.shape[1], pixels.shape[0], float_buffer=True)
     try:
-        image.colorspace_settings.name = "Non-Color"  # writes the values without conversion
+        image.colorspace_settings.name = "Non-Color"  # saves the values without colour conversion
         image.pixels.foreach_set(pixels.ravel())
         image.filepath_raw, image.file_format = file, "OPEN_EXR"
         image.save()
@@ -65,7 +65,7 @@ def write_exr(pixels, file):
 
 
 def environment_of(world, notes):
-    """Returns the pixels and the rotation (radians) of a world's map. Adds a note for each omitted feature."""
+    """Returns the pixels and the rotation (radians) of an environment map. Adds a note for each omitted feature."""
     color, strength = (0, 0, 0), 1
     if world is not None and not world.use_nodes:
         color = world.color
@@ -92,14 +92,14 @@ def environment_of(world, notes):
 
 
 def world_words(world, transparent, folder, notes):
-    """Writes the environment map into `folder` and returns the options of the program.
+    """Writes the environment map into `folder` and returns the command-line options of `defocus`.
 
-    A black world also needs a map: without a map, the program adds default lighting to scenes that have no lights.
+    A black world also needs a map: without a map, `defocus` adds default lighting to scenes that have no lights.
     """
     pixels, rotation = environment_of(world, notes)
     file = os.path.join(folder, "world.exr")
     write_exr(pixels, file)
-    # The map's centre points along +x in Blender, but along -z in glTF, which is Blender's +y.
+    # The centre of the map lies along +x in Blender, but along -z in glTF, which is Blender's +y.
     degrees = math.remainder(-90 - math.degrees(rotation), 360)
     words = ["--environment", file, "--environment-rotation", f"{degrees:.7g}"]
     return words + ["--background", "none"] if transparent else words

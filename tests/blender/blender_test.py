@@ -1,7 +1,7 @@
 """Runs the add-on's tests in Blender: blender_test.py PROGRAM [TEST …].
 
-Exits with 77 (skipped) without Blender 3.4 or later. Installs the package that scripts/blender-package builds in a
-temporary folder.
+Exits with 77 (skipped) without Blender 3.4 or later. Installs, in a temporary folder, the package that
+scripts/blender-package builds.
 """
 
 import os

@@ -1,4 +1,4 @@
-"""Renders and measures pictures in Blender. Pictures are arrays of height × width × 4; row 0 is the bottom row."""
+"""Renders and measures images in Blender. Images are arrays of height × width × 4; row 0 is the bottom row."""
 
 import math
 import pathlib
@@ -16,7 +16,7 @@ def say(text):
 
 
 def save_png(file, *rows):
-    """Writes pictures with values in [0, 1] side by side into a PNG file. rows: lists of pictures of equal size."""
+    """Writes images with values in [0, 1] side by side into a PNG file. rows: lists of images of equal size."""
     strip = numpy.concatenate([numpy.concatenate(row, axis=1) for row in rows[::-1]])
     strip = numpy.dstack([strip, numpy.ones(strip.shape[:2])]).astype(numpy.float32)
     image = bpy.data.images.new("strip", strip.shape[1], strip.shape[0])
@@ -64,7 +64,7 @@ def crossings(row, steepness=0.0, level=0.5):
 
 
 def silhouette_distance(first, second):
-    """Returns the largest distance in px, along rows and columns, between the alpha outlines of two pictures."""
+    """Returns the largest distance in px, along rows and columns, between the alpha outlines of two images."""
     largest, count = 0, 0
     for one, other in ((first[..., 3], second[..., 3]), (first[..., 3].T, second[..., 3].T)):
         for row, other_row in zip(one, other):
@@ -77,7 +77,7 @@ def silhouette_distance(first, second):
 
 
 def disk(light):
-    """Returns (centre, radius) of a disk in px. The radius r follows from the variance along an axis, which is r²/4."""
+    """Returns (centre, radius) of a disk in px. The radius r follows from the disk's variance along an axis, r²/4."""
     x, y = numpy.arange(light.shape[1]), numpy.arange(light.shape[0])
     across, up = light.sum(0) / light.sum(), light.sum(1) / light.sum()
     centre = across @ x, up @ y

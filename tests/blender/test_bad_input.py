@@ -1,4 +1,4 @@
-"""Tests of faulty scenes and systems. Each gives one message, leaves no files or data, and keeps the last picture."""
+"""Tests that each faulty scene or system gives one message, leaves no files or data, and keeps the last image."""
 
 import os
 import pathlib
@@ -33,7 +33,7 @@ def brightness(scene):
 
 class BadInput(unittest.TestCase):
     def message(self):
-        """Renders, and returns the single line of the error. Checks that no data or files are left behind."""
+        """Renders, expects one error and returns its line. Checks that no data or files are left behind."""
         data = self.data()
         with self.assertRaises(RuntimeError) as caught:
             bpy.ops.render.render()

@@ -1,4 +1,4 @@
-"""Tests that Blender reads the program's multi-layer files: Cryptomattes in the compositor, and passes."""
+"""Tests that Blender reads Defocus's multi-layer files: Cryptomattes in the compositor, and passes."""
 
 import os
 import pathlib

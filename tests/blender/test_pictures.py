@@ -1,4 +1,4 @@
-"""Compares the engine's pictures with Cycles, without indirect light, and with the thin-lens equation."""
+"""Compares Defocus's images in Blender with Cycles, without indirect light, and with the thin-lens equation."""
 
 import json
 import math
@@ -13,7 +13,7 @@ import numpy
 import pictures
 import scenes
 
-# PNG file for three pictures of the still life, if the variable is set: by Cycles with 1,024 samples, by Defocus, and
+# PNG file for three images of the still life, if the variable is set: by Cycles with 1,024 samples, by Defocus, and
 # their difference times 5.
 FIGURE = os.environ.get("DEFOCUS_BLENDER_FIGURE")
 

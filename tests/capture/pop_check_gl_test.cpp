@@ -1,4 +1,4 @@
-// Tests of PopCheck, which measures how visibly a shot's images change when objects change their level of detail.
+// Tests PopCheck, which measures how visibly a shot's images change when objects change their level of detail.
 
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ TEST_F(PopChecks, fullDetailHasNone) {
     EXPECT_FALSE(popOf(LodMode::off));
 }
 
-// Without the preceding frame, there is nothing to compare.
+// A frame without the preceding frame cannot be compared, so it has no pop.
 TEST_F(PopChecks, aGapInTheFramesIsNoPop) {
     PopCheck check(frame_.world, parseMethodUse("accumulation"), {});
     check.note(1, planAt(2, LodMode::nearest));

@@ -1,5 +1,5 @@
 #pragma once
-// Replaces a forked process with the program, for tests that kill, trace or run many programs at once.
+// Replaces a forked process with the program `defocus`, for tests that kill, trace or run many programs at once.
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -11,8 +11,8 @@
 
 namespace defocus::engine {
 
-// Replaces a forked process with the program. The program runs in `folder`, keeps its caches in `caches`, and writes to
-// the file descriptors `out` and `error`. Never returns.
+// Replaces a forked process with the program `defocus`. It runs in `folder`, keeps its caches in `caches`, and writes
+// to the file descriptors `out` and `error`. Never returns.
 [[noreturn]] inline void becomeProgram(std::vector<std::string> words, const std::filesystem::path& folder,
                                        const std::filesystem::path& caches, int out, int error) {
     if (::chdir(folder.c_str()) != 0 || ::dup2(out, 1) < 0 || ::dup2(error, 2) < 0) ::_exit(99);

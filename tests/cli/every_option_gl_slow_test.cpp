@@ -1,7 +1,7 @@
-// Every setting that a command offers has the effect that the table of settings names: on the linear image, only on PNG
-// and JPEG, or only on time and memory. Commands without an image must print or measure something else. A setting
-// without a case fails the test. every_own_option_gl_slow_test.cpp covers the options that belong to single commands,
-// and tests/view covers the viewer.
+// Tests that every setting that a command offers has the effect that the table of settings names: on the linear image,
+// only on PNG and JPEG, or only on time and memory. Commands without an image must print or measure something else. A
+// setting without a case fails the test. every_own_option_gl_slow_test.cpp covers the options that belong to single
+// commands, and tests/view covers the viewer.
 
 #include <functional>
 
@@ -21,7 +21,7 @@ struct Results {
     bool operator==(const Results&) const = default;
 };
 
-// A command, and the function that reads its results.
+// A command whose results are compared, and the function that reads the results.
 struct Watched {
     CommandLine line;
     std::function<Results(const Folder& folder, const Outcome& outcome)> results;
@@ -148,7 +148,7 @@ private:
     std::map<Words, Results> results_;
 };
 
-// Returns the effect that the setting's case must have. The table of settings says that `preset` and `timeLimit` only
+// Returns what the setting must change in its test case. The table of settings says that `preset` and `timeLimit` only
 // affect the run. Here both change pixels: a preset sets other settings, and a time limit reduces the number of
 // samples.
 SettingEffect effectOf(const Setting& setting) {

@@ -152,8 +152,9 @@ TEST_F(OwnOption, changedSourcesAreRefusedUnlessAllowed) {
     }
 }
 
-// `bench scaling` varies the scene property that --axes names; "blur" takes seconds. --large needs the axis
-// "triangles", which takes minutes, so only the error without this axis and the larger number of points are checked.
+// `bench scaling` varies the scene property that --axes names. The test varies "blur", which takes seconds. --large
+// needs the axis "triangles", which takes minutes; the test only checks that --large without this axis is an error and
+// that it adds points.
 TEST_F(OwnOption, scalingGoesAlongItsAxis) {
     const Words line = {"bench", "scaling", "--axes", "blur", "--allow-changed"};
     // --runs defaults to three, so 1 proves that the option has an effect.

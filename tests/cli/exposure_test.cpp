@@ -1,4 +1,4 @@
-// Tests of the options for an animation's clip, time and shutter, with `defocus plan --json`.
+// Tests the options for an animation's clip, time and shutter, with `defocus plan --json`.
 
 #include <nlohmann/json.hpp>
 

@@ -29,7 +29,7 @@ using Words = std::vector<std::string>;
 
 class Faults : public Capture {
 protected:
-    // Replaces a forked process with the program. `environment` selects the faults (tests/faults/faults.cpp).
+    // Replaces a forked process with the program `defocus`. `environment` selects the faults (tests/faults/faults.cpp).
     void become(Words words, const std::vector<std::pair<std::string, std::string>>& environment = {},
                 int out = -1) const {
         const int nothing = out >= 0 ? out : ::open("/dev/null", O_WRONLY);

@@ -1,5 +1,5 @@
 #pragma once
-// Runs the program on machines with OpenGL. On other machines, the tests are skipped and print the reason.
+// Runs the program `defocus` on machines with OpenGL. On other machines, the tests are skipped and print the reason.
 
 #include "cli/program.h"
 #include "core/error.h"

@@ -40,7 +40,7 @@ void checkNewSetting() {
     EXPECT_EQ(schema["properties"]["newSetting"]["maximum"], 10);
     EXPECT_EQ(schema["properties"]["newSetting"]["examples"], nlohmann::ordered_json::array({2.5}));
 
-    // settingInfos() provides the keyword arguments of Python (tests/python/test_settings.py).
+    // settingInfos(), from which the Python package makes its keyword arguments, contains the new setting.
     const std::vector<SettingInfo> infos = settingInfos();
     const auto info = std::ranges::find(infos, "newSetting", &SettingInfo::name);
     ASSERT_NE(info, infos.end());

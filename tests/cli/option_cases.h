@@ -1,6 +1,6 @@
 #pragma once
-// For every setting of the program and of the methods: a value that must change a command's text, image or
-// measurements. Also builds the small scene of these cases.
+// Lists, for every setting of the program and of its methods, a value that must change a command's text, image or
+// measurements. Also builds the small scene that the commands render.
 
 #include <algorithm>
 #include <filesystem>
@@ -26,15 +26,15 @@ inline Words joined(Words words, const Words& more) {
     return words;
 }
 
-// `words`: the option with its value. `with`: further options that the case needs; commands ignore those they lack.
-// `against`: the same option with another value to compare with. If empty, the comparison is with a line without the
-// option.
+// Test case of an option. `words` are the option and its value, and `with` are further options that the case needs;
+// commands ignore those that they lack. `against` is the option with another value to compare with; if empty, the
+// comparison is with a command line without the option.
 struct OptionCase {
     Words words;
     Words with;
     bool still = false;  // whether the scene is a still fish instead of the moving ball
     Words against = {};
-    bool needsDriver = false;  // whether some drivers ignore the option; the image must be the same in any case
+    bool needsDriver = false;  // whether some drivers ignore the option; only the image is then checked
 };
 
 namespace option_cases {
@@ -116,7 +116,7 @@ inline const Words farFocus = {"--fstop", "0.5", "--focus-distance", "8"};
 inline const Words nearFocus = {"--fstop", "0.5", "--focus-distance", "1"};
 inline const Words nearRange = {"--fstop", "0.5", "--focus-distance", "1", "--focus-range-behind", "1"};
 
-// Returns the options that cases of a method's own settings need: the method and a wide aperture.
+// Returns the options that test cases of a method's own settings need: the method and a wide aperture.
 inline Words only(const char* method) {
     return {"--method", method, "--fstop", "0.5"};
 }
@@ -141,7 +141,7 @@ inline void writeOptionScene(const std::filesystem::path& folder) {
     writeFile(folder / "shot.usda", std::string_view(option_cases::usdCamera));
 }
 
-// Cases of settings, keyed by the setting's name in the table of settings.
+// Returns the test cases of settings, keyed by the setting's name in the table of settings.
 inline const std::map<std::string, OptionCase>& settingCases() {
     using namespace option_cases;
     static const std::map<std::string, OptionCase> table = {
@@ -243,7 +243,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
     return table;
 }
 
-// Cases of method settings, keyed by the setting's name.
+// Returns the test cases of method settings, keyed by the setting's name.
 inline const std::map<std::string, OptionCase>& methodSettingCases() {
     using namespace option_cases;
     static const std::map<std::string, OptionCase> table = {
@@ -321,7 +321,7 @@ inline std::vector<const CLI::Option*> optionsOffered(const std::string& command
     return options;
 }
 
-// Returns the settings of one group that a command offers.
+// Returns the settings of one group of the table of settings that a command offers.
 inline std::vector<const Setting*> settingsOffered(const std::string& command, SettingGroup group) {
     std::vector<const Setting*> offered;
     for (const CLI::Option* option : optionsOffered(command))
@@ -338,7 +338,7 @@ inline Words methodSettingsOffered(const std::string& command) {
     return names;
 }
 
-// A command, and the arguments that all of its tested command lines share.
+// A command, and the arguments that all of its tested command lines have in common.
 struct CommandLine {
     std::string name;
     Words command;

@@ -10,7 +10,7 @@
 namespace defocus::engine {
 namespace {
 
-// Options that have their own test, in every_own_option_gl_slow_test.cpp if no other file is named.
+// Options that have their own test: in the file that the comment names, or in every_own_option_gl_slow_test.cpp.
 const std::set<std::string> triedAlone = {
     " --version",
     " --quiet",

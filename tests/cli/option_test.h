@@ -1,5 +1,5 @@
 #pragma once
-// Runs command lines and returns their results without the parts that differ from run to run.
+// Runs command lines and returns their results without the parts that differ from run to run, such as times.
 
 #include <nlohmann/json.hpp>
 #include <regex>

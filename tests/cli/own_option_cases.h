@@ -1,6 +1,6 @@
 #pragma once
-// For each option that belongs to a single command: two command lines that differ only by this option. option_cases.h
-// has the program's settings and the methods' settings.
+// Lists two command lines, which differ by a single option, for each option that belongs to only one command.
+// option_cases.h lists the settings of the program and of its methods.
 
 #include "cli/option_cases.h"
 
@@ -13,8 +13,8 @@ struct OwnOptionCase {
     std::vector<Words> before = {};  // command lines to run before the case
 };
 
-// For each command, a command line that runs quickly, without the command's name. Options of a case replace the same
-// options of this line.
+// Returns, for each command, arguments with which it runs quickly. Options of a test case replace the same options of
+// these arguments.
 inline const std::map<std::string, Words>& usualLines() {
     static const Words ball = {"ball.glb", "--size", "16x12", "--fstop", "0.5"};
     static const Words written = {"-o", "result", "--allow-changed"};
@@ -73,7 +73,8 @@ inline Words lineOfOwnCase(const std::string& command, const OwnOptionCase& trie
     return joined(line, tried.words);
 }
 
-// Cases, keyed by command and option, such as "render -o". Keys of the program's own options begin with a space.
+// Returns the test cases, keyed by command and option, such as "render -o". The keys of options of `defocus` itself,
+// without a command, begin with a space.
 inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
     static const Words part = {"render", "ball.glb", "--size", "16x12", "--fstop", "0.5", "--samples", "128"};
     static const std::vector<Words> parts = {joined(part, {"--sample-range", "0:64", "-o", "a.exr"}),

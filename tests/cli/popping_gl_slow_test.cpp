@@ -1,11 +1,13 @@
-// Fractional levels, which divide an object's lens samples between two levels of detail, avoid popping in a focus pull,
-// a dolly and a walk cycle. From frame to frame, they change the image by a small fraction of a full level's change.
-// The tests measure the part of each movement with the most level changes (measurements: eval/popping/popping.h).
+// Tests that fractional levels of detail avoid popping, visible image changes by switches of levels, in a focus pull, a
+// dolly and a walk cycle. Fractional levels divide an object's lens samples between two levels. From frame to frame,
+// they change the image by a small fraction of a full change, in which all samples switch at once. The tests measure
+// the section of each movement with the most level changes (measurements: eval/popping/popping.h).
 //
-// If one of N samples changes its level, the image changes by √(c/w)/N of a full level's change, for a blur of c px and
-// a level deviation of w px. Here c/w is at most about 30/0.4, so a step is at most 8.7/N. Steps of k samples of an
-// object in the same frame add up like noise, by √k. Movements of 480 frames change at most three of 64 samples per
-// frame. A walk at 24 frames per second changes at most twelve of 128: 0.23 of a full level's change.
+// If one of N samples switches its level, the image changes by √(c/w)/N of a full change, for a blur of c px and a
+// deviation of w px between the levels. Here c/w is at most about 30/0.4, so one sample changes at most 8.7/N. If k
+// samples of an object switch in the same frame, their changes add up like noise, by √k. In movements of 480 frames, at
+// most three of 64 samples switch per frame. In a walk at 24 frames per second, at most twelve of 128 do, which is 0.23
+// of a full change.
 
 #include <gtest/gtest.h>
 
@@ -47,8 +49,8 @@ protected:
         PreparedFrame frame = prepareFrame(options_);
         popping.sampleCounts = {samples};
         popping.plan = frame.settings;
-        // The thresholds for 32 samples give levels that are coarse enough for visible changes and independent of the
-        // sample count.
+        // Fixing the thresholds makes the levels independent of the sample count. The thresholds for 32 samples select
+        // levels that are coarse enough for visible changes.
         popping.plan.metric = metric_;
         fixThresholds(popping.plan, 32);
         double nearest = 0;
@@ -70,7 +72,7 @@ protected:
         EXPECT_LT(fractional, maxPop);
     }
 
-    // Expects no popping in a movement of 480 frames (20 s), in the `frames` frames with the most level changes.
+    // Expects no popping in the `frames` frames with the most level changes, out of a movement of 480 frames (20 s).
     void expectNoneAlong(Movement movement, int frames = 8) const {
         PoppingOptions popping;
         popping.movements = {movement};
@@ -82,21 +84,21 @@ protected:
     void school() {
         options_.fishCount = 6;
         options_.trianglesPerFish = 12'000;
-        options_.lens.blurScale = 4;  // the same blur in pixels as in a larger image
+        options_.lens.blurScale = 4;  // gives this small image as many px of blur as a large one
     }
 
-    // Sets up a fox of 576 triangles, 100 m long. Few pixels and strong blur make coarse levels visible.
+    // Sets up a fox of 576 triangles, 100 m long. With few pixels and strong blur, coarse levels are drawn.
     void fox(const std::filesystem::path& path) {
         options_.scene = path;
         options_.units = 1;
         options_.clip = "Walk";
-        options_.time = 0.3;  // mid-stride
+        options_.time = 0.3;  // s; the fox is in mid-stride
         options_.lens.blurScale = 1000;
     }
 
     Request options_;
     LodMetric metric_ = LodMetric::size;
-    double minLevelPop_ = 0.003;  // min RMSE of a full level's change; else the test proves nothing
+    double minLevelPop_ = 0.003;  // min RMSE if all samples switch; else the test proves nothing
 };
 std::unique_ptr<GlContext> NoPopping::context_;
 

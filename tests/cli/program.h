@@ -1,5 +1,5 @@
 #pragma once
-// Runs the program as a child process, with its own folder and cache.
+// Runs the program `defocus` as a child process, with its own folder and cache.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,5 +1,5 @@
 #pragma once
-// Runs the program in forks of the test process. A fork skips the loading of hundreds of shared libraries, which takes
+// Runs the program in forks of the test process. A fork does not load hundreds of shared libraries, which would take
 // longer than most tests. Forks do not copy threads, and GL drivers, image readers and pyramid builds start threads in
 // the test process. Therefore the forks are made by a separate process without threads, which is forked before the
 // first test.

@@ -1,6 +1,6 @@
 #pragma once
-// Short shots of the two squares of two_quads.h with small frames: a focus pull from one square to the other, and a
-// camera that orbits a square.
+// Writes a short shot of the two squares of two_quads.h with small frames: the focus moves from one square to the
+// other, and the camera orbits a square.
 
 #include <filesystem>
 #include <fstream>

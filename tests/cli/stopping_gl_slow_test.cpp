@@ -1,4 +1,4 @@
-// Tests that a signal or the time limit ends a render soon, even within a block of samples that takes long.
+// Tests that a signal or the time limit ends a render soon, even in the middle of a block of samples that takes long.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -27,8 +27,8 @@ protected:
         std::string said;
     };
 
-    // Runs the program. Sends `signal` after `after` seconds; 0 sends no signal. `End::seconds` is the time from the
-    // signal to the end, or the duration of the program without a signal.
+    // Runs the program `defocus`. Sends `signal` after `after` seconds; 0 sends no signal. `End::seconds` is the time
+    // from the signal to the end, or the duration of the program without a signal.
     [[nodiscard]] End ended(Words words, int signal = 0, double after = 0) const {
         const pid_t child = ::fork();
         if (child == 0) {
@@ -85,7 +85,8 @@ TEST_F(Stopping, partialImagesAreKeptOnDemand) {
     EXPECT_LT(samples, 128);
 }
 
-// A step of the method `line` takes ten seconds or more, so the signal arrives within a step.
+// One step of the method `line` (a call of Renderer::advance()) takes ten seconds or more, so the signal arrives within
+// a step.
 TEST_F(Stopping, aLongStepIsNotAwaited) {
     warmUp({"render", "--quiet", "--size", "512x384"});
     const Words words = {"render",    "--quiet", "--size",         "512x384", "--method", "line",
@@ -108,8 +109,8 @@ TEST_F(Stopping, theSecondThreadWritesTheImageSoFar) {
     EXPECT_EQ(readImage(folder() / "a.exr", metadata).width, 512);
 }
 
-// The time limit also ends a render within a wave, a group of samples that are drawn at once. A wave of 16 samples
-// takes seconds.
+// The time limit also ends a render while a batch of samples is drawn together. A batch of 16 samples (--wave 16) takes
+// seconds.
 TEST_F(Stopping, theTimeLimitEndsALargeWave) {
     warmUp(costly);
     Words words = costly;

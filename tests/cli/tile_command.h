@@ -1,5 +1,5 @@
 #pragma once
-// Runs `defocus render` on a small scene: a full frame, or one tile at a time.
+// Fixture that runs `defocus render` on a small scene, for a full frame or one tile at a time.
 
 #include <filesystem>
 #include <string>

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Fixture that renders frames that exceed the memory limit without tiles.
+// Fixture that renders frames that would exceed the memory limit if they were not divided into tiles.
 class ShortOfMemory : public TileCommand {
 protected:
     static constexpr const char* size = "2400x1800";
@@ -55,7 +55,7 @@ TEST_F(ShortOfMemory, whatCannotBeCutIsRefusedByName) {
 }
 
 // Meshes and the driver's copies of their triangles count towards the memory limit before the program allocates them.
-// The scene has 400,000 triangles per layer and is drawn without tiles.
+// Each lens sample draws 400,000 triangles. The frame is drawn without tiles.
 TEST_F(ShortOfMemory, aHeavySceneInOnePieceKeepsToIt) {
     const Outcome outcome =
         run({"render", "--quiet", "--fish", "20", "--fish-triangles", "20000", "--size", "1024x768", "--samples", "16",
@@ -66,7 +66,7 @@ TEST_F(ShortOfMemory, aHeavySceneInOnePieceKeepsToIt) {
     EXPECT_LE(stats.at("peakBytes").get<double>(), 1.1 * (500 << 20));
 }
 
-// Rows at the top of the image show few of the objects. The memory of all other objects also counts towards the limit.
+// Tiles at the top of the image show few of the objects. The memory of all other objects also counts towards the limit.
 TEST_F(ShortOfMemory, aFineSceneInTilesKeepsToIt) {
     const Outcome outcome = run({"render", "--quiet", "--fish", "6", "--size", "1024x768", "--samples", "16", "--lod",
                                  "off", "--memory", "400MiB", "-o", "a.exr", "--stats", "stats.json"});
@@ -76,8 +76,8 @@ TEST_F(ShortOfMemory, aFineSceneInTilesKeepsToIt) {
     EXPECT_LE(stats.at("peakBytes").get<double>(), 400 << 20);
 }
 
-// If the driver's copies of fine meshes leave too little memory for the image, the message names a limit that suffices.
-// With this limit, the memory stays within it.
+// If the driver's copies of fine meshes leave too little memory for the image, the error message names a sufficient
+// limit. With this limit, the program's memory stays below it.
 TEST_F(ShortOfMemory, aFineSceneKeepsToTheMemoryThatIsSaidToDo) {
     if (!createHeadlessContext()->software()) GTEST_SKIP() << "no option limits a GPU's own memory";
     const auto fish = [&](const std::string& memory) {

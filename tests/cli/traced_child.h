@@ -91,7 +91,7 @@ private:
         return std::filesystem::read_symlink(link, ignored).string().find(folder_) != std::string::npos;
     }
 
-    // Returns whether the path at `address` in the thread's memory is inside Mesa's shader cache.
+    // Returns whether the path at `address` in the thread's memory lies inside the folder of Mesa's shader cache.
     static bool ofTheDriver(pid_t thread, std::uint64_t address) {
         std::ifstream memory("/proc/" + std::to_string(thread) + "/mem", std::ios::binary);
         memory.seekg(static_cast<std::streamoff>(address));

@@ -1,4 +1,4 @@
-// Test vectors of RFC 4648, section 10.
+// Compares base64 encoding with the test vectors of RFC 4648, section 10.
 
 #include "core/base64.h"
 

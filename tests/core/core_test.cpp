@@ -116,7 +116,7 @@ TEST_F(Files, aLinkStaysAndWhatItNamesIsReplaced) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "far"), fs::directory_iterator()), 2) << "nothing is left";
 }
 
-// The program never follows a link or pipe at a path that it chooses itself: a link, a broken link and a pipe are
+// Files that the program names itself never follow a link or pipe at their path: a link, a broken link and a pipe are
 // replaced by a file.
 TEST_F(Files, ownFilesReplaceLinksAndPipes) {
     fs::create_directory(folder_ / "far");
@@ -177,7 +177,7 @@ TEST_F(Files, aDeviceStaysADevice) {
     EXPECT_NE(messageOf([] { writeFile("/dev/full", std::string_view("lost")); }).find("No space"), std::string::npos);
 }
 
-// Writing to the path of an open file descriptor writes to the descriptor; the file behind it is not replaced.
+// Writing to a path such as /proc/self/fd/3 writes to the open file descriptor; the file behind it is not replaced.
 TEST_F(Files, aDescriptorIsWrittenWhereItLeads) {
     const int descriptor = ::open((folder_ / "kept.txt").c_str(), O_CREAT | O_RDWR, 0600);
     ASSERT_GE(descriptor, 0);

@@ -1,4 +1,4 @@
-// Tests of hashes of keys and checksums: regular changes in several words do not cancel out.
+// Tests the hash of cache keys and checksums: regular changes in several words do not cancel out.
 
 #include "core/hash.h"
 
@@ -20,7 +20,7 @@ TEST(Hash, isXxh3) {
     EXPECT_EQ(hashBytes({}, 0), 0x2d06800538d394c2ull);
 }
 
-// Images and the school of fish are reproducible only as long as these values do not change.
+// Images and the built-in school of fish are reproducible only as long as these hash values do not change.
 TEST(Hash, mixersKeepTheirValues) {
     EXPECT_EQ(fmix32(1), 0x514e28b7u);
     EXPECT_EQ(fmix32(0xffffffffu), 0x81f16f39u);
@@ -76,7 +76,7 @@ TEST(Hash, zerosAndLengthsCount) {
     for (std::size_t length = 0; length <= zeros.size(); ++length)
         hashes.insert(hashBytes(std::span(zeros).first(length)));
     EXPECT_EQ(hashes.size(), zeros.size() + 1);
-    // The boundaries between blocks that are hashed one after the other matter: "ab" + "" differs from "a" + "b".
+    // Boundaries between strings that are hashed one after the other change the hash: "ab" + "" differs from "a" + "b".
     const auto pieces = [&](std::size_t first) {
         return hashBytes(std::span(zeros).first(16 - first), hashBytes(std::span(zeros).first(first)));
     };

@@ -72,7 +72,7 @@ const std::map<std::string, std::vector<std::string>>& allowed() {
         addOver("render", "plan", {"gl"});
         addOver("frame", "render", {});
         addOver("eval", "frame", {});
-        modules["stability"] = {};  // in bench/stability; only a command includes this module
+        modules["stability"] = {};  // this module is in bench/stability, and only a command includes it
         addOver("refocus", "frame", {});
         addOver("capture", "refocus", {});
         addOver("view/state", "capture", {});

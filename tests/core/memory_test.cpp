@@ -77,7 +77,7 @@ long pageFaults() {
     return usage.ru_minflt;
 }
 
-// A memory block as large as the layers of an image is written, freed, allocated and written again.
+// Memory for the images of a batch of samples is written, freed, allocated and written again.
 TEST(Memory, aFreedBlockIsUsedAgainWithoutPageFaults) {
 #if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__)
     GTEST_SKIP() << "needs glibc's malloc";

@@ -1,4 +1,4 @@
-// Tests of messages and standard output. Each test runs in a child process, since it closes standard output.
+// Tests messages to the user and standard output. Each test runs in a child process, since it closes standard output.
 
 #include "core/message.h"
 

@@ -1,4 +1,4 @@
-"""Tests of figures.cold, which times the first render with empty caches."""
+"""Tests figures.cold, which times the first render with empty caches."""
 
 import pytest
 
@@ -13,7 +13,7 @@ def test_rows_fit_the_header():
 
 
 def program(folder, commit):
-    """Returns a script in place of the program that fails if the cache folder has a file of an earlier run."""
+    """Returns a script that replaces the program, and that fails if the cache folder has a file of an earlier run."""
     file = folder / "program"
     file.write_text(f"""#!/bin/bash
 while [ $# -gt 0 ]; do

@@ -1,4 +1,4 @@
-"""Tests of all commands of scripts/figures, and of the report script that is embedded in the program."""
+"""Tests all commands of scripts/figures, and the report script that is embedded in the program."""
 
 import ast
 import re

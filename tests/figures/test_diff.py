@@ -1,4 +1,4 @@
-"""Tests of the comparison of two results of the same bench."""
+"""Tests the comparison of two results of the same bench."""
 
 import csv
 import io
@@ -12,7 +12,7 @@ from figures.results import RESULTS
 
 
 def row(samples, median, low, high, flip=0.01, mse=1e-4, ssim=0.99, runs=3):
-    """Returns a row of bench convergence as in its JSON file."""
+    """Returns a result row of `bench convergence`, as stored in its JSON file."""
     return {"method": "accumulation", "setting": "lod=off", "samples": samples, "runs": runs, "mse": mse, "ssim": ssim, "flip": flip,
             "psnr": -10 * math.log10(mse), "milliseconds": {"median": median, "low": low, "high": high}, "bias": None}
 

@@ -1,4 +1,4 @@
-"""Tests of figures.layers, which measures how much CPU time the data layers of a render add."""
+"""Tests figures.layers, which measures how much CPU time the data layers of a render add."""
 
 import pytest
 
@@ -7,7 +7,7 @@ from figures.results import RESULTS
 
 
 def test_ratios_are_medians_of_rounds():
-    """Each time is divided by the same round's time without layers, so a slow round, the second, changes no ratio."""
+    """Each time is divided by the time without layers in the same round, so the slow second round changes no ratio."""
     rounds = [{"": 2, "depth": 2.2, "normal": 2.5}, {"": 8, "depth": 8.8, "normal": 16}, {"": 2, "depth": 9, "normal": 2.4}]
     assert layers.ratios_of(rounds) == {"depth": pytest.approx(1.1), "normal": pytest.approx(1.25)}
 
@@ -20,8 +20,8 @@ def test_rows_fit_the_header():
 
 
 def program(folder, commit, layers="for ((i = 0; i < 20000; ++i)); do :; done"):
-    """Returns a script in place of the program. It writes a --stats file with the commit, and runs the bash commands
-    `layers` if it gets --exr-layers.
+    """Returns a script that replaces the program. The script writes a --stats file with the commit, and runs the bash
+    commands `layers` if it gets --exr-layers.
     """
     file = folder / "program"
     stats = f'{{"commit": "{commit}", "device": "a device", "driver": "a driver"}}'

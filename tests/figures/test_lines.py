@@ -1,4 +1,4 @@
-"""Tests of the teapots in meshes/ and of the pictures and tables of scripts/figures lines."""
+"""Tests the teapots in meshes/, and the images and tables of `scripts/figures lines`."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""Tests of the comparison with Embree, Cycles and EEVEE at equal error."""
+"""Tests the comparison of render times of Defocus, Embree, Cycles and EEVEE at equal error."""
 
 import pytest
 

@@ -1,5 +1,5 @@
-// Tests the errors of levels of detail that remain visible under a wide blur: errors of the mean radiance of boxes of
-// 32 × 32 px.
+// Tests errors of levels of detail that remain visible under a wide blur, by comparing the mean radiance of boxes of 32
+// × 32 px.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -59,8 +59,8 @@ protected:
     std::uint64_t triangles_ = 0;  // triangles drawn for the last image
 };
 
-// Averaged over boxes, the error of fractional levels is at most three times the sampling error of 64 samples. The
-// focus distance is first automatic and then four times as large, which blurs the whole model.
+// With fractional levels of detail, the error of box means is at most three times the error at full detail, both with
+// 64 samples. The focus distance is first automatic and then four times as large, which blurs the whole model.
 TEST_P(BlurredLevels, errAfterBoxesByNoMoreThanThreeTimesTheSamples) {
     const double focus = frame_.view.lens.focusDistance;
     bool drawsLevels = false;
@@ -79,7 +79,7 @@ TEST_P(BlurredLevels, errAfterBoxesByNoMoreThanThreeTimesTheSamples) {
         EXPECT_LE(triangles_, all);
         drawsLevels |= triangles_ < all;
     }
-    // Only the garden may be drawn at full detail, since its triangles are larger than its blur.
+    // Only the Japanese garden may be drawn at full detail, since its triangles are larger than its blur.
     EXPECT_TRUE(drawsLevels || GetParam().starts_with("japanese")) << "levels must be drawn";
 }
 

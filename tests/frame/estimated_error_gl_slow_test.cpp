@@ -1,6 +1,6 @@
 // Compares the estimated error of frames with the true error against a converged reference at full detail. The scenes
-// are the project's own, the school of fish and two public models. Levels of detail are on, and their error is part of
-// the true error.
+// are models of this project, the school of fish and two public models. Levels of detail are on, and their error is
+// part of the true error.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -80,7 +80,7 @@ TEST_P(EstimatedError, isWithinAFactorOfOneAndAHalfOfTheTrueOne) {
         const StoppedFrame frame =
             stoppedFrame(frame_, *renderer_, {.targetError = target, .timeLimit = {}, .sampleLimit = 768});
         const double difference = compareImages(reference.image, frame.image, {}).rmse;
-        // the reference is too noisy to judge this image
+        // skip: the reference is too noisy to judge this image
         if (reference.remaining.rmse > 0.5 * difference) continue;
         const double trueError = std::sqrt(difference * difference - std::pow(reference.remaining.rmse, 2));
         const double ratio = frame.stats.estimatedError.value() / trueError;

@@ -1,4 +1,4 @@
-// Tests of exposure metering: a file with the sun of a clear day is rendered without exposure settings.
+// Tests exposure metering: a file with the sun of a clear day is rendered without exposure settings.
 
 #include <gtest/gtest.h>
 
@@ -78,7 +78,8 @@ TEST_F(MeteredRender, metersOnce) {
     EXPECT_NEAR(readImage(folder_ / "b.png").at(16, 12)[1], readImage(folder_ / "a.png").at(16, 12)[1], 0.02f);
 }
 
-// The meter always draws one position per sample. The exposure therefore does not depend on Request::positions.
+// The meter always draws one subpixel position per sample. The exposure therefore does not depend on
+// Request::positions.
 TEST_F(MeteredRender, measuresTheSameWithFourPositions) {
     saveWall(0.002, 0.1);
     request_.cameraPosition = Vector3{3, 2, 40};  // the wall's edges cross the image

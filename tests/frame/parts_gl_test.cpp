@@ -36,7 +36,7 @@ protected:
         return settings;
     }
 
-    // Draws all samples, or only the samples in `range`; at most `wave` samples at once (0: default).
+    // Draws all samples, or only the samples in `range`. At most `wave` samples are drawn together (0: the default).
     static FrameDriver drawn(const SmallWorld& small, LodMode mode, std::optional<SampleRange> range,
                              std::uint32_t wave = 0) {
         FrameDriver driver(small.world, {parseMethodUse("accumulation"), {{}, wave}, {}});
@@ -55,7 +55,8 @@ TEST_F(Partial, mergedBlocksAreTheSingleRun) {
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous}) {
         const Image expected = drawn(*small, mode, {}).image();
 
-        // Each part is rendered by its own driver, with its own number of samples at once, and saved to a file.
+        // A driver of its own renders each range of samples, with another number of samples drawn together, and saves
+        // it.
         std::vector<fs::path> paths;
         std::uint32_t wave = 3;
         for (const SampleRange& range : {SampleRange{0, 64}, SampleRange{64, 150}}) {
@@ -68,7 +69,8 @@ TEST_F(Partial, mergedBlocksAreTheSingleRun) {
     }
 }
 
-// A file with a part of a frame's samples has only finished blocks: their numbers, sample counts and sums.
+// The file of a part of a frame's samples contains only finished blocks of samples: for each block the number and the
+// sum of its samples.
 TEST_F(Partial, blocksHoldTheSumOfTheirSamples) {
     const auto small = fiveSpheres();
     FrameDriver driver = drawn(*small, LodMode::fractional, SampleRange{64, 150});

@@ -1,5 +1,5 @@
-// Tests that presets change exactly the settings that they list, and that the plan of jeong2011 follows the paper's
-// formulas. The tests repeat the formulas and compute them from scene and camera alone.
+// Tests that presets change exactly the settings that they list, and that plans of jeong2011 follow the paper's
+// formulas. The tests repeat these formulas and compute them only from scene and camera.
 
 #include "frame/settings/presets.h"
 
@@ -169,7 +169,7 @@ TEST_F(JeongPlan, levelsAreProportionalToTheBlurOverTheBox) {
             const auto coarsest = static_cast<double>(pyramid.levels.size() - 1);
             EXPECT_NEAR(object.lambda, std::min(proportionalLevels * blur / size, coarsest), 1e-6);
 
-            // The first samples draw the coarser level.
+            // In jeong2011, the first samples draw the coarser of two levels, and the others the finer level.
             const double integerPart = std::floor(object.lambda);
             const auto coarse = static_cast<std::uint32_t>(std::lround((object.lambda - integerPart) * samples));
             EXPECT_EQ(object.coarse.sampleCount, coarse);

@@ -1,4 +1,4 @@
-// Tests of the table of settings: each setting reads the value that it has written and accepts the values in its
+// Tests the table of settings: each setting reads the value that it has written and accepts the values in its
 // description. Each member of Request has a setting.
 
 #include "frame/settings/settings.h"

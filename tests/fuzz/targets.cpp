@@ -231,7 +231,8 @@ std::vector<Bytes> cacheSeeds() {
 constexpr std::array<const char*, 4> imageNames = {"image.exr", "image.png", "image.hdr", "image.jpg"};
 constexpr std::size_t maxImagePixels = 1 << 14;
 
-// Reads the file as a tile of a frame: first its rows, then the complete frame if the tile is its last one.
+// Reads the file as a tile of a frame: first the tile's rows, then the complete frame if the tile is the frame's last
+// one.
 void runRows(const std::filesystem::path& path) {
     static_cast<void>(isRowFile(path));
     try {
@@ -287,7 +288,7 @@ std::vector<Bytes> imageSeeds() {
         seed.insert(seed.begin(), static_cast<std::byte>(format));
         seeds.push_back(std::move(seed));
     }
-    // Add two tiles, one of which is a complete frame, and a file with a part of a frame's samples.
+    // Add two tiles, one of which covers a complete frame, and a file with a part of a frame's samples.
     const auto add = [&](const std::filesystem::path& path) {
         Bytes seed = fileBytes(path);
         seed.insert(seed.begin(), std::byte{0});
@@ -313,7 +314,7 @@ std::vector<Bytes> imageSeeds() {
 
 // ---- lens images
 
-// Refocuses the images, within and outside the range that the file states.
+// Refocuses the lens images (views from lens points), within and outside the focus range that the file states.
 void runLensImages(std::span<const std::byte> bytes) {
     try {
         LightField field(written("lens.exr", bytes));

@@ -1,7 +1,7 @@
 #pragma once
-// Functions that process untrusted bytes. The fuzzer calls them with generated inputs (scripts/fuzz), and a test calls
-// them with inputs that once caused faults (tests/fuzz/corpus). An Error is a correct rejection. Any other outcome is a
-// defect: another exception, a sanitizer's report, or minutes of work.
+// Declares functions that process untrusted bytes. The fuzzer calls them with generated inputs (scripts/fuzz), and a
+// test calls them with inputs that once caused faults (tests/fuzz/corpus). An Error is a correct rejection. Any other
+// outcome is a defect: another exception, a sanitizer's report, or minutes of work.
 
 #include <cstddef>
 #include <span>
@@ -13,19 +13,19 @@ namespace defocus::engine {
 struct FuzzTarget {
     const char* name = "";
     void (*run)(std::span<const std::byte> bytes) = nullptr;
-    std::vector<std::vector<std::byte>> (*seeds)() = nullptr;  // initial inputs
+    std::vector<std::vector<std::byte>> (*seeds)() = nullptr;  // returns the initial inputs
     // max length of an input; longer inputs find no further faults
     std::size_t maxBytes = 0;
 };
 
 // Fuzz targets by name:
-//   gltf      a scene file, placed and planned for a small frame, without and with a ground and shadows
+//   gltf      a scene file, from which a small frame is planned, without and with a ground and shadows
 //   shot      a shot file
 //   cache     a pyramid file with a correct checksum
 //   image     an image file as environment, aperture, tile, and input of compare and merge; the first byte selects
 //             the format
 //   usda      a USD text file with a camera
-//   lens      a file of lens images, refocused within the range that it states
+//   lens      a file of lens images (views from lens points), refocused within the range that it states
 //   settings  lines of "name=value" for the table of settings; the values also go to the parsers of other options
 std::span<const FuzzTarget> fuzzTargets();
 

@@ -1,4 +1,4 @@
-// Damaged PNG files are refused before libpng reads them: libpng would print its own line to stderr.
+// Tests that damaged PNG files are rejected before libpng reads them, since libpng would print its own line to stderr.
 
 #include <gtest/gtest.h>
 

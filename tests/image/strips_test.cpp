@@ -1,4 +1,4 @@
-// Tests that images that are read and compared in strips are bit-identical to complete images.
+// Tests that images give bit-identical results whether they are read and compared in strips or as a whole.
 
 #include <gtest/gtest.h>
 

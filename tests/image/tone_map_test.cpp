@@ -17,8 +17,8 @@ std::vector<float> shown(std::vector<float> rgb, ToneMap toneMap, double exposur
     return displayEncoded(image, toneMap, exposure).pixels;
 }
 
-// Returns Hill's rational fit of ACES for a grey value. The matrices before and after the curve preserve greys, since
-// their rows sum to 1.
+// Returns Hill's rational fit of the ACES tone map for a grey value. The matrices before and after the curve preserve
+// greys, since their rows sum to 1.
 double hillCurve(double v) {
     return (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
 }
@@ -75,8 +75,8 @@ TEST(ToneMapped, agxKeepsMiddleGreyAndGreysGrey) {
     }
 }
 
-// Properties of Khronos PBR Neutral from its specification: colours from 8 % to 80 % in each channel lose only 4 %, for
-// Fresnel reflection. Above this range, the curve is continuous and stays below 1.
+// Compares Khronos PBR Neutral with properties from its specification: colours from 8 % to 80 % in each channel lose
+// only 4 %, for Fresnel reflection. Above this range, the curve is continuous and stays below 1.
 TEST(ToneMapped, neutralKeepsColoursAndRollsHighlightsOff) {
     const auto kept = shown({0.5f, 0.3f, 0.1f}, ToneMap::neutral);
     EXPECT_NEAR(kept[0], srgbEncode(0.46f), 1e-5);
@@ -84,8 +84,8 @@ TEST(ToneMapped, neutralKeepsColoursAndRollsHighlightsOff) {
     EXPECT_NEAR(kept[2], srgbEncode(0.06f), 1e-5);
     EXPECT_NEAR(shown({0.04f, 0.04f, 0.04f}, ToneMap::neutral)[0], srgbEncode(0.01f), 1e-5);
     EXPECT_NEAR(shown({0.8f, 0.8f, 0.8f}, ToneMap::neutral)[0], srgbEncode(0.76f), 1e-5);
-    // Above that range, the curve is 1 − 0.24² / (x − 0.04 + 0.24 − 0.76), a hyperbola that joins the line with a slope
-    // of 1.
+    // Above x = 80 %, the curve is 1 − 0.24² / (x − 0.04 + 0.24 − 0.76), a hyperbola that joins the line x − 0.04 with
+    // slope 1.
     EXPECT_NEAR(shown({2, 2, 2}, ToneMap::neutral)[0], srgbEncode(1 - 0.24f * 0.24f / 1.44f), 1e-5);
     EXPECT_LT(shown({100, 100, 100}, ToneMap::neutral)[0], 1);
     for (const float channel : shown({1e4f, 0, 0}, ToneMap::neutral)) EXPECT_GT(channel, 0.95f);

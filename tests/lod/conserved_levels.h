@@ -1,5 +1,5 @@
 #pragma once
-// Limits on the differences between a mesh's coarse levels and its level 0 under a wide blur.
+// Expects coarse levels of a mesh to differ from level 0 by at most given limits under a wide blur.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ struct ConservedLimits {
     double outline = 0.005;
 };
 
-// Expects `limits` to hold for all levels whose mean edge is at most a quarter of the mesh's size.
+// Expects `limits` to hold for all levels whose mean edge length is at most a quarter of the mesh's size.
 inline void expectConserved(const Mesh& mesh, const ConservedLimits& limits) {
     const Pyramid pyramid = buildPyramid(mesh);
     const auto measured = [&](std::size_t level) {

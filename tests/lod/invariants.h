@@ -1,5 +1,5 @@
 #pragma once
-// Properties that every pyramid has, for any mesh.
+// Checks properties that the pyramid (levels of detail) of any mesh must have.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,8 @@
 
 namespace defocus::engine {
 
-// Expects each cluster's bounds to hold for its triangles, and the clusters to tile the index ranges of the primitives.
+// Expects each cluster's bounds (sphere, normal cone, altitude) to hold for its triangles, and the clusters to tile the
+// index ranges of the primitives.
 inline void expectClustersHold(const Pyramid& pyramid) {
     for (const PyramidLevel& level : pyramid.levels) {
         auto cluster = level.clusters.begin();
@@ -116,7 +117,7 @@ inline void expectPyramidInvariants(const Mesh& mesh, const Pyramid& pyramid) {
     expectContinuousLevels(pyramid);
 }
 
-// Expects the part with the largest area to keep its shape as long as another part has more triangles.
+// Expects the connected part with the largest area to keep its shape as long as another part has more triangles.
 inline void expectMainPartLasts(const Mesh& mesh, const Pyramid& pyramid) {
     const std::vector<std::uint32_t> parts = partsByPosition(mesh);
     const auto partIndices = [&](std::size_t level) {

@@ -1,5 +1,5 @@
 #pragma once
-// Conversions of plain lists to arrays that are indexed by the simplifier's index types.
+// Converts plain lists to arrays that are indexed by the simplifier's index types.
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
-// Small meshes with seams and borders as in real files. Functions that count faces or edges treat vertices at the same
-// position as one.
+// Builds small meshes with seams and borders as in real files. Functions that count faces or edges treat vertices at
+// the same position as one vertex.
 
 #include <algorithm>
 #include <array>
@@ -171,7 +171,7 @@ inline bool isClosed(const std::vector<glm::vec3>& positions, const std::vector<
                        [](const auto& edge) { return edge.second.count == 2 && edge.second.balance == 0; });
 }
 
-// Returns for each vertex the index of its part, from 0. Vertices at the same position belong to the same part.
+// Returns for each vertex the index, from 0, of its connected part. Vertices at the same position are connected.
 inline std::vector<std::uint32_t> partsByPosition(const Mesh& mesh) {
     std::map<PositionKey, std::uint32_t> ids;
     std::vector<std::uint32_t> places;
@@ -218,7 +218,8 @@ inline double surfaceArea(const std::vector<glm::vec3>& positions, const std::ve
     return area;
 }
 
-// Returns the position of part `i`. Every prefix of the positions is evenly spread over the unit square (Roberts 2018).
+// Returns a position for part `i` of a mesh. The first n positions, for any n, are evenly spread over the unit square
+// (Roberts 2018).
 inline glm::vec3 scatteredPlace(std::uint32_t i) {
     return {static_cast<float>(std::fmod(0.5 + 0.7548776662466927 * i, 1.0)),
             static_cast<float>(std::fmod(0.5 + 0.5698402909980532 * i, 1.0)), 0};

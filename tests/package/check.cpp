@@ -1,5 +1,5 @@
-// check WIDTH HEIGHT CHANNELS IMAGE...: checks that each image has this size and is not empty, and that all images have
-// the same pixels. The program links the installed library, as the examples do.
+// Checks that each image has the given size and is not empty, and that all images have the same pixels. The program
+// links the installed library, as the examples do. Usage: check WIDTH HEIGHT CHANNELS IMAGE...
 
 #include <defocus/defocus.h>
 

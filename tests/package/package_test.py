@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""package_test.py BUILD SOURCE CMAKE COMPILER
+"""Tests the installed library from an outside project.
 
-Installs the library of the build tree BUILD, once static and once shared, and uses it from an outside project. The
-programs of examples/ are copied to a folder outside the tree, built with find_package and with pkg-config, and run.
-Their images must have the requested size, show something, and have the same bits for both kinds of library.
+    package_test.py BUILD SOURCE CMAKE COMPILER
+
+Installs the library of the build tree BUILD, once static and once shared. The programs of examples/ are copied to a
+folder outside the tree, built with find_package and with pkg-config, and run. Their images must have the requested
+size, show something, and have the same bits for both kinds of library.
 """
 
 import os
@@ -44,8 +46,8 @@ def check_headers(prefix, source):
 
 
 def check_package_files(prefix, kind):
-    """Checks the dependencies in the package files: none for the shared library, the linked libraries for the static
-    library, and never the libraries of the window.
+    """Checks the dependencies that the CMake and pkg-config files of the package list: none for the shared library, the
+    linked libraries for the static library, and never the libraries of the window.
     """
     files = list(prefix.rglob("*.cmake")) + list(prefix.rglob("*.pc"))
     check(len(files) >= 4, f"package files: {files}")

@@ -1,4 +1,4 @@
-"""Shared fixtures of the Python tests: small scenes, a separate cache, and the program."""
+"""Defines fixtures that the Python tests share: small scenes, a separate cache, and the program."""
 
 import os
 import subprocess
@@ -53,7 +53,7 @@ def program(tmp_path):
 
 @pytest.fixture
 def rendered(program, tmp_path):
-    """Returns a function that reads the image that `defocus render` writes for some arguments."""
+    """Returns a function that runs `defocus render` with some arguments and reads the image that it writes."""
 
     def image(*words):
         outcome = program("render", *words, "-o", "program.exr", "--quiet")

@@ -1,4 +1,4 @@
-"""Tests that images are read, written and compared without needless copies."""
+"""Tests that images are read, written and compared without unnecessary copies."""
 
 import math
 

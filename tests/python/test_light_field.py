@@ -1,4 +1,7 @@
-"""Tests pictures from lens images, and the example that makes a data set with them."""
+"""Tests images that are refocused from lens images, and the example that makes a data set with them.
+
+Lens images are views from points of the lens.
+"""
 
 import inspect
 import json

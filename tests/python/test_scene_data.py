@@ -1,4 +1,4 @@
-"""Tests that scenes made of arrays render, hold no references to the arrays, and refuse invalid arrays."""
+"""Tests that scenes made of arrays render, keep no references to the arrays, and reject invalid arrays."""
 
 import gc
 import math

@@ -1,4 +1,4 @@
-"""Tests that other Python threads run while C++ works, and that Ctrl-C interrupts C++."""
+"""Tests that other Python threads run while C++ code renders, and that Ctrl-C interrupts the C++ code."""
 
 import subprocess
 import sys

@@ -1,5 +1,5 @@
-// Tests that edges in focus are as sharp in refocused as in rendered pictures. Sharpness is the spatial frequency at
-// which the modulation transfer function (MTF) of a slanted edge falls to one half, as in ISO 12233.
+// Tests that edges in focus are as sharp in refocused images as in rendered images. Sharpness is the spatial frequency
+// at which the modulation transfer function (MTF) of a slanted edge falls to one half, as in ISO 12233.
 
 #include <array>
 #include <cmath>
@@ -86,7 +86,7 @@ TEST_F(LightFieldTest, edgesInFocusAreAsSharpAsRenderedOnes) {
     const double refocused = mtf50(field.refocus({FocusDistance{away}, {}}));
     EXPECT_GT(direct, 0.3);
     EXPECT_GE(refocused, 0.9 * direct);
-    EXPECT_LT(mtf50(field.refocus()), 0.5 * direct);  // the edge is out of focus
+    EXPECT_LT(mtf50(field.refocus()), 0.5 * direct);  // without refocusing, the edge is out of focus
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Tests how the gaps between few lens images are filled.
+// Tests how a refocused image fills the gaps between few lens images (views from points of the lens).
 
 #include "refocus/gap_filling.h"
 
@@ -20,7 +20,8 @@ struct Sheet {
     Image depth;
 };
 
-// Returns a lens image with `radiance(x, y)` and `depth(x, y)` at the pixels of the shown image.
+// Returns a lens image (view from a point of the lens) whose pixels without the margin have `radiance(x, y)` and
+// `depth(x, y)`.
 Sheet layer(const std::function<float(int, int)>& radiance, const std::function<float(int, int)>& depth) {
     Image colour(size.fullWidth(), size.fullHeight(), 4);
     Sheet result{{}, Image(colour.width, colour.height, 1)};
@@ -46,7 +47,7 @@ double sum(const Image& image) {
     return total;
 }
 
-// Returns the variance in px² of the light along the rows.
+// Returns the horizontal variance of an image's radiance about its mean position, in px².
 double widthVariance(const Image& image) {
     double mean = 0;
     double square = 0;
@@ -62,8 +63,8 @@ double widthVariance(const Image& image) {
 const auto everywhere = [](float value) { return [value](int, int) { return value; }; };
 const auto point = [](int x, int y) { return x == 32 && y == 24 ? 50.0f : 0.0f; };
 
-// Each of N lens images is blurred by its lens cell, 1/N of the lens. For a blur diameter of c px over the whole lens,
-// this blur has a standard deviation of c/(2·√N) px.
+// Each of N lens images (views from lens points) is blurred by its lens cell, 1/N of the lens area. For a blur diameter
+// of c px over the whole lens, this blur has a standard deviation of c/(2·√N) px.
 TEST(GapFilling, blursAPointByItsCell) {
     for (const float depth : {0.5f, 4.0f})  // in front of and behind the focus plane at 1 m
         for (const double diameter : {4.0, 12.0, 20.0}) {

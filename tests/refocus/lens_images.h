@@ -1,5 +1,5 @@
 #pragma once
-// Files of lens images of the built-in school of fish.
+// Writes files of lens images, views from points of the lens, of the built-in school of fish.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ inline Request smallSchool() {
 
 class LightFieldTest : public OwnContextTest {
 protected:
-    // Renders lens images of a request. Returns the path of the file.
+    // Renders the lens images (views from lens points) of a request into a file, and returns its path.
     std::filesystem::path lensImages(const Request& request, std::optional<FocusRange> range) const {
         const std::filesystem::path path = folder_.path() / "a.lens.exr";
         SceneDriver driver(nullptr, request, {}, {});
@@ -44,7 +44,7 @@ protected:
         return path;
     }
 
-    // Returns the message with which a request is rejected; empty if it is accepted.
+    // Returns the error message with which the request is rejected; empty if it is accepted.
     std::string refusalOf(const Request& request, FocusRange range = {1.5, 3}) const {
         try {
             lensImages(request, range);
@@ -57,7 +57,7 @@ protected:
     ScratchFolder folder_;
 };
 
-// Returns the part of a picture without its margin.
+// Returns an image without its margin.
 inline Image within(const Image& image, int margin) {
     Image result(image.width - 2 * margin, image.height - 2 * margin, image.channels);
     const auto rowFloats = static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.channels);

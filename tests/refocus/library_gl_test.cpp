@@ -1,4 +1,5 @@
-// Tests the public LightField: it gives the pictures of the program, and rejects settings outside the rendered range.
+// Tests the library's class LightField: it gives the same images as the program, and rejects settings outside the
+// rendered range.
 
 #include <cmath>
 #include <limits>
@@ -85,7 +86,7 @@ TEST_F(LightFieldLibrary, cocIsThatOfTheChosenFocusAndAperture) {
     for (std::size_t i = 0; i < coc.pixels.size(); ++i) {
         if (std::isinf(direct.coc.pixels[i]) || std::isinf(depth.pixels[i]) ||
             std::abs(depth.pixels[i] - direct.depth.pixels[i]) > 0.002f * depth.pixels[i])
-            continue;  // both images show different surfaces, since their viewpoints differ slightly
+            continue;  // the two depth images show different surfaces, since their viewpoints differ slightly
         ++compared;
         EXPECT_NEAR(coc.pixels[i], direct.coc.pixels[i], 0.15);
     }

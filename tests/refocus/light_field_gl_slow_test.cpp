@@ -1,4 +1,4 @@
-// Compares refocused pictures with converged renders.
+// Compares refocused images with converged renders.
 
 #include <numeric>
 #include <vector>
@@ -10,9 +10,9 @@ namespace {
 
 class RefocusedError : public LightFieldTest {
 protected:
-    // Compares refocused pictures with renders with the same number of samples, both against a converged picture at
-    // full detail. `distances` begin with the nearest and end with the farthest focus of the range, in m. The loss is
-    // the mean of three seeds, because it varies by 1 dB with the sample points.
+    // Compares refocused images with renders with the same number of samples, both against a converged image at full
+    // detail. `distances` begin with the nearest and end with the farthest focus of the range, in m. The loss is the
+    // mean over three seeds, because it varies by 1 dB with the sample points.
     void expectSmallLoss(const Request& request, const std::vector<double>& distances) const {
         std::vector<double> losses(distances.size());
         std::vector<Image> truths;
@@ -52,7 +52,7 @@ TEST_F(RefocusedError, isSmallForTheSchool) {
     expectSmallLoss(smallSchool(), {1.3, 1.6, 2.5, 4});
 }
 
-// The chess board has lamps of high radiance and reaches from far in front of the focus to far behind it.
+// The chess board has lamps of high radiance and reaches from far in front of the focal plane to far behind it.
 TEST_F(RefocusedError, isSmallForTheChessBoard) {
     Request request = smallSchool();
     request.scene = std::filesystem::path(DEFOCUS_SOURCE_DIR) / "meshes/chess.glb";

@@ -1,4 +1,5 @@
-// Compares pictures from lens images with direct renders of the built-in school of fish.
+// Compares images refocused from lens images (views from lens points) with direct renders of the built-in school of
+// fish.
 
 #include <glm/geometric.hpp>
 
@@ -11,8 +12,8 @@
 namespace defocus::engine {
 namespace {
 
-// The layers of method accumulation are half floats. With a transparent background, nothing is composited over them, so
-// the file keeps every bit.
+// Method accumulation stores the image of each sample in half floats. With a transparent background, nothing is
+// composited over these images, so a file of lens images (views from lens points) keeps every bit.
 TEST_F(LightFieldTest, atTheRenderedFocusHasTheBitsOfAccumulation) {
     Request request = smallSchool();
     request.background = TransparentBackground{};
@@ -33,7 +34,7 @@ TEST_F(LightFieldTest, atTheRenderedFocusHasTheBitsOfAccumulation) {
     EXPECT_EQ(refocused(field, asRendered(info)).pixels, within(renderer->image(), info.size.margin).pixels);
 }
 
-// A lens point p of the wide aperture is the lens point 2·p of an aperture that is two stops smaller.
+// A point p of the wide lens is the point 2·p of a lens that is closed by two stops.
 TEST_F(LightFieldTest, stoppingDownIsARenderOfTheRemainingSamples) {
     Request request = smallSchool();
     request.samples = 256;
@@ -70,8 +71,8 @@ TEST_F(LightFieldTest, findsTheFocusOfAPixel) {
     EXPECT_THROW(focusAtPixel(field, {128, 0}), Error);
 }
 
-// The picture with everything in focus equals an antialiased pinhole picture. Only outlines may differ, where few lens
-// images show the surface.
+// The image with everything in focus equals an antialiased pinhole image. Only outlines may differ, where only few
+// views from lens points show the surface.
 TEST_F(LightFieldTest, theSharpPictureIsThatOfAPinhole) {
     Request request = smallSchool();
     request.lod = LodMode::off;

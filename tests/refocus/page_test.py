@@ -1,4 +1,4 @@
-"""Compares the page of `defocus refocus --html`, in headless Chromium, with pictures of `defocus refocus`.
+"""Compares the page of `defocus refocus --html`, in headless Chromium, with images of `defocus refocus`.
 
 page_test.py PROGRAM. Exits with 77 (skipped) without Chromium.
 
@@ -21,10 +21,10 @@ import threading
 SKIPPED = 77
 MIN_PSNR = 32
 SIZE = (320, 240)
-FISH = ((180, 112), (25, 215))  # pixels of two fish at different distances
+FISH = ((180, 112), (25, 215))  # positions in px of two fish at different distances
 
-# Performs `action` once the lens images are loaded, and requests /drawn after the next frame. Chromium takes the
-# screenshot after the page's load event, which the hidden image /wait delays until then.
+# Performs `action` once the page has loaded the lens images (views from lens points), and requests /drawn after the
+# next frame. Chromium takes the screenshot after the page's load event, which the hidden image /wait delays until then.
 SCRIPT = """<img src="http://127.0.0.1:%(port)d/wait" style="display: none">
 <script>
 function whenReady() {
@@ -35,14 +35,14 @@ function whenReady() {
 whenReady();
 </script>"""
 
-# Clicks on a pixel. Synthetic events have no pointer to capture, so setPointerCapture() must do nothing.
+# Clicks on a pixel. Simulated events have no pointer that the page can capture, so setPointerCapture() must do nothing.
 CLICK = """canvas.setPointerCapture = () => {};
   for (const type of ['pointerdown', 'pointerup'])
     canvas.dispatchEvent(new PointerEvent(type, { clientX: %d + .5, clientY: %d + .5, bubbles: true }));"""
 
 
 class Waiting(http.server.BaseHTTPRequestHandler):
-    """Answers a request for /wait only after a request for /drawn, or after two minutes."""
+    """Answers a request for /wait only once /drawn has been requested, or after two minutes."""
 
     def do_GET(self):
         if self.path == "/drawn":

@@ -1,4 +1,4 @@
-// Tests which lens images a refocused picture combines, and how they move.
+// Tests which lens images (views from points of the lens) a refocused image combines, and how it shifts them.
 
 #include "refocus/refocus.h"
 
@@ -18,7 +18,7 @@
 namespace defocus::engine {
 namespace {
 
-// Returns the description of 256 lens images of a 50 mm lens at f/2, focused at 2 m.
+// Returns the metadata of 256 lens images (views from lens points) of a 50 mm lens at f/2, focused at 2 m.
 LightFieldInfo describedImages() {
     LightFieldInfo info;
     info.size = {1000, 500, 20};
@@ -52,9 +52,9 @@ TEST(Refocus, asRenderedMovesNothing) {
     }
 }
 
-// A point at distance z has the CoC c = A·|1/s − 1/z|·W/(2·tan(θx/2)). The image of lens point (u, v) shows the point
-// displaced by c/2·(u, v) from its pinhole position; in front of the focus plane, the direction is reversed. Refocused
-// at z, the samples of all images with the same offset from the point lie in one pixel.
+// A point at distance z has the CoC c = A·|1/s − 1/z|·W/(2·tan(θx/2)). The view from lens point (u, v) shows the point
+// displaced by c/2·(u, v) from its pinhole position; in front of the focus plane, the direction is reversed. If the
+// image is refocused at z, the views' samples with the same offset from the point lie in one pixel.
 TEST(Refocus, bringsThePointInFocusTogether) {
     const LightFieldInfo info = describedImages();
     const double radius = 0.025 * (1 / 2.0 - 1 / 3.0) * 1000 / (2 * 0.36) / 2;
@@ -89,7 +89,7 @@ TEST(Refocus, weighsByTheApertureShape) {
     }
 }
 
-// An object that is sharp at some focus distance of the range has levels as fine as an object in focus.
+// An object that is sharp at some focus distance of the range has levels of detail as fine as an object in focus.
 TEST(Refocus, levelsSuitTheSharpestFocusOfTheRange) {
     const auto small = fiveSpheres();
     const auto lambdaOfFarSphere = [&](double focus, std::optional<FocusRange> range) {
@@ -129,7 +129,8 @@ TEST(Refocus, refusesWhatWasNotRendered) {
               "again without blades and other shapes");
 }
 
-// Returns the message with which lens images of a lens, focused at 2 m, are rejected; empty if they are accepted.
+// Returns the message with which lens images (views from lens points) of `lens`, focused at 2 m, are rejected; empty if
+// they are accepted.
 std::string refusalOf(const Lens& lens, double nearest = 1.5) {
     View view;
     view.lens = lens;
@@ -166,7 +167,8 @@ TEST(LensImages, needALensThatOnlyMovesThem) {
     EXPECT_NE(refusalOf({}, 1e-3).find("a focus from 0.001 to 3 m need a margin of"), std::string::npos);
 }
 
-// The margin is at least the largest shift of a lens image over the focus range, rounded to whole pixels.
+// The margin is at least the largest shift of a lens image (view from a lens point) over the focus range, rounded to
+// whole pixels.
 TEST(LensImages, haveAMarginForTheFocusRange) {
     View view;
     view.lens.focusDistance = 2;

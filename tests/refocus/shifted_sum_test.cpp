@@ -14,7 +14,8 @@ namespace {
 
 constexpr PartSize small{12, 8, 4};
 
-// Returns an image of the full size with the values of `value(x, y)`, in px right of and above the image's centre.
+// Returns an image with margin whose pixels have the values of `value(x, y)`. (x, y) is the position in px right of and
+// above the image's centre.
 template <typename Value>
 HalfImage pattern(const Value& value) {
     Image image(small.fullWidth(), small.fullHeight(), 4);
@@ -58,7 +59,7 @@ TEST(ShiftedSum, isTheWeightedMean) {
     for (std::size_t i = 0; i < mean.pixels.size(); ++i) EXPECT_FLOAT_EQ(mean.pixels[i], 2);
 }
 
-// Images are summed in blocks of 64, which here end within the second and the third call.
+// Images are summed in blocks of 64 images. Here, the blocks end within the second and the third call.
 TEST(ShiftedSum, doesNotDependOnTheDivisionIntoCalls) {
     std::vector<HalfImage> images;
     for (int i = 0; i < 150; ++i)

@@ -1,4 +1,4 @@
-// Compares the built-in environment maps with integrals and symmetries.
+// Compares the built-in environment maps with known integrals and symmetries.
 
 #include "scene/built_in_environment.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Converts a loaded scene to SceneData, so that tests can build it again from memory.
+// Converts a loaded scene to SceneData, so that tests can build the scene again from memory.
 
 #include <algorithm>
 #include <cstring>
@@ -13,8 +13,8 @@
 
 namespace defocus::engine {
 
-// Holds the data of a scene. Each mesh must have one primitive with texture coordinate set 0 and no texture transform.
-// Animations, skins and the environment are omitted.
+// Holds the arrays of a scene's SceneData. Each mesh must have one primitive with texture coordinate set 0 and no
+// texture transform. Animations, skins and the environment are omitted.
 class DataOfScene {
 public:
     explicit DataOfScene(const Scene& scene) : scene_(scene) {
@@ -51,8 +51,8 @@ private:
         return result;
     }
 
-    // Decodes the bytes of a texture to linear floats. The texture's content is `color` if a material uses it as base
-    // colour or emission, else `data`.
+    // Decodes the bytes of a texture to linear floats. The texture's content is `color` if a material uses the texture
+    // as base colour or emission, else `data`.
     void addTexture(int index) {
         const Texture& texture = scene_.textures[static_cast<std::size_t>(index)];
         const TextureImage& image = scene_.images[static_cast<std::size_t>(texture.image)];

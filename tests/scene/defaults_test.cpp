@@ -1,5 +1,5 @@
-// Checks the automatic camera by projection of the scene's bounds, and the default lighting by integration over a grey
-// ball.
+// Compares the automatic camera with the projection of the scene's bounds, and the default lighting with an integral
+// over a grey ball.
 
 #include "scene/defaults.h"
 

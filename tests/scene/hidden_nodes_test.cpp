@@ -41,7 +41,7 @@ TEST(HiddenNodes, takeWithThemWhatIsBelow) {
     EXPECT_EQ(shownNodes(scene, {"table"}), (std::vector{2, 3}));
     EXPECT_EQ(shownNodes(scene, {"cup"}), (std::vector{0, 2, 3}));
     EXPECT_EQ(shownNodes(scene, {"3", "cup"}), (std::vector{0, 2}));
-    // the name hides only the first of the nodes "lamp"
+    // a name hides only the first node of that name; the second node "lamp" stays visible
     EXPECT_EQ(shownNodes(scene, {"lamp"}), (std::vector{0, 1, 3}));
 }
 

@@ -1,4 +1,4 @@
-// Tests of vertex normals and tangents of meshes.
+// Tests vertex normals and tangents of meshes.
 
 #include "scene/mesh.h"
 
@@ -114,7 +114,7 @@ TEST(Tangents, ofATorusFollowItsFirstCoordinate) {
     }
 }
 
-// Tangents agree with those stored in a model's file, which another program computed.
+// Computed tangents agree with tangents that another program has stored in a model's file.
 TEST(Tangents, agreeWithThoseOfARealModel) {
     DEFOCUS_MODEL_OR_SKIP(path, "WaterBottle.glb");
     const Mesh mesh = loadGltf(path).meshes.at(0);

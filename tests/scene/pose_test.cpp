@@ -1,4 +1,4 @@
-// Compares node hierarchies and key frames with hand-computed values.
+// Compares poses of node hierarchies and key frames with values computed by hand.
 
 #include "scene/pose.h"
 

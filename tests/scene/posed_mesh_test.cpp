@@ -1,4 +1,4 @@
-// Compares morph targets and skins on the CPU with hand-multiplied matrices.
+// Compares vertices posed by morph targets and skins on the CPU with products of matrices computed by hand.
 
 #include "scene/posed_mesh.h"
 

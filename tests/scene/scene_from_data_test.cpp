@@ -20,8 +20,8 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Data of a scene with a square in the plane z = 0 and every other kind of content. Each test changes one part of the
-// data.
+// Data of a scene with a square in the plane z = 0, two textures, a camera and a light. Each test changes one part of
+// the data.
 struct Square {
     std::vector<std::array<float, 3>> positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
     std::vector<std::array<float, 3>> normals;
@@ -181,7 +181,7 @@ TEST(SceneFromData, texturesAreEncodedAsFilesStoreThem) {
     grey.pixels = {1.001f};
     EXPECT_EQ(textureImage({.image = grey}, "texture 0").rgba[0], 255);
 
-    // Every byte of both encodings survives the conversion to linear floats and back.
+    // Every byte of both encodings, sRGB and linear, survives the conversion to linear floats and back.
     Image all(256, 1, 1);
     for (const TextureContent content : {TextureContent::color, TextureContent::data}) {
         for (std::size_t i = 0; i < 256; ++i) {

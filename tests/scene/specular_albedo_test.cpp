@@ -1,4 +1,4 @@
-// Tests of the tabulated directional albedo of GGX against an integral over all normals of the distribution.
+// Tests the tabulated directional albedo of GGX against an integral over all normals of the distribution.
 
 #include "scene/specular_albedo.h"
 
@@ -12,14 +12,15 @@
 namespace defocus::engine {
 namespace {
 
-// Returns height-correlated Smith masking for cosines to the eye and to the light.
+// Returns the height-correlated Smith masking-shadowing term. nv and nl are the cosines of the angles between the
+// normal and the directions to the eye and to the light.
 double masking(double nv, double nl, double alpha) {
     const auto lambda = [&](double c) { return 0.5 * (std::sqrt(1 + alpha * alpha * (1 / (c * c) - 1)) - 1); };
     return 1 / (1 + lambda(nv) + lambda(nl));
 }
 
-// Returns the albedo for F0 and F90 = 1. Normals h are distributed like D·(n·h) (Walter et al. 2007, equation 35), for
-// which the integrand is F·G·(v·h) / ((n·v)·(n·h)).
+// Returns the albedo for Fresnel reflectances F0 = f0 and F90 = 1. Normals h are distributed with density D·(n·h)
+// (Walter et al. 2007, equation 35), for which the integrand is F·G·(v·h) / ((n·v)·(n·h)).
 double albedo(double nv, double roughness, double f0) {
     constexpr int heights = 4000;
     constexpr int azimuths = 200;

@@ -1,4 +1,4 @@
-// Tests that points and lines become quads that are one pixel wide in the view's projection.
+// Tests that points and lines become quads that are one pixel wide when they are projected to the image.
 
 #include "scene/strokes.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int pointsMode = 0, linesMode = 1, loopMode = 2, stripMode = 3;
 
-// Four points at different depths, off the view's axis.
+// Positions of four points at different depths, off the view's axis.
 const std::vector<float> places = {0.5f, 0.4f, 0, 1.5f, -0.3f, -2, -1, -1, 1, -1.2f, 0.8f, -0.5f};
 
 StrokeView viewFromSide() {
@@ -32,7 +32,7 @@ Scene drawn(const Scene& scene, const StrokeView& view) {
     return withStrokes(scene, poseAt(scene, 0), view);
 }
 
-// Returns the position of a vertex of the pose's first object in the image, in pixels from the centre.
+// Returns the image position, in pixels from the centre, of a vertex of the pose's first object.
 glm::dvec2 pixelOf(const Scene& scene, const StrokeView& view, std::uint32_t vertex) {
     const Object object = poseAt(scene, 0).objects.at(0);
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];

@@ -1,5 +1,5 @@
 // Tests that the built-in school of fish is a fair benchmark, and that its fish are valid input for a simplifier. The
-// tests have their own copy of the lens formulas.
+// tests have their own implementation of the lens formulas.
 
 #include "school/fish_school.h"
 

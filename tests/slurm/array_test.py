@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Tests Slurm job arrays on a real cluster of two nodes on the loopback interface.
 
-An array of tasks renders a film, and one task is killed half-way and queued again. The film must be complete and
-bit-identical to a single run. So must a frame that is split by samples or by rows, as in scripts/slurm/README.md, and
-merged.
+An array of tasks renders the frames of a video, and one task is killed half-way and queued again. The frames must be
+complete and bit-identical to a single run. So must a frame that is split by samples or by rows, as in
+scripts/slurm/README.md, and merged.
 
-array_test.py PROGRAM BATCH_FILE. Exit code 77: skipped; the reason is printed.
+    array_test.py PROGRAM BATCH_FILE
+
+Exit code 77: skipped; the reason is printed.
 """
 
 import json
@@ -162,8 +164,8 @@ def task_process(cluster, job, task):
 
 
 def share_film(cluster, program, batch, folder, samples):
-    """Renders a film by an array of tasks. Kills one task after a frame and queues it again. Returns False if this task
-    had already rendered all of its frames.
+    """Renders the frames of a video by an array of tasks. Kills one task after a frame and queues it again. Returns
+    False if this task had already rendered all of its frames.
     """
     shot = {"fish": {"count": 4, "triangles": 4000}, "range": [0, FRAMES - 1], "size": [256, 192], "samples": samples,
             "focus": {"keys": [{"frame": 0, "distance": 1}, {"frame": FRAMES - 1, "distance": 4}]}}

@@ -1,4 +1,4 @@
-// Checks the figures of `defocus bench view` against the picture that it measures.
+// Checks the numbers that `defocus bench view` prints against the images that it measures.
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,8 @@ TEST_F(BenchView, thePictureAtRestConvergesToTheReference) {
     EXPECT_GE(row.samples, 16u);
     // The estimated error at convergence is 0.005, which is a PSNR of 46 dB.
     EXPECT_GT(row.stillPsnr, 40);
-    // Each moving frame is compared with a reference of the same camera; a camera that is 1° off gives less than 20 dB.
+    // Each moving frame is compared with a reference of the same camera. A reference whose camera is 1° off gives less
+    // than 20 dB.
     EXPECT_GT(row.movingPsnr, 24);
     EXPECT_LT(row.movingPsnr, row.stillPsnr);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Drops files on a window of an X server as a file manager does. It is the source side of XDND version 5
+// Drops files on a window of an X server as a file manager does. It implements the source side of XDND version 5
 // (freedesktop.org, Drag-and-Drop Protocol for the X Window System).
 
 #include <xcb/xcb.h>

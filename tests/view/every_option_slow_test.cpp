@@ -37,8 +37,8 @@ protected:
         return state();
     }
 
-    // Returns a text with three results: the viewer's command for rendering its picture (with all non-default
-    // settings), the value of --wave, and the cache folders that exist.
+    // Returns a text with three results: the command that the viewer shows for rendering its image (with all
+    // non-default settings), the value of --wave, and the cache folders that exist.
     const std::string& seenOf(const Words& line) {
         const auto known = seen_.find(line);
         if (known != seen_.end()) return known->second;
@@ -64,8 +64,8 @@ private:
     std::map<Words, std::string> seen_;
 };
 
-// Number of settings per test, small enough that a test takes seconds. The test parameter is the index of the first
-// setting.
+// Number of settings that one test covers, so few that the test takes seconds. The test parameter is the index of the
+// first setting.
 constexpr std::size_t settingsATest = 6;
 
 std::vector<std::string> allOffered() {

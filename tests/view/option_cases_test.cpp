@@ -10,7 +10,7 @@ namespace defocus::engine {
 namespace {
 
 TEST(OptionsOfViewCommand, haveACase) {
-    // options with their own test in every_option_slow_test.cpp
+    // options of `defocus view` with their own test in every_option_slow_test.cpp
     const std::set<std::string> own = {"--frames", "--screenshot", "--stats"};
     for (const CLI::Option* option : optionsOffered("view"))
         if (const Setting* setting = settingOf(*option))

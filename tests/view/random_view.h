@@ -1,5 +1,5 @@
 #pragma once
-// Random options, lenses and cameras for tests that write views to files and read them back.
+// Makes random options, lenses and cameras for tests that write views to files and read them back.
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Tests that the render command that the viewer shows for its view gives the same view when it is parsed.
+// Tests that the viewer's text of a `defocus render` command gives the viewer's view when the command is parsed.
 
 #include "frame/report/render_command_text.h"
 
@@ -142,7 +142,7 @@ TEST(RenderCommandText, switchesBackWhatTheCameraSwitched) {
     EXPECT_FALSE(lens.focusBreathing);
 }
 
-// If the camera moves while the shutter is open, the command names the file's camera instead of a camera position.
+// If the camera moves while the shutter is open, the command names the camera of the scene file instead of a position.
 TEST(RenderCommandText, aCameraThatMovesDuringTheExposureIsTheFiles) {
     ShotRequest shot;
     shot.view.shutterCameras = {shot.view.worldFromCamera, shot.view.worldFromCamera};
@@ -168,7 +168,7 @@ TEST(RenderCommandText, namesWhatDiffersFromTheStandard) {
 
 // ---- random views
 
-// Expects equal options, except those of camera, lens and exposure, which the command takes from the view.
+// Expects equal options, except options of camera, lens and exposure, which the command takes from the view.
 void expectSameOptions(const Request& a, const Request& b) {
     for (const Setting& setting : settings()) {
         if (setting.group == SettingGroup::camera || setting.group == SettingGroup::lens ||

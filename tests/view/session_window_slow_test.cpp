@@ -1,4 +1,4 @@
-// Tests `defocus view` with longer sequences of mouse and keyboard input.
+// Tests the window of `defocus view` with longer sequences of mouse and keyboard input.
 
 #include <fmt/format.h>
 
@@ -61,15 +61,15 @@ TEST_F(View, dividerMovesUnderTheHandAndPsnrIsShown) {
     inTurn({"mousemove 201 200", "mousedown 1", "mousemove 250 200", "mousemove 300 200", "mouseup 1"});
     EXPECT_TRUE(reaches([](const json& s) { return std::abs(s.at("divider").get<double>() - 0.75) < 0.01; }))
         << state();
-    key("x");  // switches to a comparison with the nearest level
-    key("x");  // switches to a comparison with the reference, whose samples differ
+    key("x");  // switches to a comparison with level mode `nearest`
+    key("x");  // switches to a comparison with the reference image, whose samples differ
     EXPECT_TRUE(reaches([](const json& s) {
         return s.at("comparison") == 3 && s.at("psnr").is_number() && s.at("psnr") > 20;
     })) << state();
 }
 
-// With an open shutter, and after a step to the next frame, the exported image equals the image that the command
-// renders.
+// With an open shutter, and after a step to the next frame, the exported image equals the image that `defocus render`
+// renders for the same time and shutter.
 TEST_F(View, shutterStaysOpenAtAnotherTime) {
     const std::string scene = std::string(DEFOCUS_SOURCE_DIR) + "/meshes/swimmers.glb";
     start({scene, "--size", "260x150", "--samples", "4", "--lod", "off", "--time", "0.5", "--shutter", "0.2"});

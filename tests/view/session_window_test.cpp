@@ -1,4 +1,4 @@
-// Tests `defocus view` with mouse and keyboard input.
+// Tests the window of `defocus view` with mouse and keyboard input.
 
 #include <algorithm>
 #include <cmath>
@@ -111,7 +111,7 @@ TEST_F(View, interfaceFollowsTheScreensResolution) {
         const auto scaled = [&](double units) { return static_cast<int>(std::lround(units * scale)); };
         ASSERT_EQ(image.width, scaled(614));
         ASSERT_EQ(image.height, scaled(150));
-        // The panel's background begins at the picture's right edge.
+        // The panel's background begins at the right edge of the rendered image.
         const float* ground = image.at(scaled(250) + 2, scaled(3));
         EXPECT_NEAR(ground[0], 0.016f, 0.004f);
         EXPECT_EQ(ground[0], ground[2]);

@@ -25,8 +25,8 @@ TEST_F(ViewSoak, scenesInTurnTakeNoMoreMemoryAndLeaveNoHandleOpen) {
     ASSERT_TRUE(showsScene("scene0.gltf")) << state();
     DropSource hand(display());
     Held before, after;
-    // A reading depends on what the viewer draws at that moment, and varies by 20 MB. The minimum of ten readings is
-    // steady.
+    // A memory reading depends on what the viewer draws at that moment, and varies by 20 MB. The minimum of ten
+    // readings is steady.
     const auto keepLeast = [this](Held& least) {
         const Held now = heldBy(process());
         least.megabytes = least.megabytes > 0 ? std::min(least.megabytes, now.megabytes) : now.megabytes;
@@ -41,8 +41,8 @@ TEST_F(ViewSoak, scenesInTurnTakeNoMoreMemoryAndLeaveNoHandleOpen) {
     }
     fmt::print("{} scenes: {:.1f} MB after {}, {:.1f} MB at the end; {} and {} handles\n", scenes, before.megabytes,
                early, after.megabytes, before.handles, after.handles);
-    // The allocators' memory stops growing after some tens of scenes. A short run finds leaks of one window-sized image
-    // per scene; a long run finds any leak.
+    // The memory that allocators hold stops growing after some tens of scenes. A short run finds leaks of one image of
+    // the window's size per scene; a long run finds any leak.
     const double settled = 0.02 * before.megabytes;
     const double imagesKept = (scenes - early) * 320 * 240 * 4e-6;
     EXPECT_LE(after.megabytes - before.megabytes, scenes < 500 ? imagesKept : settled);

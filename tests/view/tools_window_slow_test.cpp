@@ -1,4 +1,4 @@
-// Tests of tools beside the picture that take several steps: undo, dialogs, the scene tree, saved views.
+// Tests tools of the window that take several steps: undo, dialogs, the scene tree, saved views.
 
 #include <fmt/format.h>
 
@@ -40,7 +40,7 @@ TEST_F(ViewTools, aDragIsUndoneAndRedoneAsOneStep) {
     ASSERT_TRUE(reaches([&](const json& s) { return s.at("cameraPosition") == after && s.at("redoSteps") == 1; }))
         << state();
     ASSERT_TRUE(clicks("Reset all", [&](const json& s) { return s.at("cameraPosition") == before; })) << state();
-    key("ctrl+z");  // undoes the reset, which is a step of its own
+    key("ctrl+z");  // undoes the reset, which is a separate step
     EXPECT_TRUE(reaches([&](const json& s) { return s.at("cameraPosition") == after; })) << state();
 }
 

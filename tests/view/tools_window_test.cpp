@@ -1,4 +1,4 @@
-// Tests of tools beside the picture: undo, dialogs, the scene tree, saved views, full screen.
+// Tests tools of the window: undo, dialogs, the scene tree, saved views, full screen.
 
 #include <fmt/format.h>
 
@@ -57,7 +57,7 @@ TEST_F(ViewTools, lightsGetASizeAndTheirOwnBack) {
     ASSERT_FALSE(isSized(state()));
     const std::uint64_t before = state().at("changes");
     ASSERT_TRUE(clicks("lightAngle", isSized)) << state();
-    EXPECT_TRUE(reaches([&](const json& s) { return s.at("changes") > before; })) << state();  // the picture is redrawn
+    EXPECT_TRUE(reaches([&](const json& s) { return s.at("changes") > before; })) << state();  // the image is redrawn
     key("ctrl+z");
     EXPECT_TRUE(reaches([&](const json& s) { return !isSized(s); })) << state();
 }
@@ -135,8 +135,7 @@ TEST_F(ViewTools, extensionsThatAreIgnoredAreListed) {
     EXPECT_TRUE(reaches([](const json& s) { return s.at("places").contains("ignored"); })) << state();
 }
 
-// No input is lost if it arrives faster than frames are drawn. In the test, all input arrives within one frame of a
-// slow machine.
+// No input is lost if it arrives faster than frames are drawn. In the test, all input arrives within a single frame.
 TEST_F(ViewTools, aHandThatIsFasterThanTheFramesLosesNothing) {
     openTwoQuads();
     writeTwoQuads(folder() / "other.gltf");

@@ -1,5 +1,5 @@
 #pragma once
-// Fixtures that open two squares in the viewer, and functions that act as the user.
+// Fixtures that open a scene of two squares in the viewer, and functions that simulate the user.
 
 #include <gtest/gtest.h>
 
@@ -16,10 +16,10 @@
 
 namespace defocus::engine {
 
-// Window with the picture at the left and the panel at the right, from x = 400 px.
+// Fixture of a window with the rendered image at the left and the panel at the right, from x = 400 px.
 class SessionWindow : public ViewProgram {
 protected:
-    // Opens a picture of 400 × 300 px with two squares: "Near" at 2 m around (200, 67), "Far" at 8 m around (360, 150).
+    // Opens an image of 400 × 300 px with two squares: "Near" at 2 m around (200, 67), "Far" at 8 m around (360, 150).
     void openTwoQuads(std::vector<std::string> more = {}) {
         writeTwoQuads(folder() / "quads.gltf");
         more.insert(more.begin(), {"quads.gltf", "--size", "400x300"});
@@ -33,7 +33,7 @@ protected:
     }
     double number(const char* name) const { return state().at(name).get<double>(); }
     // Presses a key that changes the state, which proves that earlier input has been processed. Returns true once the
-    // view no longer changes.
+    // image no longer changes.
     bool comesToRest() const {
         const bool dark = state().at("dark").get<bool>();
         key("t");
@@ -66,9 +66,9 @@ protected:
 // Fixture of a viewer whose PATH contains no desktop programs, such as file dialogs.
 class ViewTools : public ViewProgram {
 protected:
-    // Opens a picture of 400 × 300 px with two squares: "Near" at 2 m around (200, 67), "Far" at 8 m around (360, 150).
+    // Opens an image of 400 × 300 px with two squares: "Near" at 2 m around (200, 67), "Far" at 8 m around (360, 150).
     void openTwoQuads(std::vector<std::string> more = {}) { openScene("400x300", std::move(more)); }
-    // Opens the same scene in a window tall enough for most of the panel.
+    // Opens the scene of two squares in a window that is tall enough for most of the panel.
     void openTall(std::vector<std::string> more = {}) { openScene("400x700", std::move(more)); }
     void openScene(const std::string& size, std::vector<std::string> more) {
         writeTwoQuads(folder() / "quads.gltf");

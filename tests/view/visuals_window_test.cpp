@@ -1,4 +1,4 @@
-// Tests of screens with unusual colour depths instead of 24 bits, and of screens without OpenGL.
+// Tests the window on screens with unusual colour depths instead of 24 bits, and on screens without OpenGL.
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@ namespace {
 
 class Visuals : public ViewProgram {
 protected:
-    static void SetUpTestSuite() {}  // no common screen, since each test starts its own
+    static void SetUpTestSuite() {}  // starts no screen, since each test starts its own
     void SetUp() override {
         beginServer(screen());
         ViewProgram::SetUp();

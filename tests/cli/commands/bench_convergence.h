@@ -48,7 +48,7 @@ protected:
     }
 
     // Expects a self-contained HTML page: it loads nothing from other hosts, its links lead into the page or to data
-    // files beside it, and every picture has alternative text.
+    // files beside it, and every image has alternative text.
     static void expectWholePage(const std::string& page) {
         const std::regex outside(
             "src=\"(?!data:)|href=\"(?!data:|#|[a-z]+[.](json|csv)\")|url\\((?!#)|@import|<script(?!>)|<link");

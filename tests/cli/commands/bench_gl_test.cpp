@@ -86,7 +86,8 @@ TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
     // refused although the reference image is the same
     expectRefused("has results of another scene", {"--resume", "--seed", "7"});
 
-    // The folder has a reference image but no measured runs, as after a bench that was killed before its first run.
+    // The folder contains a reference image but no measured runs, as after a bench that was killed before its first
+    // run.
     fs::remove(folder() / "out/runs.csv");
     const std::string reference = textOf(folder() / "out/reference.exr");
     const Outcome other = bench({"-o", "out", "--focus-distance", "3"});
@@ -144,8 +145,8 @@ protected:
     }
 };
 
-// With --preset, the bench measures the published algorithm first, then the same command without the preset. Further
-// options override the preset; here they turn its levels of detail off.
+// With --preset, the bench first measures the command with the preset, a published algorithm, and then without it.
+// Further options override the preset; here they turn its levels of detail off.
 TEST_F(BenchSpeedup, measuresAPresetBesideNone) {
     const nlohmann::json plain = rows({});
     ASSERT_EQ(plain.size(), 3u);

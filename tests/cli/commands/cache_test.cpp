@@ -1,4 +1,4 @@
-// Tests of the cache on the command line: --cache-dir, --no-cache, `defocus cache list` and `defocus cache clear`.
+// Tests the cache on the command line: --cache-dir, --no-cache, `defocus cache list` and `defocus cache clear`.
 
 #include <regex>
 
@@ -11,8 +11,8 @@ namespace fs = std::filesystem;
 
 class Cache : public ProgramTest {
 protected:
-    // Runs `defocus plan` for two small fish, which need pyramids. With --verbose, the program prints how many pyramids
-    // came from the cache.
+    // Runs `defocus plan` for two small fish, which need level-of-detail pyramids. With --verbose, the program prints
+    // how many pyramids came from the cache.
     Outcome plan(std::vector<std::string> arguments = {}, std::size_t maxFileBytes = 0) const {
         arguments.insert(arguments.begin(), {"plan", "--fish", "2", "--fish-triangles", "2000", "--samples", "64"});
         const Outcome outcome = run(arguments, maxFileBytes);

@@ -32,7 +32,7 @@ TEST_F(Capture, writesEachFrameWithItsMetadataAndASidecarOfTimes) {
         EXPECT_DOUBLE_EQ(std::get<double>(metadata.at("defocus:time")), frame / 10.0);
         EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), 8);
         EXPECT_FALSE(metadata.contains("defocus:seconds"));
-        // The f-number changes from f/1.4 to f/2.8, two stops, as a smoothstep function of time in stops.
+        // The f-number changes by two stops, from f/1.4 to f/2.8. Its logarithm is a smoothstep function of time.
         const double t = frame / 7.0;
         EXPECT_NEAR(std::get<double>(metadata.at("aperture")), 1.4 * std::exp2(t * t * (3 - 2 * t)), 1e-5);
         if (frame == 0) {
@@ -68,7 +68,7 @@ TEST_F(Capture, levelsChangePixelByPixelByDefault) {
 }
 
 // A frame is bit-identical if it is rendered alone, in the sequence, in another shard (part of the frames), with a
-// second output format, or with fewer samples at once (--wave).
+// second output format, or with fewer samples drawn together (--wave).
 TEST_F(Capture, aFrameIsTheSameBitsHoweverItIsRendered) {
     ASSERT_EQ(capture({}).exitCode, 0);
     ASSERT_EQ(capture({"--range", "5", "-o", "alone/####.exr"}).exitCode, 0);

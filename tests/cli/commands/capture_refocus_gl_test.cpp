@@ -1,5 +1,5 @@
-// Tests `defocus capture --refocus`: frames of a still scene come from one set of lens images, other frames are
-// rendered.
+// Tests `defocus capture --refocus`: frames of a still scene are refocused from lens images (views from points of the
+// lens), and other frames are rendered.
 
 #include "cli/shots.h"
 #include "image/image_io.h"
@@ -13,7 +13,7 @@ using nlohmann::json;
 
 class CaptureRefocus : public Capture {
 protected:
-    // Returns a shot in which only the focus changes, with 64 samples per frame.
+    // Returns a shot in which only the focus distance changes, with 64 samples per frame.
     static json focusPull() {
         json document = shot();
         document.erase("camera");
@@ -70,7 +70,8 @@ TEST_F(CaptureRefocus, aFrameIsTheSameBitsHoweverItIsRendered) {
     expectOneLine(filmed("all", {"--resume"}), 1);  // fails, since the existing frames have other settings
 }
 
-// The aperture closes by two stops, to a quarter of its area. Thus 4 · 64 lens images give the last frame 64 samples.
+// The aperture closes by two stops, to a quarter of its area. Thus 4 · 64 lens images (views from lens points) give the
+// last frame 64 samples.
 TEST_F(CaptureRefocus, smallAperturesHaveAsManySamples) {
     json document = focusPull();
     document["lens"] = {{"fStop", {{"keys", {{{"frame", 0}, {"value", 1.4}}, {{"frame", 7}, {"value", 2.8}}}}}},
@@ -86,10 +87,12 @@ TEST_F(CaptureRefocus, smallAperturesHaveAsManySamples) {
     };
     EXPECT_EQ(samples(0), 256);
     EXPECT_NEAR(samples(7), 64 * 0.827, 4);               // the hexagon has 82.7 % of the disk's area
-    document["lens"]["fStop"]["keys"][1]["value"] = 5.6;  // closing by four stops needs 16 · 64 images
+    document["lens"]["fStop"]["keys"][1]["value"] = 5.6;  // closing by four stops needs 16 · 64 lens images
     writeShot(document);
     const std::string plan = filmed("far", {"--refocus", "--dry-run"}).out;
-    EXPECT_NE(plan.find("0000.exr (refocused)"), std::string::npos) << plan;  // several sets of lens images cost less
+    // Several small sets of lens images (views from lens points), each for some frames, cost less than one set of 16 ·
+    // 64.
+    EXPECT_NE(plan.find("0000.exr (refocused)"), std::string::npos) << plan;
 }
 
 TEST_F(CaptureRefocus, framesWithMotionStayTheSame) {

@@ -86,8 +86,8 @@ TEST_F(Survival, killedFiftyTimesAndResumed) {
     std::mt19937 random(7);
     int before = 0;
     for (int i = 0; i < 50; ++i) {
-        // More than half of the frames are still missing, so the capture makes more than a third of the system calls
-        // of an undisturbed run.
+        // Each run starts with more than half of the frames missing, so it makes about half of the system calls of an
+        // undisturbed run or more. A kill within the first third of these calls thus always interrupts it.
         TracedChild child = startTraced();
         EXPECT_EQ(child.end(std::uniform_int_distribution(1, calls / 3)(random), SIGKILL), 128 + SIGKILL) << i;
         for (int number = 0; number < frames; ++number) {
@@ -107,9 +107,9 @@ TEST_F(Survival, killedFiftyTimesAndResumed) {
     expectNothingHalf();
 }
 
-// Several captures can render the same frames at once. Each has its own temporary files, ignores those of the others,
-// and renames its complete frames, which are bit-identical. The captures start together, or each starts after the
-// previous one has finished some frames.
+// Several captures can render the same frames at once. Each has its own temporary files, ignores those of the other
+// captures, and renames its complete frames, which are bit-identical. The captures start together, or each starts after
+// the previous one has finished some frames.
 TEST_F(Survival, severalAtOnceOnTheSameFrames) {
     ASSERT_EQ(capture({"--range", "0:23", "-o", "whole/####.exr"}).exitCode, 0);
     for (int round = 0; round < 3; ++round) {

@@ -1,4 +1,4 @@
-// Tests of `defocus compare`, which runs in the test process.
+// Tests `defocus compare`, which runs in the test process.
 
 #include <gtest/gtest.h>
 
@@ -33,8 +33,8 @@ protected:
         std::filesystem::remove_all(folder, ignored);
     }
 
-    // Returns the output of `compare` with these arguments. @six, @five, @small and @none are placeholders for the
-    // paths of the test's files.
+    // Returns the output of `defocus compare` with these arguments. @six, @five, @small and @none stand for the paths
+    // of the test's files.
     std::string run(std::string arguments) const {
         for (const char* name : {"six", "five", "small", "none"}) {
             const std::string word = std::string("@") + name;

@@ -49,7 +49,7 @@ TEST_F(ExportCamera, roundTrips) {
         const Outcome outcome = run(words);
         ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
         json again = exported({"--camera-from", name, "--range", "0:3", "--frame-rate", "10"});
-        // glTF has no shutter.
+        // glTF cannot store the shutter, so its comparison is skipped for the glTF file.
         if (std::string(name) == "shot.gltf") again["shutter"] = direct.at("shutter");
         for (const char* key : {"aspectRatio", "samples", "shutter"}) expectNear(direct.at(key), again.at(key), key);
     }
@@ -61,7 +61,7 @@ TEST_F(ExportCamera, keepsAPinhole) {
     EXPECT_EQ(exported({"--camera-from", "pinhole.usda"}).at("samples").at(0).at("lens").at("dofEnabled"), 0);
 }
 
-// A frame's view has the position, the focus and the shutter of the USD camera.
+// The view of a frame has the position, the focus distance and the shutter of the USD camera.
 TEST_F(ExportCamera, usdCamerasReachTheFrame) {
     const Outcome plan =
         run({"plan", "ball.glb", "--camera-from", "shot.usda", "--size", "640x480", "--samples", "4", "--json"});

@@ -1,4 +1,4 @@
-// Tests of `defocus info`, which runs in the test process.
+// Tests `defocus info`, which runs in the test process.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Tests that merged parts of a frame's samples are bit-identical to a single run, and that parts of different frames
-// are rejected.
+// Tests that files with parts of a frame's samples merge into a file that is bit-identical to a single run's, and that
+// parts of different frames are rejected.
 
 #include <algorithm>
 
@@ -62,7 +62,7 @@ TEST_F(Merge, partsOfACaptureGiveItsFilesByteForByte) {
     EXPECT_NE(resumed.err.find("1 of them from earlier runs"), std::string::npos) << resumed.err;
 }
 
-// Merged parts of a frame with motion blur equal a single run, since the time of a sample does not depend on the part
+// Merged parts of a frame with motion blur equal a single run, since the time of a sample does not depend on the file
 // that contains it. The camera rotates while the shutter is open.
 TEST_F(Merge, partsOfAFrameWithMotionBlurGiveItsFileByteForByte) {
     nlohmann::json document = shot();

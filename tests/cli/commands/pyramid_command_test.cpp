@@ -1,4 +1,4 @@
-// Tests of `defocus pyramid`, which runs in the test process.
+// Tests `defocus pyramid`, which runs in the test process.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Tests `render --lens-images` and `refocus`: their output files, and that each invalid use gives one error line and no
-// file.
+// Tests the commands `render --lens-images` and `refocus`: their output files, and that each invalid use gives one
+// error line and no file.
 
 #include <fstream>
 #include <iterator>
@@ -44,7 +44,7 @@ protected:
 
 TEST_F(RefocusCommand, writesPicturesStacksAndPages) {
     ASSERT_EQ(lensImages({"--samples", "16", "--focus-range", "2:5", "--lens-images", "a.lens.exr"}).exitCode, 0);
-    // A reader that expects a single image gets the image of the first lens point.
+    // A reader that expects a single image reads only the image of the first lens point.
     EXPECT_EQ(readImage(folder() / "a.lens.exr").channels, 4);
 
     ASSERT_EQ(run({"refocus", "a.lens.exr", "-o", "a.exr", "-o", "a.png", "--focus-distance", "4"}).exitCode, 0);
@@ -80,7 +80,7 @@ TEST_F(RefocusCommand, filmsFocusPulls) {
     EXPECT_TRUE(two.starts_with("GIF8"));
     EXPECT_NE(film("3", "10"), two);
     EXPECT_NE(film("2", "20"), two);
-    EXPECT_EQ(fileCount(), files + 1);  // temporary frames are removed
+    EXPECT_EQ(fileCount(), files + 1);  // the temporary frames of the video are removed
 }
 
 TEST_F(RefocusCommand, refusesWhatWasNotRendered) {

@@ -1,4 +1,4 @@
-// End-to-end tests of `defocus render`: files, metadata, statistics, and a full disk.
+// End-to-end tests of `defocus render`: its image files, metadata and statistics, and its behaviour on a full disk.
 
 #include <algorithm>
 #include <cmath>

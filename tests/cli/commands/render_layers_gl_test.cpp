@@ -1,4 +1,4 @@
-// Tests of `defocus render --exr-layers` and of the files that it writes.
+// Tests `defocus render --exr-layers` and the files that it writes.
 
 #include <cstdlib>
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array<double, 4> radii = {1, 0.8, 0.55, 0.3};  // radius of each level in m
 
-// A pyramid of white unlit spheres on an empty background, each level smaller than the previous one.
+// A pyramid of white unlit spheres on an empty background, each level with a smaller radius than the previous one.
 struct ShrinkingSphere {
     ShrinkingSphere() {
         Mesh mesh = sphere(96, 48);

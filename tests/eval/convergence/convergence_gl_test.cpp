@@ -1,4 +1,4 @@
-// Tests of `bench convergence` on a small world: its measurements, its checks, and which runs it skips or resumes.
+// Tests `bench convergence` on a small world: its measurements, its checks, and which runs it skips or resumes.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,8 @@ private:
 
 class Convergence : public testing::Test {
 protected:
-    // Renders the reference once for all tests, since rendering it takes longer than most of the compared images.
+    // Renders the reference image once for all tests, since this takes longer than rendering most of the compared
+    // images.
     static void SetUpTestSuite() {
         context_ = createHeadlessContext();
         const std::unique_ptr<SmallWorld> small = smallSpheres();
@@ -232,7 +233,7 @@ TEST_F(Convergence, methodsThatCanOnlyShowAnotherImageAreLeftOut) {
         EXPECT_EQ(measured + leftOut_.size(), 3u);
         return names;
     };
-    EXPECT_EQ(namesLeftOut(), "unshaded ");  // unshaded methods are left out, since the spheres are lit
+    EXPECT_EQ(namesLeftOut(), "unshaded ");  // method `unshaded` is left out, since the spheres are lit
 
     Pose moved = small_->world.pose;
     for (Object& object : moved.objects) object.worldFromObject[3].x += 0.2;

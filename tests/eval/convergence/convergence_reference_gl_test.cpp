@@ -1,4 +1,4 @@
-// Tests of the reference image: the stored mean, the accuracy of its error estimate, and its reuse.
+// Tests the reference image: the stored mean, the accuracy of its error estimate, and its reuse.
 
 #include <gtest/gtest.h>
 
@@ -57,14 +57,14 @@ TEST_F(ConvergenceReference, isTheMeanOfAllItsSamplesAtFullDetail) {
 }
 
 // The reference's error estimate is half the difference between the means of its two halves, which is right for
-// independent errors. Points of one half fill gaps of the other, so the true error may be smaller.
+// independent errors. Sample points of one half fill gaps between those of the other, so the true error may be smaller.
 TEST_F(ConvergenceReference, knowsTheOrderOfItsOwnError) {
     const ReferenceImage coarse = reference(16);
     const ReferenceImage fine = reference(512);
     const double error = compareImages(fine.image, coarse.image).rmse;
     EXPECT_LE(error, 1.25 * coarse.remaining.rmse);
     EXPECT_GE(error, 0.4 * coarse.remaining.rmse);
-    // random samples would reduce the error only by a factor of √32
+    // with 32 times as many samples, random samples would reduce the error only by a factor of √32
     EXPECT_LT(fine.remaining.rmse, coarse.remaining.rmse / std::sqrt(32.0));
     EXPECT_NEAR(coarse.remaining.psnr, -20 * std::log10(coarse.remaining.rmse), 1e-9);
 }

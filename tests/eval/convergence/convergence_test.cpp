@@ -1,5 +1,5 @@
-// Tests of the parts of bench convergence that need no GPU: rows, Pareto fronts, error floors, journal, cases and
-// crops.
+// Tests those parts of `bench convergence` that need no GPU: rows, Pareto fronts, error floors, the journal of finished
+// runs, measured cases and image crops.
 
 #include "eval/convergence/convergence.h"
 
@@ -144,7 +144,7 @@ TEST(ConvergenceRows, markFrontsAndLeaveFaultsOff) {
     EXPECT_NE(convergenceLine(rows[3]).find("NaN or infinite"), std::string::npos);
 }
 
-// Rows mark errors below the reference's own error, which is an RMSE of 0.1 and a FLIP of 0.02 here.
+// Rows of the results mark errors below the reference image's own error, here an RMSE of 0.1 and a FLIP of 0.02.
 TEST(ConvergenceRows, sayWhichErrorsAreBelowTheReferencesOwn) {
     std::vector<ConvergenceRun> runs;
     for (const auto& [mse, flip] : {std::pair{0.02, 0.03}, {0.009, 0.03}, {0.02, 0.01}, {0.009, 0.01}}) {
@@ -296,7 +296,7 @@ TEST(ConvergenceCases, followTheTableAndTheLists) {
                                   "rays standard 16", "embree standard 16"}));
 
     // The cases always include full detail and the ray tracer `embree`. Without a list of methods, they include every
-    // method except `auto`, which equals another method.
+    // method except `auto`, which only chooses between two of the others.
     options.lods = {LodMode::nearest};
     options.sampleCounts = {4};
     options.methods = {parseMethodUse("blur")};

@@ -6,7 +6,7 @@
 namespace defocus::engine {
 namespace {
 
-// An unlit scene stores reflected light in its vertex colours. A quad that faces +z, under a light from (0.4, 0.8,
+// Lighting is baked into the vertex colours of an unlit scene. A quad that faces +z, under a light from (0.4, 0.8,
 // 0.6)/√1.16, reflects 0.2 + 0.8·0.6/√1.16 of its colour.
 TEST(ConvergenceUnlit, paintsTheLightOnTheVertices) {
     Scene scene;

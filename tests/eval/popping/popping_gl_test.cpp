@@ -89,9 +89,9 @@ TEST_F(Popping, firstResultIsAQuarterOfTheFirstMovement) {
     }
 }
 
-// A pop is the image change if all N lens samples change their level at once. A change of one sample is a small part of
-// the pop. By the triangle inequality, this part is at least 1/N on average. Changes of different samples cancel at
-// most like independent random changes, so the part is at most about 1/√N.
+// A pop is the image change if all N lens samples switch to another level at once. If one sample switches, the image
+// changes by a fraction of the pop. By the triangle inequality, this fraction is at least 1/N on average. Changes of
+// different samples cancel at most like independent random changes, so the fraction is at most about 1/√N.
 TEST_F(Popping, oneSamplesStepIsASmallPartOfALevels) {
     options_.sampleCounts = {4, 16};
     options_.frames = 2;

@@ -95,7 +95,7 @@ TEST(PoppingPaths, impossibleMovementsAreErrors) {
     EXPECT_THROW(framesAlong(Movement::dolly, small->world, small->view, 2), Error) << "the camera sees no object";
 }
 
-// The busiest stretch has the largest number of level changes in mode `nearest` among all stretches of the same length.
+// The busiest stretch of a movement has more level changes in mode `nearest` than any other stretch of the same length.
 TEST(PoppingPaths, theBusiestStretchHasTheMostChangesOfLevel) {
     const auto small = spheres();
     const std::vector<MovementFrame> frames = framesAlong(Movement::focusPull, small->world, small->view, 40);
@@ -148,7 +148,7 @@ TEST(PoppingPixels, growByHalfTheBlur) {
 
 // ---- summaries of the frames ----------------------------------------------------------------------------------------
 
-// Returns 101 frames whose change is 0 … 100 in mode `nearest` and half as large in mode `fractional`. The 99th
+// Returns 101 frames whose image change is 0 … 100 in mode `nearest` and half as large in mode `fractional`. The 99th
 // percentile is the second largest change.
 std::vector<PoppingFrame> ramp() {
     std::vector<PoppingFrame> frames;

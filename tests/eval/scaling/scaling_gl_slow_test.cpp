@@ -7,7 +7,7 @@
 namespace defocus::engine {
 namespace {
 
-// Each point of an axis, a varied property of the scene, is measured with and without levels of detail. The axis
+// Each point of an axis (a scene property that is varied) is measured with and without levels of detail. The axis
 // `instances` has the smallest meshes: one fish, drawn up to 10,000 times.
 TEST(Scaling, measuresEachPointOfAnAxisInBothModes) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();

@@ -28,8 +28,8 @@ TEST(ScalingFit, ofAPowerIsItsExponent) {
     }
 }
 
-// The exponent is fitted to the upper half of the values on a logarithmic scale: for values from 1 to 1000, from √1000
-// on.
+// The exponent is fitted to the upper half of the values on a logarithmic scale. For values from 1 to 1000, this is the
+// half from √1000 on.
 TEST(ScalingFit, looksAtTheUpperHalfAlone) {
     const std::optional<PowerLaw> law = fittedPowerLaw(Points{{1000, 50}, {1, 900}, {100, 5}, {10, 900}});
     ASSERT_TRUE(law);
@@ -75,7 +75,7 @@ TEST(ScalingParts, theRestIsFill) {
     EXPECT_EQ(rowOf(1, 10, 4, 8).fill.median, 0) << "overlapping parts leave no time for fill";
 }
 
-// `fill` is the part of the frame time that layers and vertices do not explain. Its spread is computed from its values
+// `fill` is the frame time minus the times of layers and of vertices. The spread of `fill` is computed from its values
 // in the three runs: 5, 7 and 6 ms.
 TEST(ScalingParts, spreadAsTheirRunsDo) {
     ScalingRow row;
@@ -88,15 +88,15 @@ TEST(ScalingParts, spreadAsTheirRunsDo) {
 }
 
 TEST(ScalingParts, areAlikeWhereNoneIsLargerBeyondDoubt) {
-    // A single run gives no estimate of its noise: vertices (23.5 ms of 60 ms) and fill (24.1 ms) are too close to
-    // rank.
+    // A single run gives no estimate of its noise: vertices (23.5 ms of 60 ms) and fill (24.1 ms) are too close to call
+    // one of them the larger part.
     EXPECT_EQ(rowOf(1, 60, 12.4, 23.5).largestParts(), (Parts{ScalingPart::vertices, ScalingPart::fill}));
     EXPECT_EQ(rowOf(1, 60, 12.4, 21).largestParts(), Parts{ScalingPart::fill});
     EXPECT_EQ(rowOf(1, 60, 20, 20).largestParts(),
               (Parts{ScalingPart::layers, ScalingPart::vertices, ScalingPart::fill}));
 
-    // Fill takes about 40 ms and layers 30 ms. In the first measurement, fill is larger in all runs; in the second, the
-    // runs overlap.
+    // The part `fill` takes about 40 ms of the frame, the part `layers` 30 ms. In the first measurement, `fill` is
+    // larger in all runs; in the second, the ranges of both parts overlap.
     ScalingRow row;
     setTimes(row, {{72, 71, 73}, {30, 29, 31}, {2, 2, 2}});
     EXPECT_EQ(row.largestParts(), Parts{ScalingPart::fill});
@@ -186,7 +186,7 @@ TEST(ScalingWorlds, aSchoolHasAboutTheTrianglesAskedFor) {
 }
 
 // Grids of any number of instances fill the same view. Every instance lies completely within the view and fills its
-// cell; the layers lie between 2 and 6 m.
+// cell of the grid; the layers of the grid lie at depths from 2 to 6 m.
 TEST(ScalingWorlds, aGridFillsTheSameView) {
     for (const int instances : {1, 8, 100, 1000}) {
         const ScalingWorld grid = gridOf(instances, 300, {});

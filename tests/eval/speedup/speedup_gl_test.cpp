@@ -25,7 +25,7 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
     std::vector<SpeedupRow> rows;
     measureSpeedup(forms, small->view, options, [&](const SpeedupRow& row) { rows.push_back(row); });
 
-    ASSERT_EQ(rows.size(), 9u);  // 3 combinations of lens and sample count × 3 level modes
+    ASSERT_EQ(rows.size(), 9u);  // (2 sample counts of one lens + 1 of the other) × 3 level modes
     const std::uint32_t samples[3] = {4, 9, 5};
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const SpeedupRow& row = rows[i];
@@ -42,12 +42,13 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
         EXPECT_EQ(row.runs, 2);
         EXPECT_GT(row.setupMilliseconds, 0);
         EXPECT_EQ(row.pyramidMilliseconds, row.mode == LodMode::off ? 0 : 12);
-        // The reference uses the row's lens and eight times the max sample count of the row's sweep.
+        // Each row is compared with a reference image of the same lens, which has eight times the max number of samples
+        // that are measured with this lens.
         ASSERT_TRUE(row.fromReference);
         EXPECT_GT(row.fromReference->rmse, 0);
         EXPECT_EQ(row.referenceSamples, i < 6 ? 72u : 40u);
         EXPECT_GT(row.referenceRemaining.rmse, 0);
-        // Two runs use two seeds. The errors of the seeds differ, and the reported error averages both.
+        // Two runs use two seeds. The images of the seeds have different errors, and the reported error averages both.
         ASSERT_EQ(row.ofSeeds.size(), 2u);
         const double first = row.ofSeeds[0].rmse, second = row.ofSeeds[1].rmse;
         EXPECT_NE(first, second);
@@ -141,8 +142,8 @@ TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     EXPECT_EQ(json[2]["blurOnly"]["triangles"], rows[2].blurOnly->triangles);
 }
 
-// The published and the standard settings of a method are each compared with full detail at the same samples. They use
-// different sample sequences.
+// The published and the standard settings of a method are each compared with full detail at the same number of samples.
+// The two settings use different sample sequences.
 TEST(Speedup, measuresFormsAndMethodsBesideEachOther) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const std::unique_ptr<SmallWorld> small = fiveSpheres();
@@ -173,7 +174,7 @@ TEST(Speedup, measuresFormsAndMethodsBesideEachOther) {
     EXPECT_EQ(rows[5].pyramidMilliseconds, 7);
     EXPECT_EQ(rows[6].method.substr(0, 9), "circular:");
     EXPECT_EQ(rows[6].method.find(','), std::string::npos);  // the name is a CSV field, so it has no comma
-    // off, since a pinhole image has no blur that could hide levels
+    // the mode is off, since a pinhole image has no blur that could hide coarse levels
     EXPECT_EQ(rows[6].mode, LodMode::off);
     EXPECT_GT(rows[6].fromFullDetail.rmse, 0);
     EXPECT_NE(speedupLine(rows[6]).find("circular"), std::string::npos);

@@ -1,4 +1,4 @@
-// Tests of the public API without a GPU: scenes, settings, plans, and invalid requests.
+// Tests the public API without a GPU: scenes, settings, plans, and invalid requests.
 
 #include <gtest/gtest.h>
 
@@ -161,8 +161,8 @@ TEST_F(Library, progressMayCancelAPlan) {
     EXPECT_THROW(plan(request_, [](auto...) { throw Cancelled(); }), Cancelled);
 }
 
-// Sets an invalid value in a request directly, without the checks of the text parser. The error message begins with
-// `name`.
+// An invalid value, and the function that sets it in a request, without the checks of the text parser. The error
+// message begins with `name`.
 struct BadValue {
     const char* name;
     std::function<void(Request&)> set;

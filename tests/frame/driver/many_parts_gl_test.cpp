@@ -13,7 +13,7 @@ namespace {
 
 struct Parts {
     const char* name;
-    std::function<void(GltfBuilder& builder, int count)> add;  // adds `count` parts of one kind
+    std::function<void(GltfBuilder& builder, int count)> add;  // adds `count` roots, nodes, materials or meshes
 };
 
 void PrintTo(const Parts& parts, std::ostream* out) {
@@ -56,7 +56,7 @@ void addMeshes(GltfBuilder& builder, int count) {
 
 class ManyParts : public OwnContextTest, public testing::WithParamInterface<Parts> {
 protected:
-    // Returns the seconds that all cores together spend on a render of `count` parts.
+    // Returns the CPU seconds, summed over all cores, of a render of a file with `count` nodes, materials or meshes.
     static double cost(int count) {
         GltfBuilder builder;
         GetParam().add(builder, count);
@@ -73,7 +73,8 @@ protected:
     }
 };
 
-// A factor of 2.6 for twice the parts is 17.6 for eight times the parts. Quadratic time would have a factor of 64.
+// If the cost grows by a factor of 2.6 for twice the count, it grows by 17.6 for eight times the count. A cost that is
+// quadratic in the count would grow by 64.
 TEST_P(ManyParts, costInProportion) {
     static_cast<void>(cost(100));  // compiles the shaders
     const double few = std::min(cost(1'000), cost(1'000));
@@ -88,8 +89,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ManyParts,
 
 class ExtremeLens : public OwnContextTest {};
 
-// The blur disk of this triangle has millions of times the area of the image, so hardly any of 1,024 samples would show
-// the triangle.
+// The triangle's blur disk has millions of times the area of the image, so hardly any of 1,024 samples would show the
+// triangle.
 TEST_F(ExtremeLens, takesFewSamples) {
     GltfBuilder builder;
     builder.mesh({{{"attributes", {{"POSITION", builder.positions(unitTriangle)}}}}});

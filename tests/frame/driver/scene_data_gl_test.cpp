@@ -1,4 +1,4 @@
-// Tests of images of scenes that are created from memory.
+// Tests rendered images of scenes that are built from arrays in memory instead of files.
 
 #include <gtest/gtest.h>
 

@@ -24,7 +24,7 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     // method auto draws tiles by accumulation, but might choose multirate without tiles
     request.method = "accumulation";
     (void)render(smallRequest());
-    const std::uint64_t held = residentMemory();  // measured before the driver allocates memory for large images
+    const std::uint64_t held = residentMemory();  // memory in use before the driver allocates buffers for large images
     Image full;
     std::vector<std::string> warnings;
     {
@@ -63,7 +63,7 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     const Image movedImage = other.render(moved);
     moved.memory.reset();
     EXPECT_TRUE(movedImage.pixels == render(moved).pixels);
-    // A small frame needs no tiles, even with the memory that the large frame still occupies.
+    // A small frame needs no tiles, although the renderer still occupies memory for the large frame.
     Request small = request;
     small.size.width = 96;
     small.size.height = 72;

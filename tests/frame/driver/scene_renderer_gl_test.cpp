@@ -44,7 +44,7 @@ TEST_F(SceneRendererTest, stepsEndInTheImageOfRender) {
     EXPECT_FALSE(statistics.device.empty());
 }
 
-// Methods that draw one position per sample ignore a request for four.
+// Methods that draw one subpixel position per sample ignore a request for four.
 TEST_F(SceneRendererTest, otherMethodsHaveOnePosition) {
     for (const Method& method : methods()) {
         if (method.drawsPositions) continue;
@@ -67,7 +67,7 @@ TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
     requests[6].layerFormat = LayerFormat::rgba32f;
     requests[7] = movedRequest();
     requests[7].lod = LodMode::off;
-    // Request 8 needs another kind of pyramids, and request 9 needs the earlier kind again.
+    // Request 8 needs pyramids of another kind (LevelVertices::surviving), and request 9 needs the first kind again.
     requests[8].levelVertices = LevelVertices::surviving;
     requests[10] = requests[8];
     SceneRenderer renderer(requests[0]);
@@ -115,7 +115,7 @@ TEST_F(SceneRendererTest, pyramidsAreBuiltWhereThereAreNone) {
     EXPECT_GT(renderer.statistics().pyramidMilliseconds, before);
     EXPECT_EQ(stagesOf(renderer, movedRequest()), Stages{"samples"});
     EXPECT_EQ(stagesOf(renderer, sharp), Stages{"samples"});
-    EXPECT_EQ(stagesOf(renderer, movedRequest()), Stages{"samples"});  // the renderer keeps both kinds of pyramids
+    EXPECT_EQ(stagesOf(renderer, movedRequest()), Stages{"samples"});  // both kinds of pyramids are kept
 }
 
 TEST_F(SceneRendererTest, aProgressThatThrowsCancelsAndTheRendererGoesOn) {
@@ -200,7 +200,7 @@ TEST_F(SceneRendererTest, aovsPlanAndFilesAreOfTheFrame) {
     request.size.width = 64;
     request.size.height = 48;
     request.samples = 4;
-    request.lens.fStop = 0.2;  // enough blur that the plan keeps the lens
+    request.lens.fStop = 0.2;  // so much blur that the plan does not use a pinhole
     request.focus = FocusDistance{4};
     SceneRenderer renderer(request);
     const Image image = renderer.render();

@@ -1,5 +1,5 @@
 #pragma once
-// Fixture with requests for small images of two fish.
+// Fixture that makes requests for small images of two fish.
 
 #include "defocus/defocus.h"
 #include "frame/own_context.h"

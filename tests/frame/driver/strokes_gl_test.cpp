@@ -1,4 +1,4 @@
-// Tests of the brightness of line primitives in a glTF file.
+// Tests the brightness of line primitives in a glTF file.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,8 @@ GltfBuilder polygon() {
     return builder;
 }
 
-// Both in focus and blurred, the lines have the total light of a strip that is as long and one pixel wide.
+// The pixel values of a channel add up to the length of the lines in pixels, because the lines are white and one pixel
+// wide. This holds for lines in focus and for blurred lines.
 TEST_F(StrokesImage, linesHaveTheLightOfOnePixelTimesTheirLength) {
     const ScratchFolder folder;
     GltfBuilder::save(folder / "polygon.glb", polygon().glb());

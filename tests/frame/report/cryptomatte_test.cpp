@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-// Values of the reference implementation (Appleby, SMHasher).
+// Compares hashes with values of the reference implementation (Appleby, SMHasher).
 TEST(MurmurHash, agreesWithTheReference) {
     EXPECT_EQ(murmurHash3(""), 0u);
     EXPECT_EQ(murmurHash3("test"), 0xba6bd213u);
@@ -20,7 +20,7 @@ TEST(MurmurHash, agreesWithTheReference) {
     EXPECT_EQ(murmurHash3("The quick brown fox jumps over the lazy dog"), 0x2e4ff723u);
 }
 
-// Values of the tests of Psyop's Cryptomatte for Nuke.
+// Compares ids with values from the tests of Psyop's Cryptomatte for Nuke.
 TEST(CryptomatteId, agreesWithOtherPrograms) {
     EXPECT_FLOAT_EQ(cryptomatteId("hello"), 6.0705627102400005616e-17f);
     EXPECT_FLOAT_EQ(cryptomatteId("cube"), -4.08461912519e+15f);

@@ -48,8 +48,8 @@ TEST(Meter, aSingleFireflyCountsForNothing) {
 }
 
 TEST(Meter, darkObjectBeforeALightBackgroundStaysDark) {
-    // Alone, the object, with a grey of 2 %, would be exposed to middle grey. The background, with 80 %, would then be
-    // far above white.
+    // If the meter ignored the background, it would expose the object, with a grey of 2 %, to middle grey. The
+    // background, with 80 %, would then be far above white.
     EXPECT_NEAR(meteredExposure(stripes({0.8f, 0.8f, 0.02f, 0.02f}, 2)), std::log2(0.5 / 0.8), 1e-6);
     EXPECT_NEAR(meteredExposure(stripes({0.1f, 1, 0.09f, 0.36f, 1.44f}, 2)), -1, 1e-6) << "a dark background";
 }

@@ -118,7 +118,8 @@ TEST(FocusThrough, leavesTheMinBlur) {
         }
 }
 
-// Points on the vertical centre line of the view do not determine the swing, so focusThrough() chooses 0.
+// Points on the vertical centre line of the view do not determine the swing (tilt about the vertical axis), so
+// focusThrough() chooses 0.
 TEST(FocusThrough, takesTheLeastTiltWhereThePointsLeaveItOpen) {
     const std::vector<glm::dvec3> points = {{0, -0.5, -2}, {0, 0, -2.2}, {0, 0.6, -2.5}, {0, 0.9, -3}};
     Lens lens;

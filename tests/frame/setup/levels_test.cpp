@@ -1,4 +1,4 @@
-// Tests which still images are drawn with levels of detail if the request leaves the choice open.
+// Tests which still images are drawn with levels of detail if the request does not set the level mode.
 
 #include "frame/setup/levels.h"
 

@@ -1,4 +1,4 @@
-// Tests of the length of a scene unit, which the request or the file sets, or which is guessed from the scene's size.
+// Tests the length of a scene unit, which the request or the file sets, or which is guessed from the scene's size.
 
 #include "frame/setup/scene_scale.h"
 

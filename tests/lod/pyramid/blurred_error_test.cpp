@@ -1,4 +1,4 @@
-// Tests of a level's error under blur against values derived from a known change of the level.
+// Compares a level's error under blur with values derived from a known change of the level.
 
 #include "lod/pyramid/blurred_error.h"
 
@@ -42,9 +42,9 @@ double sideOf(const Pyramid& pyramid, int number) {
     return pyramid.smallestPatch * std::exp2(number);
 }
 
-// The error of a level that is 1 + ε times as bright as level 0 is, in each patch, ε times the patch's mean radiance.
-// The error of lens samples is the deviation of the radiance from that mean. The squares of mean and deviations add up
-// to the mean square of the radiance.
+// Under blur, errors are measured in image patches as wide as the blur. If a level is 1 + ε times as bright as level 0,
+// its error in a patch is ε times the patch's mean radiance. The error of lens samples is the deviation of the radiance
+// from that mean. The squares of mean and deviations add up to the mean square of the radiance.
 TEST(BlurredError, aBrighterLevelAndTheSamplesShareTheLight) {
     constexpr double more = 0.125;
     const Pyramid pyramid = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1 + more); });
@@ -67,8 +67,8 @@ TEST(BlurredError, halfTheErrorIsHalfTheTable) {
         EXPECT_NEAR(squaredError(full, 1, side) / squaredError(half, 1, side), 4, 1e-3) << "side " << side;
 }
 
-// A blur hides a lost pattern but not a colour offset. The mean over patches that are five half-periods wide hides most
-// of a wave's error; the error of a constant offset remains.
+// A blur hides a lost pattern but not a colour offset. Averaging over patches that are five half-periods wide hides
+// most of the error of a sine pattern; the error of a constant offset remains.
 TEST(BlurredError, aBlurHidesAPatternButNoShift) {
     const auto wave = [](const glm::vec3& p) { return 0.2f * std::sin(31.4f * p.x) * std::sin(31.4f * p.z); };
     const auto grey = [](const glm::vec3&) { return glm::vec4(0.5f, 0.5f, 0.5f, 1); };
@@ -116,9 +116,9 @@ std::vector<glm::vec3> rectangle(const glm::vec2& low, const glm::vec2& high) {
 }
 
 // A level lacks strips of width w and length l beside a plate. Without blur, the error is the fraction of the area that
-// the strips cover. Patches of side s that are wider than a strip spread its light, so the sum of squares is (w/s)² · l
-// · s. Foreshortening in each view direction changes w and l. The strips are thinner than a pixel of the images from
-// which errors are measured.
+// the strips cover. Patches of side s, wider than a strip, average its radiance with black, so the sum of squares is
+// (w/s)² · l · s. Foreshortening in each view direction changes w and l. The strips are thinner than a pixel of the
+// images from which errors are measured.
 TEST(BlurredError, lostWiresCountByTheirWidthUnderThePixel) {
     constexpr double width = 0.004, plate = 0.5;
     constexpr int count = 12;
@@ -143,7 +143,7 @@ TEST(BlurredError, lostWiresCountByTheirWidthUnderThePixel) {
         }
     }
     EXPECT_NEAR(squaredError(pyramid, 1, 0) * covered / points, 1, 0.1);
-    for (int i = 0; i < 2; ++i) {  // only the two smallest patches, since larger patches contain two wires
+    for (int i = 0; i < 2; ++i) {  // only the two smallest patch sizes, since larger patches contain two wires
         const double side = sideOf(pyramid, i);
         const double truth = lines / (side * covered);
         EXPECT_GT(squaredError(pyramid, 1, side), 0.5 * truth) << "side " << side;
@@ -167,8 +167,8 @@ TEST(BlurredError, aCoarseOutlineCountsByItsArea) {
     EXPECT_NEAR(squaredError(pyramid, 1, 0), (full - 3 * std::sin(std::numbers::pi / 3)) / full, 0.01);
 }
 
-// In front of a grey background with the plate's mean radiance, a plate of uniform radiance has no contrast. In front
-// of black, its outline has contrast.
+// A plate of uniform radiance has no contrast against a background that is as bright as the plate. Against black, its
+// outline has contrast.
 TEST(BlurredError, greyHidesAnEvenPlate) {
     const Pyramid pyramid = flatWithout(rectangle({0, 0}, {1, 1}), rectangle({1, 0}, {1.1, 1}));
     for (const double side : {0.05, 0.5}) {

@@ -1,4 +1,4 @@
-// Compares the memory bound of pyramids with the memory that their construction takes.
+// Compares the upper bound on a pyramid's memory with the memory that the construction of the pyramid takes.
 
 #include "lod/pyramid/build_memory.h"
 
@@ -60,7 +60,7 @@ TEST(BuildMemory, boundHolds) {
     }
 }
 
-// The bound is no more than a few times the memory of the mesh and its levels, so that it refuses no plausible limit.
+// The bound is at most a few times the memory of the mesh and its levels, so that no plausible memory limit is refused.
 TEST(BuildMemory, boundIsProportionalToTheMesh) {
     const Mesh small = sphere(100, 50), large = sphere(200, 100);
     const PyramidOptions full = fullDetailOnly();
@@ -92,8 +92,8 @@ TEST(BuildMemory, tooLowALimitIsRefusedWithTheMinimum) {
     }
 }
 
-// With a limit that has room for one pyramid but not for two, pyramids are built one after another, and equal those
-// that are built on all cores.
+// If the memory limit has room for one pyramid but not for two, pyramids are built one after another. They equal
+// pyramids that are built on all cores at once.
 TEST(BuildMemory, limitBuildsOneAfterAnother) {
     const std::vector<Mesh> meshes = {sphere(60, 30), sphere(120, 60), sphere(90, 45)};
     PyramidOptions limited;

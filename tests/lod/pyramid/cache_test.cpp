@@ -64,8 +64,8 @@ void expectEqual(const Pyramid& a, const Pyramid& b) {
     }
 }
 
-// Returns a torus with every vertex stream, two primitives, a morph target, and colours that differ between vertices at
-// the same position.
+// Returns a torus with every vertex attribute, two primitives, a morph target, and colours that differ between vertices
+// at the same position.
 Mesh decoratedTorus(std::uint32_t columns = 24, std::uint32_t rows = 16) {
     Mesh mesh = torus(columns, rows);
     MorphTarget target;
@@ -103,7 +103,7 @@ struct Encoded {
     Bytes bytes = encodePyramid(pyramid, mesh, key);
 };
 
-// Writes the checksum that matches the file's bytes.
+// Writes the checksum of the file's bytes into the file.
 void seal(Bytes& bytes) {
     const std::size_t checked = offsetof(PyramidFileHeader, checksum) + sizeof(std::uint64_t);
     const std::uint64_t checksum = hashBytes(std::span(bytes).subspan(checked));
@@ -469,7 +469,8 @@ TEST(PyramidCache, otherOptionsHaveTheirOwnFiles) {
     }
 }
 
-// A file is valid for one LevelVertices option only and is rejected under the other option, even if it is renamed.
+// A cache file is valid only for the LevelVertices option with which it was built. It is rejected for the other option,
+// even if the file is renamed.
 TEST(PyramidCache, aFileIsOfItsOwnVertices) {
     const Mesh mesh = sphere(24, 16);
     const PyramidOptions surviving{.vertices = LevelVertices::surviving};

@@ -88,8 +88,8 @@ TEST(ClusterGrowth, takesHundredsOfThousandsOfTrianglesAtOneVertex) {
 }
 
 TEST(ClusterGrowth, takesEveryTriangleOnceWhateverTheSoup) {
-    // The soup has edges with any number of faces, coincident corners, a vertex with very many triangles, and NaN and
-    // huge coordinates.
+    // The triangle soup has edges with any number of faces, coincident corners, a vertex with very many triangles, and
+    // NaN and huge coordinates.
     std::mt19937 random(1);
     Soup soup;
     for (int v = 0; v < 300; ++v) soup.positions.emplace_back(random() % 100, random() % 100, random() % 100);

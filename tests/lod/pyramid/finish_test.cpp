@@ -1,4 +1,4 @@
-// Tests of the influence of materials on the images from which a level's error is measured.
+// Tests how materials influence the images from which a level's error is measured.
 
 #include "lod/pyramid/finish.h"
 
@@ -95,7 +95,8 @@ TEST(Finish, wrapsMirrorAndClamp) {
     EXPECT_EQ(at(0.25f, 7), 1);
 }
 
-// A level whose stripes are shifted by half a period shows the opposite colours, until a blur hides both.
+// A level whose stripes are shifted by half a period shows the opposite colours, until a blur hides the stripes of both
+// levels.
 TEST(Finish, aTextureThatMovesCountsUntilTheBlurHidesIt) {
     const Scene scene = texturedBall();
     const Finish finish = Finishes(scene).of(0);
@@ -134,7 +135,8 @@ TEST(Finish, smoothMetalsShowFineNormals) {
     }
 }
 
-// Radiance above white is clamped: a glow of a hundred times the mean light looks the same at twice the radiance.
+// Radiance above white is clamped: a part that glows a hundred times as bright as the mean looks the same at twice its
+// radiance.
 TEST(Finish, lightBeyondWhiteIsWhite) {
     Mesh mesh = sphere(96, 48);
     for (const glm::vec3& p : mesh.vertices.positions)

@@ -12,9 +12,9 @@
 namespace defocus::engine {
 namespace {
 
-// Means over every fifth vertex of a ball. The radial ray through the vertex hits the level's surface at a point.
-// `cosine` is the cosine of the angle between the vertex normal and the level's normal there; `length` is the length of
-// the level's normal.
+// Means over every fifth vertex of a ball. The ray from the centre through the vertex hits the level's surface at a
+// point. `cosine` is the cosine of the angle between the vertex normal and the level's normal at that point; `length`
+// is the length of the level's normal.
 struct Agreement {
     double cosine = 0;
     double length = 0;

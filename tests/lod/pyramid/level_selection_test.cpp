@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-// Returns a pyramid of five levels with the mean edges 1, √2, 2, 2√2 and 4 and the errors 0, 0.01, 0.02, 0.04 and 0.08.
+// Returns a pyramid of five levels with mean edge lengths 1, √2, 2, 2√2 and 4 and errors 0, 0.01, 0.02, 0.04 and 0.08.
 Pyramid uniformPyramid() {
     Pyramid pyramid;
     for (int l = 0; l < 5; ++l) {
@@ -26,7 +26,7 @@ Pyramid uniformPyramid() {
 
 TEST(LevelOfDetail, OfAUniformMeshIsTwiceTheLogarithmOfTargetOverEdge) {
     const Pyramid pyramid = uniformPyramid();
-    const double pixelsPerUnit = 3;  // an edge of length 1 projects to d = 3 px
+    const double pixelsPerUnit = 3;  // one object unit projects to 3 px
     for (double coc = 0.5; coc < 40; coc *= 1.1) {
         const double target = std::max(0.7 * coc, 1.5);
         const double expected = std::min(std::max(2 * std::log2(target / 3), 0.0), 4.0);
@@ -87,7 +87,7 @@ TEST(LevelOfDetail, OfErrorsIsLinearBetweenThem) {
 TEST(LevelOfDetail, IsContinuousAndGrowsWithTheTargetOnPlateaus) {
     Pyramid pyramid = uniformPyramid();
     expectContinuousLevels(pyramid);
-    // The edges of levels 1 and 2, and the errors of levels 2 and 3, have the min allowed growth.
+    // Edge lengths grow from level 1 to level 2, and errors from level 2 to level 3, by the smallest allowed factor.
     pyramid.levels[2].meanEdge = pyramid.levels[1].meanEdge * 1.05;
     pyramid.levels[3].error = pyramid.levels[2].error * 1.25;
     expectContinuousLevels(pyramid);
@@ -106,7 +106,7 @@ TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
             return metric == LodMetric::size ? std::log(pyramid.levels[level].meanEdge) : pyramid.levels[level].error;
         };
         const auto coordinate = [&](double target) { return metric == LodMetric::size ? std::log(target) : target; };
-        // Returns the integral of the slope between two targets, in object units.
+        // Returns the integral of the slope of λ between two targets, in object units.
         const auto growth = [&](double from, double to) {
             double sum = 0;
             for (std::size_t l = 0; l + 1 < pyramid.levels.size(); ++l) {
@@ -182,8 +182,9 @@ TEST(SplitSamples, SharesSumToAllAndFollowTheFractionByOneSampleAtATime) {
     }
 }
 
-// In mode `continuous`, one of the N samples draws both levels, each in a part of the pixels. For every λ, the number
-// of coarse samples plus this sample's fraction of coarse pixels is f·N, where f is the fractional part of λ.
+// In mode `continuous`, one of the N samples draws both levels: the coarse level in a fraction of the pixels, the fine
+// level in the others. For every λ, the number of coarse samples plus this fraction is f·N, where f is the fractional
+// part of λ.
 TEST(SplitSamples, ContinuousSharesAreExactlyTheFraction) {
     for (const std::uint32_t count : {1u, 7u, 64u, 1000u}) {
         for (double lambda = 0; lambda < 5; lambda += 0.00731) {

@@ -72,8 +72,8 @@ TEST(RealModels, AllBecomePyramids) {
     }
 }
 
-// Compares stored errors with the result of a far denser measurement: each is at least 0.9 of that result, and the
-// median ratio is below 1.3.
+// Compares the stored error of each level with a far denser measurement. Each stored error is at least 0.9 of the
+// measured one, and the median ratio is below 1.3.
 TEST(RealModels, StoredErrorsAreThoseOfTheFittedSurfaces) {
     constexpr std::size_t points = 8'192;
     const std::vector<fs::path> models = publicModels();
@@ -144,7 +144,7 @@ TEST(RealModels, LeatherCapOutlastsItsStraps) {
 }
 
 TEST(RealModels, OpenMountainKeepsItsOutline) {
-    // Each end of the outline recedes by at most the stored error.
+    // Each end of the mountain's outline recedes by at most the stored error.
     DEFOCUS_MODEL_OR_SKIP(path, "mountain.glb");
     const Pyramid& pyramid = built(path).pyramids.at(0);
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {

@@ -1,4 +1,4 @@
-// Tests of the coarsest level of a pyramid, and of the stated reason why no coarser level follows.
+// Tests the coarsest level of a pyramid, and the stated reason why no coarser level follows.
 
 #include <gtest/gtest.h>
 

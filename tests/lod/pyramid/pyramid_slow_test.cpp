@@ -1,4 +1,4 @@
-// Tests of the levels of thin sheets at many resolutions.
+// Tests the levels of detail of thin sheets that are meshed at many resolutions.
 
 #include <gtest/gtest.h>
 

@@ -336,7 +336,7 @@ TEST(Pyramid, SameMeshGivesTheSameBitsAloneAndAmongOthers) {
     std::vector<Pyramid> many = buildPyramids({torus(24, 12), mesh, Mesh{}, mesh, sphere(16, 8)});
     ASSERT_EQ(many.size(), 5u);
     EXPECT_EQ(many[0].levels[0].triangleCount, 576u);
-    // The mesh is also built alone; the second of these builds uses several threads for its levels.
+    // The mesh is also built without other meshes, the second time with several threads for its levels.
     many.push_back(std::move(buildPyramids({mesh}).front()));
     many.push_back(buildPyramid(mesh, {}, 3));
     for (const std::size_t i : {1u, 3u, 5u, 6u}) {

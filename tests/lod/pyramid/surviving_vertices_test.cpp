@@ -1,4 +1,5 @@
-// Tests of levels as in Jeong, Kim and Lee 2011: their vertices are vertices of the mesh, with unchanged attributes.
+// Tests levels of detail as in Jeong, Kim and Lee 2011: their vertices are vertices of the mesh, with unchanged
+// attributes.
 
 #include <gtest/gtest.h>
 
@@ -20,8 +21,8 @@ Mesh coloured(Mesh mesh) {
     return mesh;
 }
 
-// For each attribute, the number of vertices of the coarser levels that keep the value of their source vertex in the
-// mesh. `all` is the number of all these vertices.
+// Counts vertices of the coarser levels: `all` is the number of all vertices, and each other member is the number of
+// vertices whose attribute equals that of their source vertex in the mesh.
 struct OwnValues {
     std::size_t positions = 0, normals = 0, colors = 0, uv0 = 0, uv1 = 0;
     std::size_t all = 0;
@@ -59,7 +60,7 @@ TEST(SurvivingVertices, haveTheValuesOfLevel0) {
     }
 }
 
-// In levels with fitted vertices, fewer than half of the values are the source vertices' values. The count therefore
+// In levels with fitted vertices, fewer than half of the values equal those of the source vertices. The count therefore
 // distinguishes fitted from surviving vertices.
 TEST(SurvivingVertices, areNotThoseOfFittedLevels) {
     const Mesh mesh = coloured(sphere(64, 32, 0.1));

@@ -20,7 +20,7 @@
 namespace defocus::engine {
 namespace {
 
-// Returns a finish that shows a surface's texture coordinates, modulo 1, as red and green; blue is 1.
+// Returns a material appearance that shows a surface's texture coordinates, modulo 1, as red and green; blue is 1.
 Finish showingCoordinates() {
     constexpr int side = FinishImage::maxSide;
     const auto ramp = std::make_shared<FinishImage>();
@@ -33,7 +33,7 @@ Finish showingCoordinates() {
     return finish;
 }
 
-// Returns the object units per unit of texture coordinates, averaged over the area of level 0.
+// Returns the length in object units of one unit of the texture coordinates, averaged over the area of level 0.
 double unitsPerCoordinate(const Pyramid& pyramid) {
     const PyramidLevel& level = pyramid.levels.front();
     double surface = 0;
@@ -51,13 +51,13 @@ double unitsPerCoordinate(const Pyramid& pyramid) {
 
 struct Shift {
     double mean = 0;  // mean distance, in object units
-    // fraction of pixels whose distance is too large for a shift, as they show different charts or parts of the surface
+    // fraction of pixels whose distance is too large for a shift, because they show different UV charts or parts
     double elsewhere = 0;
 };
 
-// Returns the distance between the positions of a level's texture and of level 0's texture. It is measured where both
-// are visible in the views of the blurred errors. A triangle shifts the texture by at most its longest edge. Larger
-// distances come from another part of the surface, for example beside a strap that became thinner.
+// Returns how far a level's texture is shifted against level 0's texture. The shift is measured in pixels that show
+// both levels, in the views from which blurred errors are measured. A triangle shifts the texture by at most its
+// longest edge. Larger distances come from another part of the surface, for example beside a strap that became thinner.
 Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
     constexpr int resolution = 512;
     const std::vector<Finish> finishes(pyramid.levels.front().primitives.size(), showingCoordinates());
@@ -85,9 +85,9 @@ Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
     return {sum / shifted, others / (others + shifted)};
 }
 
-// Returns the side, in object units, of the smallest patch with this property: under a blur as wide as the patch, at
-// least half of `samples` samples draw the level. Returns nullopt if there is none. The patch is one pixel wide: with
-// more pixels per patch, edges are longer on screen and the selected level is finer.
+// Returns the smallest blur width, in object units, under which at least half of `samples` samples draw the level, or
+// nullopt if no blur does. Pixels are as wide as the blur: with more pixels, edges are longer on screen and the
+// selected level is finer.
 std::optional<double> minPatch(const Pyramid& pyramid, std::size_t level, std::uint32_t samples) {
     const double light = defaultThresholds(LodMetric::measured, samples).light;
     const auto isDrawn = [&](double side) {

@@ -27,7 +27,7 @@ protected:
         }
     }
 
-    // Returns a mask that is true for the three wedges of every fifth face.
+    // Returns a mask that is true for the wedges (vertices with attributes) at the corners of every fifth face.
     static std::vector<bool> changing() {
         std::vector<bool> result(count, false);
         for (std::size_t w = 0; w + 2 < count; w += 5)

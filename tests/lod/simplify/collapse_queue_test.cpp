@@ -82,7 +82,7 @@ TEST(CollapseQueue, whatIsTakenWaitsNoMore) {
     EXPECT_TRUE(queue.empty());
 }
 
-// After thousands of random steps, the queue equals a sorted set of the waiting vertices.
+// After thousands of random steps, the queue equals a sorted set of the vertices that are in the queue.
 TEST(CollapseQueue, agreesWithASortedSet) {
     constexpr std::uint32_t count = 300;
     using Entry = std::tuple<bool, float, int>;

@@ -1,4 +1,4 @@
-// Tests of the simplification of a ball beside small parts that have many handles (tunnels).
+// Tests the simplification of a ball beside small parts that have many handles (tunnels).
 
 #include <gtest/gtest.h>
 

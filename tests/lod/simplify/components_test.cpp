@@ -1,4 +1,4 @@
-// Tests of meshes of many separate parts, whose simplification continues after each part has reached its min size.
+// Tests the simplification of meshes of many separate parts. It continues after each part has reached its min size.
 
 #include <gtest/gtest.h>
 
@@ -90,7 +90,7 @@ TEST(Components, StoredErrorBoundsTheDistanceAndTheSizeOfWhatIsGone) {
 }
 
 TEST(Components, SmallerOnesGoFirstAndTheLargestStays) {
-    // The parts have nine sizes in mixed order, each 1.3 times the previous one. Part 777 is the largest.
+    // Part 777 is the largest. The others have nine sizes in mixed order, each 1.3 times the next smaller size.
     const auto sizeOf = [](std::uint32_t i) {
         return i == 777 ? 0.05f : 0.002f * std::pow(1.3f, static_cast<float>(i * 7 % 9));
     };
@@ -111,8 +111,8 @@ TEST(Components, SmallerOnesGoFirstAndTheLargestStays) {
     }
 }
 
-// Levels keep the total area: the leaves that remain grow until they touch each other. Without growth, half the leaves
-// would cover half the area.
+// Levels keep the total area of the leaves: those that remain grow until they touch each other. Without growth, half
+// the leaves would cover half the area.
 TEST(Components, AreaIsKeptWhileThereIsRoomForIt) {
     const Mesh mesh = leaves(4000, 0.002f);
     const Pyramid pyramid = buildPyramid(mesh);

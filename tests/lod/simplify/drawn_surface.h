@@ -1,5 +1,5 @@
 #pragma once
-// Small surfaces in the simplifier's data structure, and their faces as comparable lists.
+// Builds small surfaces in the simplifier's data structure, and lists their faces for comparison.
 
 #include <algorithm>
 #include <array>

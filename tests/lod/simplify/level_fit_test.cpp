@@ -22,8 +22,8 @@ TEST(SmoothingGroups, joinNormalsWithinADegreeAtOnePositionOnly) {
     EXPECT_NE(groups[{0}], groups[{3}]);
 }
 
-// The vertices of a level 0, and their anchors in a coarse level of one triangle with the corners 0, 1 and 2. An anchor
-// has barycentric coordinates in that triangle.
+// Vertices of level 0, and their anchors, points of a coarse level of one triangle with the corners 0, 1 and 2. Anchors
+// are given by barycentric coordinates in that triangle.
 struct OneTriangle {
     Vertices vertices;
     Numbered<MeshVertexNumber, Anchor> anchors;
@@ -56,7 +56,7 @@ defocus::engine::LevelFit fitOf(const OneTriangle& t, const std::vector<std::uin
     const WeldedPositions positions = weldPositions(t.vertices.positions);
     const VertexGroups smoothing = smoothingGroups(t.vertices.normals, positions);
     FitSource source = prepareFit(t.vertices, positions, smoothing, numberedTriangles<MeshVertexNumber>({indices}));
-    // all vertices get the same area, since there are no triangles of level 0
+    // all vertices get the same area, since level 0 has no triangles here
     source.areas.assign(t.anchors.size(), 1);
     source.bounds.extend({0, 0, 1});
     LevelMesh level;
@@ -127,7 +127,7 @@ TEST(LevelFit, coloursOvershootRatherThanBrighten) {
     EXPECT_NEAR(shown, mean, 0.004);
 }
 
-// Vertices that share an anchor count as one vertex at that anchor.
+// Vertices with the same anchor (point of the level that represents a vertex) count as one vertex at that anchor.
 TEST(LevelFit, whatSharesAnAnchorCountsThere) {
     OneTriangle t = oneTriangle();
     for (std::uint32_t v = 3; v + 1 < t.anchors.size(); v += 2) {
@@ -240,7 +240,8 @@ TEST(LevelFit, verticesThatNobodyNamesKeepTheirOwn) {
     EXPECT_EQ(fitted.normals[{4}], right);
 }
 
-// A twin is a second level vertex with the same position and normal. Its fitted normal depends only on its own anchors.
+// A twin is a second level vertex with the same position and normal. Its fitted normal depends only on the vertices
+// that it represents itself.
 TEST(LevelFit, aTwinHasANormalOfItsOwn) {
     OneTriangle t = oneTriangle();
     for (std::size_t v = 0; v < t.vertices.normals.size(); ++v)

@@ -66,7 +66,8 @@ TEST(MeanCosine, isAboutThatOfTheNormalsThatOneStandsFor) {
     }
 }
 
-// A ball's normals that all lean to one side are fitted so that they reflect as much light as the radial normals.
+// If all normals of a ball lean to one side, the fit turns them so that the ball reflects as much light as with its
+// radial normals.
 TEST(FitLight, findsTheNormalsOfTheLight) {
     const Mesh ball = sphere(24, 12);
     std::vector<glm::vec3> expected;

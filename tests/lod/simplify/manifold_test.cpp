@@ -69,8 +69,10 @@ TEST(Manifold, FaceWoundAgainstItsNeighboursIsTurned) {
 }
 
 TEST(Manifold, BowTieGetsTwoVerticesAtItsKnot) {
+    // Two triangles share only vertex 2, in the middle:
+    //
     // 1   4
-    // | X |   with the common vertex 2 in the middle
+    // | X |
     // 0   3
     const Points points = {{0, 0, 0}, {0, 2, 0}, {1, 1, 0}, {2, 0, 0}, {2, 2, 0}};
     const Manifold manifold = manifoldOf(points, {0, 2, 1, 3, 4, 2});

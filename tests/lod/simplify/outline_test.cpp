@@ -11,7 +11,7 @@
 namespace defocus::engine {
 namespace {
 
-// Index of an axis direction in directionsOfOutlines().
+// Index of the direction −x in directionsOfOutlines().
 constexpr std::size_t towardsMinusX = 4;
 
 TEST(CoverGrid, coversWhatTrianglesOfEitherSideDo) {

@@ -11,8 +11,8 @@
 namespace defocus::engine {
 namespace {
 
-// Expects each half-edge to agree with its opposite, its next and its face. A vertex refers to a half-edge that leaves
-// the vertex, and to the boundary half-edge if the vertex lies on a border.
+// Expects each half-edge to agree with its opposite, its next half-edge and its face. Expects each vertex to refer to a
+// half-edge that leaves the vertex, and to the boundary half-edge if the vertex lies on a border.
 void expectLinked(const SurfaceMesh& mesh) {
     for (int i = 0; i < static_cast<int>(mesh.n_halfedges()); ++i) {
         const HalfedgeHandle h(i);

@@ -8,7 +8,7 @@
 namespace defocus::engine {
 namespace {
 
-// Returns a grid of 2 × 2 quads that form one chart.
+// Returns a grid of 2 × 2 quads that form one UV chart.
 //
 // 6---7---8
 // | / | / |
@@ -75,7 +75,7 @@ TEST(WedgeModule, leavingASeamIsPoorWhereTheTextureJumps) {
     EXPECT_EQ(far.modules().wedges.judge(far.edge(4, 5)), Fit::poor);
     DrawnSurface near(tornGrid(0.5f), {together(leftTriangles, rightTrianglesOfSeam)});
     EXPECT_EQ(near.modules().wedges.judge(near.edge(4, 5)), Fit::good);
-    // With a small or large jump, the corners on the left have only the surviving vertex to use.
+    // Whether the texture jump is small or large, corners on the left can only use the surviving vertex.
     near.collapse(4, 5);
     EXPECT_EQ(drawnFaces(near.mesh()),
               (std::vector<Face>{{0, 1, 5}, {0, 5, 3}, {2, 5, 9}, {3, 5, 7}, {3, 7, 6}, {5, 8, 11}}));
@@ -91,7 +91,7 @@ TEST(WedgeModule, drawingAVertexOfAnotherPrimitiveIsBad) {
     EXPECT_EQ(wedges.collapse_priority(CollapseInfo(surface.mesh(), surface.edge(4, 1))), 0);
 }
 
-// At the lower end of a crease, corners take the surviving vertex with the most similar normal. The crease runs upwards
+// Where a crease ends below, corners use the surviving vertex with the most similar normal. The crease runs upwards
 // from vertex 4, where the right column has other normals; below it, vertex 1 has a single normal.
 TEST(WedgeModule, whereACreaseBeginsCornersTakeTheMostSimilarNormal) {
     for (const bool likeTheRight : {false, true}) {
@@ -108,8 +108,9 @@ TEST(WedgeModule, whereACreaseBeginsCornersTakeTheMostSimilarNormal) {
     }
 }
 
-// After a collapse, the wedge of the surviving vertex has the cost of the faces of both vertices: area times squared
-// attribute difference. Three faces meet at vertex 5, and six more at vertex 4.
+// A wedge is a vertex with its attributes. After a collapse, the wedge of the surviving vertex has the cost of the
+// faces of both vertices: area times squared attribute difference. Three faces meet at vertex 5, and six more at vertex
+// 4.
 TEST(WedgeModule, theSurvivorsWedgeStandsForTheFacesOfBoth) {
     DrawnSurface surface(grid(), {together(leftTriangles, rightTriangles)});
     const WedgeTable& wedges = surface.mesh().wedges;

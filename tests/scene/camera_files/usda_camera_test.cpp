@@ -63,7 +63,7 @@ TEST(UsdCamera, showsTheWholeSensor) {
     EXPECT_NEAR(tanHalf(0.75), 24.0 / 50, 1e-12) << "a narrower image keeps the width of 36 mm: 48 mm high";
 }
 
-// The layer has z up. The camera looks along −z in its own axes. Rotated about x, it looks along +y; a rotation by 30°
+// The file has z up. The camera looks along −z in its own axes. Rotated about x, it looks along +y; a rotation by 30°
 // about z follows. In y-up axes, USD's (x, y, z) is (x, z, −y).
 TEST(UsdCamera, followsTimeSamplesInZUpLayers) {
     const CameraTrack track = camera(usda_samples::animated);
@@ -100,7 +100,7 @@ TEST(UsdCamera, passesOverEverythingElse) {
         EXPECT_NE(warnings.find(part), std::string::npos) << part << "\n" << warnings;
 }
 
-// Some programs write millimetres into layers in metres.
+// Some programs write sensor sizes in millimetres into files whose unit is the metre.
 TEST(UsdCamera, takesAnImpossibleSensorAsMillimetres) {
     std::string text = usda_samples::plain;
     text.replace(text.find("metersPerUnit = 0.01"), 20, "metersPerUnit = 1   ");

@@ -1,9 +1,9 @@
 #pragma once
-// USD text files with cameras, for tests and as seeds of the fuzzer.
+// Contains USD text files with cameras, for tests and as seeds of the fuzzer.
 
 namespace defocus::engine::usda_samples {
 
-// A camera in centimetres, y up, as USD's documentation describes it: 50 mm on 36 × 24 mm.
+// USD text of a camera with lengths in centimetres and y up, as in USD's documentation: 50 mm on 36 × 24 mm.
 inline constexpr const char* plain = R"(#usda 1.0
 (
     doc = """A "plain" camera."""
@@ -33,7 +33,7 @@ def Xform "World"
 }
 )";
 
-// A camera in metres, z up, with time samples of its transform and focus, and a shutter.
+// USD text of a camera with lengths in metres, z up, time samples of its transform and focus distance, and a shutter.
 inline constexpr const char* animated = R"(#usda 1.0
 (
     metersPerUnit = 1
@@ -60,7 +60,8 @@ def Camera "cam"
 }
 )";
 
-// Content that a reader must skip: comments, dictionaries, relationships, variants, list edits, assets and other prims.
+// USD text with content that a reader must skip: comments, dictionaries, relationships, variants, list edits, assets
+// and other prims.
 inline constexpr const char* everything = R"(#usda 1.0
 ( # a comment
     customLayerData = { string a = "b"; int[] c = [1, 2]; dictionary d = { double e = 1e-3 } }

@@ -1,4 +1,4 @@
-// Tests of clips, skins, and animated cameras and lights. The tests write small files and load them.
+// Tests clips, skins, and animated cameras and lights. The tests write small files and load them.
 
 #include "scene/animation.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Builds small glTF files from JSON and binary data, saved as .glb.
+// Builds small glTF files from JSON and binary data, and saves them as .glb.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace defocus::engine {
 
-inline const std::vector<float> unitTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};  // positions
+inline const std::vector<float> unitTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};  // corner positions
 
 // glTF's component types.
 inline constexpr int gltfByte = 5120, gltfUnsignedByte = 5121, gltfShort = 5122, gltfUnsignedShort = 5123,
@@ -54,8 +54,8 @@ public:
         return accessor(view(values), gltfUnsignedShort, "SCALAR", values.size());
     }
 
-    // Adds a mesh of these primitives, and a scene node with the mesh and the members of `node`. Returns the mesh's
-    // index.
+    // Adds a mesh of these primitives, and a scene node that has the mesh and the members of the JSON object `node`.
+    // Returns the mesh's index.
     int mesh(const nlohmann::json& primitives, const nlohmann::json& node = nlohmann::json::object()) {
         const int index = add("meshes", {{"primitives", primitives}});
         nlohmann::json entry = {{"mesh", index}};

@@ -1,4 +1,4 @@
-// Tests of features of core glTF 2.0 and of the supported extensions, each with a file of a few triangles.
+// Tests features of core glTF 2.0 and of the supported extensions, each with a file of a few triangles.
 
 #include <gtest/gtest.h>
 
@@ -44,8 +44,8 @@ TEST(GltfTopology, stripsDropTheirStitches) {
     GltfBuilder builder;
     const int indices = builder.indices({0, 1, 2, 2, 3, 4});
     builder.mesh({{{"attributes", {{"POSITION", builder.positions(numbered)}}}, {"indices", indices}, {"mode", 5}}});
-    // The strip yields the triangles 0 1 2, (1 2 2), (2 2 3) and 2 4 3; degenerate triangles are dropped. The last
-    // triangle is the fourth, so its winding is reversed.
+    // The strip yields the triangles 0 1 2, (1 2 2), (2 2 3) and 2 4 3; degenerate triangles, in parentheses, are
+    // dropped. The winding of every second triangle, such as the fourth, is reversed.
     EXPECT_EQ(cornerNumbers(builder.load()), (std::vector<int>{0, 1, 2, 2, 4, 3}));
 }
 
@@ -544,7 +544,7 @@ TEST(GltfScene, physicalCamerasInMillimetresAreIgnoredWithAReason) {
 }
 
 // Extras of a camera's node are also lens values: Blender exports custom properties of the camera's data as extras of
-// the camera, and those of the object as extras of the node.
+// the camera, and custom properties of the camera object as extras of the node.
 TEST(GltfScene, customPropertiesOfACamerasNodeAreLensValuesToo) {
     GltfBuilder builder;
     builder.json["cameras"] = {

@@ -1,4 +1,4 @@
-// Compares real models with the figures in their README files and with known properties.
+// Compares loaded public models with the figures in their README files and with known properties.
 
 #include "models.h"
 
@@ -19,8 +19,8 @@ namespace {
 
 struct ModelFacts {
     const char* file;
-    std::size_t triangles;         // triangle count in which each mesh counts once
-    std::size_t trianglesInScene;  // triangle count in which a mesh counts for each node that draws it
+    std::size_t triangles;         // number of triangles if each mesh counts once
+    std::size_t trianglesInScene;  // number of triangles if a mesh counts for each node that draws it
 };
 
 class Model : public testing::TestWithParam<ModelFacts> {};

@@ -1,4 +1,4 @@
-// Tests of KHR_node_visibility: a hidden node hides the meshes and lights of its subtree, but not its cameras.
+// Tests KHR_node_visibility: a hidden node hides the meshes and lights of its subtree, but not its cameras.
 
 #include <gtest/gtest.h>
 

@@ -114,7 +114,7 @@ TEST(UnpackBudget, skinsTakeTheirJointsForEachNode) {
     builder.json["skins"] = {{{"joints", all}}};
     const std::string fault = faultOf(builder);
     EXPECT_NE(fault.find("joints of node '': 3000 elements are implausible"), std::string::npos) << fault;
-    // The message gives the sum over all nodes, not the size of the last node's 3,000 matrices.
+    // The message gives the memory of the matrices of all nodes, not of the 3,000 matrices of the last node.
     const std::size_t number =
         fault.find("its contents would take ") + std::string_view("its contents would take ").size();
     EXPECT_GT(std::stod(fault.substr(number)), 512) << fault;

@@ -14,7 +14,7 @@ const Bytes& redPng() {
     return png;
 }
 
-// A triangle whose material has this texture as base colour. Each test adds the images.
+// Returns a triangle whose material has this texture as base colour. Each test adds the images of the texture.
 GltfBuilder texturedTriangle(const nlohmann::json& texture) {
     GltfBuilder builder;
     builder.mesh({{{"attributes", {{"POSITION", builder.positions(unitTriangle)}}}, {"material", 0}}});

@@ -1,4 +1,4 @@
-// Tests of KHR_texture_transform, which scales texture coordinates, rotates them counter-clockwise (v points down), and
+// Tests KHR_texture_transform, which scales texture coordinates, rotates them counter-clockwise (v points down), and
 // translates them.
 
 #include <gtest/gtest.h>

@@ -49,13 +49,13 @@ TEST_F(ViewHistory, dragsAfterEachOtherAreSteps) {
     EXPECT_EQ(undone(), 4);
     EXPECT_EQ(undone(), 3);
     EXPECT_EQ(undone(), opened);
-    EXPECT_EQ(undone(), opened);  // the first state, since no further step exists
+    EXPECT_EQ(undone(), opened);  // the first state; there is no earlier step to undo
     EXPECT_EQ(redone(), 3);
 }
 
 TEST_F(ViewHistory, notchesOfAWheelAreOneStepOnceItRests) {
     for (const double stop : {3.0, 4.0, 5.0}) frame(stop, false, 0.1);
-    EXPECT_EQ(history.undoSteps(), 1u);  // all changes belong to one step while the edit is in progress
+    EXPECT_EQ(history.undoSteps(), 1u);  // all notches belong to one step until the wheel rests
     frame(5, false, 0.6);
     frame(6, false, 0.6);
     frame(6, false, 0.6);

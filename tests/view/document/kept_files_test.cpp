@@ -1,4 +1,4 @@
-// Tests of files that the viewer keeps between runs: recent scenes and saved views.
+// Tests the files that the viewer keeps between runs: recent scenes and saved views.
 
 #include "view/document/kept_files.h"
 

@@ -11,7 +11,8 @@ std::optional<LoadedScene> waitedFor(SceneLoader& loader) {
     return std::nullopt;
 }
 
-// The loader returns each result exactly once, even if loading ends between two checks in one call.
+// The loader returns each result (a scene or an error) exactly once, even if loading ends between two checks in one
+// call.
 TEST(SceneLoader, handsOverWhatItOpenedOnce) {
     SceneLoader loader;
     Request absent;

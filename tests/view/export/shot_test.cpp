@@ -1,4 +1,4 @@
-// Tests that key frames that the viewer exports are the same after `defocus capture` reads them.
+// Tests that key frames that the viewer exports are unchanged after `defocus capture` has read them.
 
 #include "view/export/shot.h"
 

@@ -1,5 +1,5 @@
-// Tests pictures from the lens images that the window keeps: against the library's refocused pictures, and against
-// renders at the new focus.
+// Tests images that the window refocuses from the lens images (views from lens points) that it keeps: against refocused
+// images of the library, and against renders with the new focus distance.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ Request smallSchool() {
     return request;
 }
 
-// Returns the largest difference between values of two images, relative to values above 1.
+// Returns the largest difference between values of two images; differences of values above 1 are relative.
 double largestDifference(const Image& expected, const Image& image) {
     EXPECT_EQ(image.pixels.size(), expected.pixels.size());
     double largest = 0;
@@ -51,7 +51,7 @@ class KeptImagesOfAView : public testing::Test {
 protected:
     KeptImagesOfAView() : view_(frame_.view) { request_.view = view_; }
 
-    // Returns the view's lens images. Draws as many as fit into `bytes`.
+    // Draws as many lens images (views from lens points) as fit into `bytes`, and returns them.
     KeptImages keptImages(std::uint64_t bytes = muchMemory, bool software = false) {
         KeptImages images(frame_.world, {}, software);
         images.begin(view_, frame_.settings, planFrame(frame_.world, view_, frame_.settings), bytes);
@@ -73,7 +73,8 @@ protected:
     PictureRequest request_;
 };
 
-// The library draws and rounds its own lens images, and adds them on the CPU. Its pictures equal the window's.
+// The library draws and rounds its own lens images (views from lens points), and adds them on the CPU. Its refocused
+// images equal those of the window.
 TEST_F(KeptImagesOfAView, givePicturesOfTheLibrary) {
     FrameDriver driver(frame_.world, {parseMethodUse("accumulation"), {}, {}});
     RenderSettings settings = frame_.settings;
@@ -87,7 +88,7 @@ TEST_F(KeptImagesOfAView, givePicturesOfTheLibrary) {
         for (const auto& [focus, fStop] : {std::pair(2.0, 0.95), std::pair(1.2, 0.95), std::pair(2.5, 1.4)}) {
             const double difference =
                 largestDifference(sharpSum(*library, {focus, fStop}), refocused(images, focus, fStop));
-            EXPECT_LE(difference, std::ldexp(1, -10)) << focus << " m, f/" << fStop;  // a step of half floats near 1
+            EXPECT_LE(difference, std::ldexp(1, -10)) << focus << " m, f/" << fStop;  // spacing of half floats near 1
         }
     }
 }
@@ -128,10 +129,10 @@ TEST_F(KeptImagesOfAView, serveSmallerAperturesAndFocusDistancesInTheirRange) {
     EXPECT_EQ(serving(range.farthest * 1.01, 0.95), 0u);
     EXPECT_NEAR(serving(2, 0.95 * std::sqrt(2)), 32, 3);
     EXPECT_EQ(serving(2, 0.9), 0u);
-    EXPECT_EQ(serving(2, 4), 0u);  // only about 4 images lie within the aperture, which is too few
+    EXPECT_EQ(serving(2, 4), 0u);  // only about 4 lens points lie in the aperture: too few
 }
 
-// Fixture with a window's picture that no longer changes, so that all of its lens images are drawn.
+// Fixture with an image in the window that no longer changes: all its lens images (views from lens points) are drawn.
 class PictureAtRest : public KeptImagesOfAView {
 protected:
     void SetUp() override {
@@ -201,7 +202,7 @@ TEST_F(PictureAtRest, isReplacedOnceTheImageHasAsManySamples) {
     EXPECT_GT(compareImages(picture_.image(), refocused).psnr, 38);
     rest();
     EXPECT_EQ(picture_.samples(), 128u);
-    request_.view.lens.focusDistance = 1.3;  // the kept images also cover this focus distance
+    request_.view.lens.focusDistance = 1.3;  // the kept views from lens points also cover this focus distance
     draw();
     EXPECT_TRUE(picture_.refocused());
 }

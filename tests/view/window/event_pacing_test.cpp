@@ -31,7 +31,7 @@ WindowEvent button(bool pressed, double x) {
     return event;
 }
 
-// Returns the number of events that each frame consumes.
+// Returns for each frame the number of events that it consumes.
 std::vector<std::size_t> frames(std::deque<WindowEvent> queue, bool interfaceHasHand) {
     std::vector<std::size_t> counts;
     const EventPace pace{interfaceHasHand, {100, 100}};
@@ -67,7 +67,7 @@ TEST(EventPacing, aWordIsOneFrameAndADoubledLetterTwo) {
         word.push_back(text(static_cast<char32_t>(letter)));
         word.push_back(key(letter - 'a' + 'A', false));
     }
-    EXPECT_EQ(frames(word, true), (Counts{12, 3}));  // the second "e" waits for the next frame
+    EXPECT_EQ(frames(word, true), (Counts{12, 3}));  // the second letter "e" of "scene" waits for the next frame
 }
 
 TEST(EventPacing, whoTakesTheKeysIsKnownAFrameAfterAClick) {
