@@ -3,11 +3,14 @@
 #include "scene/pick.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <span>
 #include <utility>
 
+#include "core/morton_order.h"
 #include "scene/posed_mesh.h"
 
 namespace defocus::engine {
@@ -54,38 +57,79 @@ double crossing(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const 
     return u >= 0 && v >= 0 && u + v <= 1 && t >= 0 ? t : miss;
 }
 
-// A run is a group of up to runLength consecutive triangles of a primitive. A ray that misses the run's bounding box is
-// not tested against the triangles.
-constexpr std::size_t runLength = 64;
+// Vertex indices of a triangle's corners.
+using Corners = std::array<std::uint32_t, 3>;
 
-// Returns the bounding boxes of the mesh's runs of triangles. `place(index)` returns the position of vertex `index`.
-template <typename Place>
-std::vector<Bounds> boxesOfRuns(const Mesh& mesh, const Place& place) {
-    std::vector<Bounds> boxes;
-    for (const Primitive& primitive : mesh.primitives)
-        for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-            if (i % (3 * runLength) == 0) boxes.emplace_back();
-            for (std::size_t k = 0; k < 3; ++k) boxes.back().extend(place(primitive.indices[i + k]));
-        }
-    return boxes;
+// Triangles of a mesh. For many rays, they are sorted so that `groupSize` consecutive triangles lie close together; a
+// ray that misses the bounding box of such a group is not tested against its triangles.
+struct TriangleGroups {
+    std::vector<Corners> triangles;
+    Bounds bounds;              // bounding box of all triangles
+    std::vector<Bounds> boxes;  // bounding boxes of the groups; empty if each ray is tested against all triangles
+};
+
+constexpr std::size_t groupSize = 16;
+constexpr std::size_t minRaysForGroups = 8;  // for fewer rays, sorting takes longer than it saves
+
+// Returns the index of the grid cell that contains `offset`, a distance from the start of the grid along one axis.
+std::uint32_t cellAt(double offset, double cellsPerMetre) {
+    const double cell = offset * cellsPerMetre;
+    return cell >= 0 && cell <= maxMortonCell ? static_cast<std::uint32_t>(cell) : 0;
 }
 
-// Returns the ray parameter of the first hit of the mesh, or `nearest` if that is smaller. `boxes` are the bounding
-// boxes of the mesh's runs of triangles; without boxes, all triangles are tested. `place(index)` returns the position
-// of vertex `index`.
+// Sorts the triangles in Morton order. `place(index)` returns the position of vertex `index`.
 template <typename Place>
-double nearestCrossing(const Mesh& mesh, const std::vector<Bounds>& boxes, const Ray& ray, double nearest,
-                       const Place& place) {
-    auto box = boxes.begin();
+void sortInSpace(TriangleGroups& groups, const Place& place) {
+    const glm::dvec3 size = groups.bounds.size();
+    const double scale = maxMortonCell / std::max({size.x, size.y, size.z});
+    LargeVector<std::uint64_t> keys;  // Morton code in the upper 32 bits, index of the triangle in the lower 32 bits
+    keys.reserve(groups.triangles.size());
+    for (const Corners& corners : groups.triangles) {
+        const glm::dvec3 centre = (place(corners[0]) + place(corners[1]) + place(corners[2])) / 3.0;
+        const glm::dvec3 offset = centre - glm::dvec3(groups.bounds.minimum);
+        const std::uint32_t code =
+            mortonCode({cellAt(offset.x, scale), cellAt(offset.y, scale), cellAt(offset.z, scale)});
+        keys.push_back(std::uint64_t{code} << 32 | keys.size());
+    }
+    sortByMortonCode(keys);
+    std::vector<Corners> sorted;
+    sorted.reserve(keys.size());
+    for (const std::uint64_t key : keys) sorted.push_back(groups.triangles[key & 0xffffffffu]);
+    groups.triangles = std::move(sorted);
+}
+
+// Returns the mesh's triangles, prepared for `rays` rays. `place(index)` returns the position of vertex `index`.
+template <typename Place>
+TriangleGroups groupsOf(const Mesh& mesh, std::size_t rays, const Place& place) {
+    TriangleGroups groups;
+    groups.triangles.reserve(mesh.triangleCount());
     for (const Primitive& primitive : mesh.primitives)
-        for (std::size_t run = 0; run + 2 < primitive.indices.size(); run += 3 * runLength) {
-            if (!boxes.empty() && !reaches(ray, *box++, nearest)) continue;
-            const std::size_t end = std::min(run + 3 * runLength, primitive.indices.size());
-            for (std::size_t i = run; i + 2 < end; i += 3) {
-                const auto corner = [&](std::size_t k) { return place(primitive.indices[i + k]); };
-                nearest = std::min(nearest, crossing(ray, corner(0), corner(1), corner(2)));
-            }
+        for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3)
+            groups.triangles.push_back({primitive.indices[i], primitive.indices[i + 1], primitive.indices[i + 2]});
+    for (const Corners& corners : groups.triangles)
+        for (const std::uint32_t corner : corners) groups.bounds.extend(place(corner));
+    if (rays < minRaysForGroups) return groups;
+    sortInSpace(groups, place);
+    for (std::size_t i = 0; i < groups.triangles.size(); ++i) {
+        if (i % groupSize == 0) groups.boxes.emplace_back();
+        for (const std::uint32_t corner : groups.triangles[i]) groups.boxes.back().extend(place(corner));
+    }
+    return groups;
+}
+
+// Returns the ray parameter of the first hit of the triangles, or `nearest` if that is smaller. `boxes`: those of
+// `groups`, or empty to test all triangles. `place(index)` returns the position of vertex `index`.
+template <typename Place>
+double nearestCrossing(const TriangleGroups& groups, std::span<const Bounds> boxes, const Ray& ray, double nearest,
+                       const Place& place) {
+    const std::size_t size = boxes.empty() ? groups.triangles.size() : groupSize;
+    for (std::size_t start = 0; start < groups.triangles.size(); start += size) {
+        if (!boxes.empty() && !reaches(ray, boxes[start / groupSize], nearest)) continue;
+        for (std::size_t i = start; i < std::min(start + size, groups.triangles.size()); ++i) {
+            const auto [a, b, c] = groups.triangles[i];
+            nearest = std::min(nearest, crossing(ray, place(a), place(b), place(c)));
         }
+    }
     return nearest;
 }
 
@@ -95,20 +139,18 @@ auto placesOf(const Mesh& mesh) {
 
 // Returns the ray parameter of the first hit of an object that is not deformed, or `nearest` if that is smaller. The
 // ray is transformed to object space if the matrix is invertible; otherwise the triangles are transformed to world
-// space. `boxes` are the bounding boxes of the mesh's runs of triangles.
-double nearestCrossing(const Mesh& mesh, const std::vector<Bounds>& boxes, const glm::dmat4& worldFromObject,
+// space. `groups`: the mesh's triangles.
+double nearestCrossing(const Mesh& mesh, const TriangleGroups& groups, const glm::dmat4& worldFromObject,
                        const glm::dmat4& objectFromWorld, const Ray& world, double nearest) {
     const Ray ray{glm::dvec3(objectFromWorld * glm::dvec4(world.origin, 1)),
                   glm::dvec3(objectFromWorld * glm::dvec4(world.direction, 0))};
     const bool invertible = std::isfinite(glm::dot(ray.origin, ray.origin)) &&
                             std::isfinite(glm::dot(ray.direction, ray.direction)) &&
                             glm::dot(ray.direction, ray.direction) > 0;
-    if (!invertible) {
-        return nearestCrossing(mesh, {}, world, nearest, [&](std::uint32_t vertex) {
-            return glm::dvec3(worldFromObject * glm::dvec4(mesh.vertices.positions[vertex], 1));
-        });
-    }
-    return nearestCrossing(mesh, boxes, ray, nearest, placesOf(mesh));
+    if (invertible) return nearestCrossing(groups, groups.boxes, ray, nearest, placesOf(mesh));
+    return nearestCrossing(groups, {}, world, nearest, [&](std::uint32_t vertex) {
+        return glm::dvec3(worldFromObject * glm::dvec4(mesh.vertices.positions[vertex], 1));
+    });
 }
 
 // Bounding sphere in world space.
@@ -134,46 +176,40 @@ bool misses(const Ray& ray, const Ball& ball) {
     return square - along * along > ball.radius * ball.radius * (1 + rounding) + rounding * square;
 }
 
-Bounds unionOf(const std::vector<Bounds>& boxes) {
-    Bounds all;
-    for (const Bounds& box : boxes) all.extend(box);
-    return all;
-}
-
 // Triangles of one object, prepared for intersection with many rays.
 class Target {
 public:
-    // `meshBoxes` are the bounding boxes of the runs of triangles of the undeformed mesh.
-    Target(const Mesh& mesh, const std::vector<Bounds>& meshBoxes, const Object& object)
-        : mesh_(mesh), meshBoxes_(meshBoxes), object_(object), deformed_(deformed(object)) {
+    // `undeformed`: triangles of the undeformed mesh. `rays`: number of rays to follow.
+    Target(const Mesh& mesh, const TriangleGroups& undeformed, std::size_t rays, const Object& object)
+        : mesh_(mesh), undeformed_(undeformed), object_(object), deformed_(deformed(object)) {
         if (deformed_) {
             positions_ = posedPositions(mesh, object);
-            posedBoxes_ = boxesOfRuns(mesh, [&](std::uint32_t vertex) { return positions_[vertex]; });
+            posed_ = groupsOf(mesh, rays, [&](std::uint32_t vertex) { return positions_[vertex]; });
         }
-        ball_ = ballAround(unionOf(deformed_ ? posedBoxes_ : meshBoxes_),
-                           deformed_ ? glm::dmat4(1) : object.worldFromObject);
+        ball_ = deformed_ ? ballAround(posed_.bounds, glm::dmat4(1))
+                          : ballAround(undeformed_.bounds, object.worldFromObject);
         objectFromWorld_ = deformed_ ? glm::dmat4(1) : glm::inverse(object.worldFromObject);
     }
 
     [[nodiscard]] double nearestCrossing(const Ray& world, double nearest) const {
         if (misses(world, ball_)) return nearest;
         if (!deformed_)
-            return engine::nearestCrossing(mesh_, meshBoxes_, object_.worldFromObject, objectFromWorld_, world,
+            return engine::nearestCrossing(mesh_, undeformed_, object_.worldFromObject, objectFromWorld_, world,
                                            nearest);
-        return engine::nearestCrossing(mesh_, posedBoxes_, world, nearest,
+        return engine::nearestCrossing(posed_, posed_.boxes, world, nearest,
                                        [&](std::uint32_t vertex) { return positions_[vertex]; });
     }
 
 private:
     const Mesh& mesh_;
-    const std::vector<Bounds>& meshBoxes_;
+    const TriangleGroups& undeformed_;
     Ball ball_{};
     glm::dmat4 objectFromWorld_{1};
     const Object& object_;
     bool deformed_;
-    // Vertex positions, and bounding boxes of runs of triangles, in world space; empty unless the object is deformed.
+    // Vertex positions and triangles in world space; empty unless the object is deformed.
     std::vector<glm::dvec3> positions_;
-    std::vector<Bounds> posedBoxes_;
+    TriangleGroups posed_;
 };
 
 }  // namespace
@@ -183,14 +219,14 @@ std::vector<std::optional<Hit>> firstHits(const Scene& scene, const Pose& pose, 
     std::vector<Ray> rays;
     for (const glm::dvec3& direction : directions) rays.push_back({origin, glm::normalize(direction)});
     std::vector<Hit> nearest(rays.size(), {std::numeric_limits<double>::infinity(), -1});
-    std::vector<std::vector<Bounds>> boxes(scene.meshes.size());  // of runs of triangles, per mesh; empty until needed
+    std::vector<TriangleGroups> groups(scene.meshes.size());  // triangles of each mesh; empty until needed
     for (std::size_t i = 0; i < pose.objects.size(); ++i) {
         const Object& object = pose.objects[i];
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
-        std::vector<Bounds>& meshBoxes = boxes[static_cast<std::size_t>(object.mesh)];
-        if (meshBoxes.empty()) meshBoxes = boxesOfRuns(mesh, placesOf(mesh));
-        if (meshBoxes.empty()) continue;
-        const Target target(mesh, meshBoxes, object);
+        TriangleGroups& undeformed = groups[static_cast<std::size_t>(object.mesh)];
+        if (undeformed.triangles.empty()) undeformed = groupsOf(mesh, rays.size(), placesOf(mesh));
+        if (undeformed.triangles.empty()) continue;
+        const Target target(mesh, undeformed, rays.size(), object);
         for (std::size_t ray = 0; ray < rays.size(); ++ray) {
             const double distance = target.nearestCrossing(rays[ray], nearest[ray].distance);
             if (distance < nearest[ray].distance) nearest[ray] = {distance, static_cast<int>(i)};

@@ -1,6 +1,6 @@
 #pragma once
-// Finds the first surface that a ray hits. Each ray is tested against all triangles on the CPU, which takes
-// milliseconds per million triangles.
+// Finds the first surface that a ray hits, on the CPU. A single ray is tested against all triangles, which takes
+// milliseconds per million triangles. For many rays, the triangles of each mesh are first sorted in space.
 
 #include <optional>
 #include <vector>

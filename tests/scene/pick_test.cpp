@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
+#include <set>
 
 namespace defocus::engine {
 namespace {
@@ -125,6 +126,29 @@ TEST(Pick, agreesWithTheBoxItself) {
         }
         EXPECT_GT(hits, 200);
     }
+}
+
+// Many rays are tested against triangles sorted in space; a single ray is tested against all triangles.
+TEST(Pick, manyRaysHitWhatEachHitsAlone) {
+    const Scene scene =
+        cubes({glm::translate(glm::dmat4(1), glm::dvec3(0.5, 0, -6)),
+               glm::rotate(glm::dmat4(1), 0.6, glm::dvec3(1, 2, 3)), glm::scale(glm::dmat4(1), glm::dvec3(3, 3, 0))});
+    const Pose pose = poseAt(scene, 0);
+    const glm::dvec3 origin(0.3, 0.2, 5);
+    std::vector<glm::dvec3> directions;
+    for (int y = -20; y <= 20; ++y)
+        for (int x = -20; x <= 20; ++x) directions.emplace_back(0.04 * x, 0.04 * y, -1);
+    const auto hits = firstHits(scene, pose, origin, directions);
+    std::set<int> objects;
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        const auto alone = firstHit(scene, pose, origin, directions[i]);
+        ASSERT_EQ(hits[i].has_value(), alone.has_value()) << i;
+        if (!alone) continue;
+        EXPECT_EQ(hits[i]->distance, alone->distance) << i;
+        EXPECT_EQ(hits[i]->object, alone->object) << i;
+        objects.insert(alone->object);
+    }
+    EXPECT_EQ(objects, (std::set<int>{1, 2}));
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "core/bounds.h"
+#include "core/morton_order.h"
 #include "lod/simplify/triangle.h"
 
 namespace defocus::engine {
@@ -27,7 +28,6 @@ constexpr std::size_t arity = 4;  // children per node of the bounding volume hi
 // Bound on the rounding error of a difference of coordinates in single precision, relative to the largest coordinate of
 // the surface and the point.
 constexpr float rounding = 2.5e-7f;
-constexpr double mortonCells = 1023;  // max index of a grid cell per axis in a Morton code: 10 bits
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // Steps of the R2 sequence: 1/g and 1/g², where g³ = g + 1.
 constexpr double stepU = 0.7548776662466927;
@@ -53,29 +53,6 @@ Box boxOf(const Triangle& t) {
     return {glm::min(t[0], glm::min(t[1], t[2])), glm::max(t[0], glm::max(t[1], t[2]))};
 }
 
-// Inserts two zero bits between consecutive bits of the low 10 bits.
-std::uint32_t spread(std::uint32_t bits) {
-    bits = (bits | bits << 16) & 0x030000ffu;
-    bits = (bits | bits << 8) & 0x0300f00fu;
-    bits = (bits | bits << 4) & 0x030c30c3u;
-    return (bits | bits << 2) & 0x09249249u;
-}
-
-// Sorts the keys by the Morton code in their upper 32 bits (radix sort). The triangle numbers in the lower 32 bits are
-// already in ascending order.
-void sortByCode(LargeVector<std::uint64_t>& keys) {
-    constexpr std::uint64_t digits = 1024;
-    LargeVector<std::uint64_t> sorted(keys.size());
-    for (int shift = 32; shift < 62; shift += 10) {
-        const auto digit = [&](std::uint64_t key) { return (key >> shift) % digits; };
-        std::array<std::size_t, digits + 1> starts{};
-        for (const std::uint64_t key : keys) ++starts[digit(key) + 1];
-        std::partial_sum(starts.begin(), starts.end(), starts.begin());
-        for (const std::uint64_t key : keys) sorted[starts[digit(key)]++] = key;
-        keys.swap(sorted);
-    }
-}
-
 // Returns the triangles with finite corners and positive area, in Morton order. `count` is the number of triangles
 // before invalid ones are removed.
 template <typename TriangleAt>
@@ -94,12 +71,11 @@ LargeVector<Triangle> inMortonOrder(std::size_t count, const TriangleAt& triangl
     for (std::uint64_t& key : keys) {
         const Triangle t = triangle(key);
         const glm::dvec3 centre = (glm::dvec3(t[0]) + glm::dvec3(t[1]) + glm::dvec3(t[2])) / 3.0;
-        const glm::uvec3 cell(glm::clamp((centre - glm::dvec3(bounds.minimum)) * (mortonCells / longest), glm::dvec3(0),
-                                         glm::dvec3(mortonCells)));
-        const std::uint32_t code = spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2;
-        key |= std::uint64_t{code} << 32;
+        const glm::uvec3 cell(glm::clamp((centre - glm::dvec3(bounds.minimum)) * (maxMortonCell / longest),
+                                         glm::dvec3(0), glm::dvec3(maxMortonCell)));
+        key |= std::uint64_t{mortonCode(cell)} << 32;
     }
-    sortByCode(keys);
+    sortByMortonCode(keys);
     LargeVector<Triangle> sorted;
     sorted.reserve(keys.size());
     for (const std::uint64_t key : keys) sorted.push_back(triangle(key & 0xffffffffu));
