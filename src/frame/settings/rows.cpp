@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/error.h"
-#include "frame/settings/values.h"
 #include "scene/units.h"
 
 namespace defocus::engine {

@@ -7,14 +7,129 @@
 #include <iterator>
 #include <utility>
 
+#include "core/error.h"
+#include "core/parse.h"
 #include "frame/settings/conditions.h"
 #include "frame/settings/rows.h"
-#include "frame/settings/values.h"
 #include "lens/lens_fields.h"
 
 namespace defocus::engine {
 
 namespace {
+
+// Each set… function parses a text, and throws Error, with the allowed values in its message, for an invalid text. Each
+// …Text function returns nullopt if the value is unset.
+
+constexpr std::size_t minFocusPoints = 3;
+constexpr std::size_t maxFocusPoints = 16;
+
+Pixel parsePixel(const std::string& column, const std::string& row) {
+    return {static_cast<int>(parseInteger(column, 0, maxImageSide - 1)),
+            static_cast<int>(parseInteger(row, 0, maxImageSide - 1))};
+}
+
+// Restores the default focus if the request's focus has the type Choice.
+template <typename Choice>
+void clearFocus(Request& request) {
+    if (std::holds_alternative<Choice>(request.focus)) request.focus = CameraFocus{};
+}
+
+double parseLensValue(const LensField& field, const std::string& text) {
+    if (std::holds_alternative<bool Lens::*>(field.member)) return rows::parseBoolean(text) ? 1 : 0;
+    if (std::holds_alternative<int Lens::*>(field.member))
+        return static_cast<double>(
+            parseInteger(text, static_cast<std::uint64_t>(field.min), static_cast<std::uint64_t>(field.max)));
+    if (std::string_view(field.unit) == "S") return parseSeconds(text);
+    if (std::string_view(field.name) == "fStop" && text.starts_with("f/"))
+        return parseNumber(text.substr(2), {field.min, field.max});
+    return parseNumber(text, {field.min, field.max});
+}
+
+std::optional<std::string> lensText(const LensSettings& lens, const LensField& field) {
+    const std::optional<double> value = givenLensValue(lens, field);
+    if (!value) return std::nullopt;
+    if (std::holds_alternative<bool Lens::*>(field.member)) return *value != 0 ? "true" : "false";
+    return fmt::format("{}", std::min(*value, field.max));
+}
+
+void setFocusDistance(Request& request, const std::string& text) {
+    request.focus = FocusDistance{parseLensValue(*lensFieldNamed("focusDistance"), text)};
+}
+
+std::optional<std::string> focusDistanceText(const Request& request) {
+    const auto* const focus = std::get_if<FocusDistance>(&request.focus);
+    return focus != nullptr ? std::optional(fmt::format("{}", focus->metres)) : std::nullopt;
+}
+
+void setFocusNode(Request& request, const std::string& text) {
+    if (text.empty())
+        clearFocus<FocusNode>(request);
+    else
+        request.focus = FocusNode{text};
+}
+
+std::optional<std::string> focusNodeText(const Request& request) {
+    const auto* const focus = std::get_if<FocusNode>(&request.focus);
+    return focus != nullptr ? std::optional(focus->name) : std::nullopt;
+}
+
+void setFocusPixel(Request& request, const std::string& text) {
+    const std::size_t comma = text.find(',');
+    if (comma == std::string::npos) fail("'{}' is not X,Y (column and row, 0,0 at the top left)", text);
+    request.focus = FocusPixel{parsePixel(text.substr(0, comma), text.substr(comma + 1))};
+}
+
+std::optional<std::string> focusPixelText(const Request& request) {
+    const auto* const focus = std::get_if<FocusPixel>(&request.focus);
+    if (focus == nullptr) return std::nullopt;
+    return fmt::format("{},{}", focus->pixel.column, focus->pixel.row);
+}
+
+void setFocusPoints(Request& request, const std::string& text) {
+    const std::vector<std::string> parts = splitAt(text, ',');
+    if (parts.size() < 2 * minFocusPoints || parts.size() % 2 != 0 || parts.size() > 2 * maxFocusPoints)
+        fail("'{}' is not X,Y,X,Y,X,Y: the columns and rows of {} to {} pixels", text, minFocusPoints, maxFocusPoints);
+    FocusPoints points;
+    for (std::size_t i = 0; i < parts.size(); i += 2) points.pixels.push_back(parsePixel(parts[i], parts[i + 1]));
+    request.focus = std::move(points);
+}
+
+std::optional<std::string> focusPointsText(const Request& request) {
+    const auto* const focus = std::get_if<FocusPoints>(&request.focus);
+    if (focus == nullptr) return std::nullopt;
+    std::vector<int> numbers;
+    for (const Pixel& pixel : focus->pixels) numbers.insert(numbers.end(), {pixel.column, pixel.row});
+    return fmt::format("{}", fmt::join(numbers, ","));
+}
+
+void setFocusAuto(Request& request, const std::string& text) {
+    if (rows::parseBoolean(text))
+        request.focus = FocusAuto{};
+    else
+        clearFocus<FocusAuto>(request);
+}
+
+std::optional<std::string> focusAutoText(const Request& request) {
+    return std::holds_alternative<FocusAuto>(request.focus) ? "true" : "false";
+}
+
+// Splits the text at the last '=', because the node's name may contain '='.
+void addNodeBlur(Request& request, const std::string& text) {
+    const std::size_t equals = text.rfind('=');
+    if (equals == std::string::npos || equals == 0) fail("'{}' is not NAME=SCALE, such as Fish3=0", text);
+    request.nodeBlur[text.substr(0, equals)] = parseNumber(text.substr(equals + 1), {0, 1e3});
+}
+
+std::vector<std::string> nodeBlurTexts(const Request& request) {
+    std::vector<std::string> texts;
+    for (const auto& [name, scale] : request.nodeBlur) texts.push_back(fmt::format("{}={}", name, scale));
+    return texts;
+}
+
+std::optional<std::string> nodeBlurText(const Request& request) {
+    if (request.nodeBlur.empty()) return std::nullopt;
+    return fmt::format("{}", fmt::join(nodeBlurTexts(request), ","));
+}
 
 std::string unitOf(std::string_view metavar) {
     if (metavar == "MM") return "mm";

@@ -3,12 +3,80 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/error.h"
 #include "core/memory_limits.h"
+#include "core/parse.h"
+#include "frame/layer_names.h"
 #include "frame/settings/conditions.h"
 #include "frame/settings/rows.h"
-#include "frame/settings/values.h"
 
 namespace defocus::engine {
+
+namespace {
+
+// Each set… function parses a text, and throws Error, with the allowed values in its message, for an invalid text. Each
+// …Text function returns nullopt if the value is unset.
+
+// Sets the method. Settings of the method that the text doesn't give are reset to their defaults.
+void setMethod(Request& request, const std::string& text) {
+    std::vector<std::string> names;
+    for (const Method& method : methods()) names.push_back(method.name);
+    static_cast<void>(parseChoice(text.substr(0, text.find(':')), names));
+    const MethodUse use = parseMethodUse(text);
+    request.method = use.method->name;
+    request.methodSettings.clear();
+    for (const MethodSetting& setting : use.method->settings)
+        if (const std::string& value = use.settings.at(setting.name); value != setting.defaultValue)
+            request.methodSettings[setting.name] = value;
+}
+
+std::optional<std::string> methodText(const Request& request) {
+    return namedMethod(request).text();
+}
+
+void clearMethod(Request& request) {
+    request.method = Request{}.method;
+    request.methodSettings.clear();
+}
+
+// Sets the layers, in the order of the enumeration and without repetition. "all" names all layers.
+void setLayers(Request& request, const std::string& text) {
+    std::vector<std::string> words = {"all"};
+    for (const LayerNames& layer : allLayerNames()) words.emplace_back(layer.option);
+    std::vector<bool> wanted(allLayerNames().size());
+    for (const std::string& part : splitAt(text, ',')) {
+        const std::size_t word = parseChoice(part, words);
+        for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = wanted[i] || word == 0 || word == i + 1;
+    }
+    request.layers.clear();
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        if (wanted[i]) request.layers.push_back(allLayerNames()[i].layer);
+}
+
+std::optional<std::string> layersText(const Request& request) {
+    if (request.layers.empty()) return {};
+    std::string text;
+    for (const Layer layer : request.layers) {
+        if (!text.empty()) text += ',';
+        text += layerNames(layer).option;
+    }
+    return text;
+}
+
+void setExposure(Request& request, const std::string& text) {
+    if (text == "auto")
+        request.exposure = MeteredExposure{};
+    else
+        request.exposure = ExposureValue{parseNumber(text, {-60, 60})};
+}
+
+std::optional<std::string> exposureText(const Request& request) {
+    if (std::holds_alternative<MeteredExposure>(request.exposure)) return "auto";
+    const auto* const value = std::get_if<ExposureValue>(&request.exposure);
+    return value != nullptr ? std::optional(fmt::format("{}", value->ev)) : std::nullopt;
+}
+
+}  // namespace
 
 Rows methodRows() {
     std::vector<std::string> names;

@@ -10,7 +10,6 @@
 #include "frame/settings/conditions.h"
 #include "frame/settings/presets.h"
 #include "frame/settings/rows.h"
-#include "frame/settings/values.h"
 #include "lens/lens_samples.h"
 #include "lod/pyramid/level_selection.h"
 #include "render/sampling/automatic_samples.h"

@@ -7,14 +7,88 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/parse.h"
 #include "frame/settings/conditions.h"
 #include "frame/settings/rows.h"
-#include "frame/settings/values.h"
 #include "scene/units.h"
 
 namespace defocus::engine {
 
 namespace {
+
+// Each set… function parses a text, and throws Error, with the allowed values in its message, for an invalid text. Each
+// …Text function returns nullopt if the value is unset.
+
+constexpr std::uint64_t maxSegments = 64;
+constexpr double farthest = 1e12;  // largest coordinate, m
+
+void setMotionSegments(Request& request, const std::string& text) {
+    if (text == "exact")
+        request.motionSegments = ExactMotion{};
+    else
+        request.motionSegments = static_cast<std::uint32_t>(parseInteger(text, 1, maxSegments));
+}
+
+std::optional<std::string> motionSegmentsText(const Request& request) {
+    const auto* const segments = std::get_if<std::uint32_t>(&request.motionSegments);
+    return segments != nullptr ? fmt::format("{}", *segments) : "exact";
+}
+
+void setBackground(Request& request, const std::string& text) {
+    if (text.find(',') != std::string::npos) {
+        const std::vector<double> color = parseNumbers(text, 3, {0, 1e9});
+        request.background =
+            Color{static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2])};
+        return;
+    }
+    const std::size_t chosen = parseChoice(text, {"environment", "none", "R,G,B"});
+    if (chosen > 1) fail("give three numbers R,G,B, such as 0.2,0.2,0.2");
+    if (chosen == 0)
+        request.background = EnvironmentBackground{};
+    else
+        request.background = TransparentBackground{};
+}
+
+std::optional<std::string> backgroundText(const Request& request) {
+    if (const auto* const color = std::get_if<Color>(&request.background))
+        return fmt::format("{}", fmt::join(*color, ","));
+    return std::holds_alternative<TransparentBackground>(request.background) ? "none" : "environment";
+}
+
+void setCamera(Request& request, const std::string& text) {
+    if (text.empty())
+        request.camera = FirstCamera{};
+    else if (text == "auto")
+        request.camera = FramingCamera{};
+    else
+        request.camera = NamedCamera{text};
+}
+
+std::optional<std::string> cameraText(const Request& request) {
+    if (std::holds_alternative<FirstCamera>(request.camera)) return std::nullopt;
+    const auto* const named = std::get_if<NamedCamera>(&request.camera);
+    return named != nullptr ? named->name : "auto";
+}
+
+Vector3 parsePoint(const std::string& text) {
+    const std::vector<double> xyz = parseNumbers(text, 3, {-farthest, farthest});
+    return {xyz[0], xyz[1], xyz[2]};
+}
+
+void setSize(Request& request, const std::string& text) {
+    const std::size_t cross = text.find_first_of("xX");
+    if (cross == std::string::npos) fail("'{}' is not WIDTHxHEIGHT, such as 1024x768", text);
+    try {
+        request.size = {static_cast<int>(parseInteger(text.substr(0, cross), 1, maxImageSide)),
+                        static_cast<int>(parseInteger(text.substr(cross + 1), 1, maxImageSide))};
+    } catch (const Error&) {
+        fail("'{}': width and height must be integers from 1 to {}, such as 1024x768", text, maxImageSide);
+    }
+}
+
+std::optional<std::string> sizeText(const Request& request) {
+    return fmt::format("{}x{}", request.size.width, request.size.height);
+}
 
 Row unitsRow() {
     return Row(SettingKind::number, "units", "--units", "m|cm|mm|M|auto",
