@@ -81,7 +81,7 @@ void adoptScene(Document& document, ViewState& state, LoadedScene scene) {
 }
 
 void stepThroughHistory(Document& document, ViewState& state, const ViewActions& actions) {
-    // Finish a running focus pull immediately.
+    // Finish a running focus pull at once, by setting its end distance.
     if (state.pull) state.lens.focusDistance = state.pull->to;
     state.pull.reset();
     EditHistory& history = document.history;
@@ -150,7 +150,7 @@ bool takeLoadedScene(Document& document, ViewState& state) {
         adoptScene(document, state, std::move(*loaded));
         return true;
     }
-    // Replace the draft's pyramids; camera, lens and all edits stay.
+    // Replace the draft pyramids by the final ones; camera, lens and all edits stay.
     document.frame->world.pyramids = std::move(loaded->frame->world.pyramids);
     document.draft = false;
     ++document.worldVersion;

@@ -17,7 +17,7 @@ ImU32 faded(ImU32 color, float alpha) {
     return (color & ~IM_COL32_A_MASK) | static_cast<ImU32>(own * alpha) << IM_COL32_A_SHIFT;
 }
 
-// Returns the window position of a world-space point; nullopt for a point behind the camera.
+// Returns the window position of a world-space point; nullopt if the point is behind the camera.
 std::optional<ImVec2> onPicture(const Ui& ui, const glm::dvec3& point) {
     const ViewState& state = ui.state;
     const glm::dvec3 p = glm::inverse(state.camera.worldFromCamera) * glm::dvec4(point, 1);
@@ -131,7 +131,7 @@ std::string samplesLabel(const ViewPicture& picture) {
     return text;
 }
 
-// Draws labels for lens, samples and warnings at the bottom left. Returns the top right corner of these labels.
+// Draws the status labels at the bottom left: lens, samples and warnings. Returns the labels' top right corner.
 ImVec2 drawStatus(const Ui& ui) {
     const float gap = 8 * ui.scale;
     const ImVec2 corner = pictureCorner(ui, 0, 1);

@@ -18,8 +18,8 @@ constexpr double hoverDelay = 0.12;  // seconds without mouse movement before pi
 
 struct Legend {
     const char* title;
-    const char* shortTitle;            // title in narrow pictures
-    glm::vec3 (*colour)(float);        // maps a position on the scale, 0 … 1, to a linear colour
+    const char* shortTitle;            // shorter title for narrow images
+    glm::vec3 (*colour)(float);        // maps a position on the scale in [0, 1] to a linear colour
     std::array<const char*, 5> marks;  // labels at even spacing
 };
 

@@ -1,4 +1,4 @@
-// Panel section for exporting stills, commands and shots, and the dialog for a still's file name.
+// Draws the panel section for exporting stills, commands and shots, and the dialog for a still's file name.
 
 #include <fmt/format.h>
 #include <imgui.h>

@@ -8,7 +8,7 @@
 
 namespace defocus::engine {
 
-// The desktop's file dialog: runs zenity or kdialog as a separate process.
+// Runs the desktop's file dialog, zenity or kdialog, as a separate process.
 class DesktopDialog {
 public:
     DesktopDialog() = default;
@@ -32,7 +32,7 @@ private:
     std::string text_;
 };
 
-// The window's own dialog for opening scenes.
+// The window's own dialog for choosing a scene file, drawn with ImGui.
 class FileBrowser {
 public:
     void open(const std::filesystem::path& folder);

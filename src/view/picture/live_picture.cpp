@@ -57,8 +57,8 @@ std::string pictureSettings(Request request) {
     return pixelSettings(request);
 }
 
-// Returns the picture's request for the state. `plan`: plan of the previous frame; provides depths for the popping
-// test.
+// Returns the request for drawing the picture of this state. `plan`: plan of the previous frame, which gives the depth
+// range of the popping test.
 PictureRequest pictureRequest(const Document& document, const ViewState& state, const FramePlan& plan, bool software) {
     PictureRequest result;
     result.view = currentView(document, state);
@@ -93,8 +93,8 @@ void makeImage(LivePicture& picture, const Document& document, const ViewState& 
     picture.worldVersion = document.worldVersion;
 }
 
-// Simplifies a request that failed: turns off comparison and popping test or, if neither is on, replaces the method by
-// accumulation. Returns false if nothing could be simplified.
+// Simplifies a request that can't be drawn: turns off comparison and popping test or, if neither is on, replaces the
+// method by accumulation. Returns false if the request is already as simple as possible.
 bool simplifyRequest(ViewState& state) {
     if (state.comparison != Comparison::none || state.poppingSince) {
         state.comparison = Comparison::none;
@@ -107,7 +107,7 @@ bool simplifyRequest(ViewState& state) {
     return true;
 }
 
-// Meters the exposure once the view has come to rest.
+// Measures and sets the exposure once the view has come to rest.
 void meter(LivePicture& picture, Document& document, ViewState& state, bool exporting) {
     const bool moving = picture.image->moving();
     const bool meters = state.meters && !(state.lens.exposureTime > 0);

@@ -20,8 +20,8 @@ constexpr double visibleGrowth = 1.08;        // relative growth of the sample c
 constexpr double softwareGrowthTime = 60;     // min time per frame for adding samples if OpenGL runs on the CPU, ms
 constexpr auto psnrInterval = 700ms;
 
-// Returns the numbers of a request that affect its images, in addition to settings, sides, aperture image and
-// focusKey(). Exposure time and ISO only affect the display.
+// Returns the numeric values of a request that affect its images, in addition to settings, sides, aperture image and
+// focusKey(). Exposure time and ISO are omitted, because they affect only the display.
 std::vector<double> imageKey(const PictureRequest& request) {
     const View& view = request.view;
     std::vector<double> key = {static_cast<double>(view.width), static_cast<double>(view.height), view.nearPlane,
@@ -35,7 +35,7 @@ std::vector<double> imageKey(const PictureRequest& request) {
     return key;
 }
 
-// Returns the lens values that can change in pictures computed from kept lens images.
+// Returns the lens values that can change when a picture is computed from stored lens images instead of rendered.
 std::vector<double> focusKey(const Lens& lens) {
     return {lens.focusDistance, lens.fStop};
 }
@@ -71,7 +71,7 @@ RenderSettings settingsOf(const RenderSettings& settings, const PictureSide& sid
     return result;
 }
 
-// Appends the pass times of one image. Returns the image's set-up time, ms.
+// Appends the times of an image's render passes. Returns the set-up time of the image, ms.
 double addPasses(std::vector<PassTime>& passes, const RenderStats& stats, const std::string& side) {
     for (const PassTime& pass : stats.passes) passes.push_back({pass.name + side, pass.milliseconds});
     if (stats.passes.empty()) passes.push_back({"waves" + side, stats.gpuMilliseconds});
@@ -206,7 +206,7 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     notePasses();
 }
 
-// Draws the picture from the kept lens images. Returns false if too few of them suit the request's lens.
+// Computes the picture from the stored lens images. Returns false if too few of them suit the request's lens.
 bool ViewPicture::drawRefocused(const PictureRequest& request) {
     const Lens& lens = request.view.lens;
     const std::uint32_t serving = images_ && images_->complete() && !showsWork_ ? images_->serving(lens) : 0;
@@ -238,7 +238,7 @@ void ViewPicture::beginGrowing(const PictureRequest& request) {
     planImages(request);
 }
 
-// Plans lens images of a still view, unless suitable images are kept.
+// Plans lens images for a view at rest, unless suitable lens images are already stored.
 void ViewPicture::planImages(const PictureRequest& request) {
     const bool sums = parseMethodUse(request.sides[0].method).method->sumsBlocks;
     if (request.imageBytes == 0 || request.sides.size() > 1 || !sums) return;
@@ -247,7 +247,7 @@ void ViewPicture::planImages(const PictureRequest& request) {
     images_->begin(request.view, settingsOf(request.settings, request.sides[0]), first().plan(), request.imageBytes);
 }
 
-// Returns whether the next call of grow() draws lens images to keep instead of samples.
+// Returns whether the next call of grow() draws lens images to store, instead of samples of the picture.
 bool ViewPicture::keepsMore() const {
     if (!growing_ || !images_ || images_->drawn() == images_->planned()) return false;
     return first().samples() >= blockSamples || !grows_;
@@ -269,8 +269,8 @@ void ViewPicture::grow(const FrameBudget& budget) {
     notePasses();
 }
 
-// Updates the pass times of the latest frame. A renderer sums its times since the image was begun, so the previous sums
-// are subtracted.
+// Updates the pass times of the latest frame. A renderer sums its times since the image was begun, so the sums of the
+// previous frame are subtracted.
 void ViewPicture::notePasses() {
     std::vector<PassTime> totals;
     double setup = 0;

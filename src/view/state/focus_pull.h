@@ -29,7 +29,7 @@ struct FocusPull {
 };
 
 // Returns the focus distance after `notches` of the mouse wheel; positive notches focus farther. Each notch multiplies
-// the distance by the same factor.
+// the distance by a constant factor.
 inline double rackedFocus(double focusDistance, double notches) {
     constexpr double step = 0.03;         // relative change per notch
     constexpr double minDistance = 1e-3;  // m

@@ -32,7 +32,7 @@ public:
     // Drops the waiting events, because they don't change the picture.
     void forget() { waiting_.reset(); }
 
-    struct Summary {  // latencies of the latest events with a visible effect, ms
+    struct Summary {  // latencies in ms of the latest events whose effect was shown
         std::size_t count = 0;
         double latest = 0, median = 0, worst = 0;
     };
@@ -47,7 +47,7 @@ private:
     static constexpr std::size_t maxAnswers = 256;
 
     std::optional<Time> waiting_;
-    std::deque<double> answers_;  // latencies, ms
+    std::deque<double> answers_;  // latencies of these events, ms
 };
 
 }  // namespace defocus::engine

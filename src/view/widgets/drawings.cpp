@@ -1,4 +1,4 @@
-// Drawings in the panel: aperture ring, aperture, blur over depth, frame times.
+// Draws the panel's diagrams: aperture ring, aperture shape, blur over depth, frame times.
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
@@ -54,12 +54,12 @@ float stopPosition(double fStop) {
 // standard stop.
 void turnRing(double& fStop, float centre, float spacing) {
     ImGui::SetItemUsingMouseWheel();  // keep the panel from scrolling
-    static float rolled = 0;  // notches of the wheel; touchpads send fractions, and slow frames receive several
+    static float rolled = 0;  // wheel notches not yet applied: touchpads send fractions, and slow frames get several
     rolled = ImGui::IsItemHovered() ? rolled + ImGui::GetIO().MouseWheel : 0;
     const int notches = static_cast<int>(rolled);
     if (notches != 0) fStop = steppedStop(fStop, -notches);
     rolled -= static_cast<float>(notches);
-    static float dragged = 0;  // px
+    static float dragged = 0;  // drag distance not yet applied, px
     static bool turned = false;
     if (ImGui::IsItemActivated()) {
         dragged = 0;
@@ -76,7 +76,7 @@ void turnRing(double& fStop, float centre, float spacing) {
     }
 }
 
-// Range of depths that the diagram shows, on a logarithmic axis.
+// Range of depths on the diagram's logarithmic horizontal axis.
 struct DepthAxis {
     double nearest = 0;  // m
     double farthest = 0;

@@ -10,7 +10,7 @@ namespace defocus::engine {
 
 struct FrameTimes {
     double frame = 0;           // latest frame time, ms
-    double interface = 0;       // time of widgets and buffer swap, ms
+    double interface = 0;       // time for drawing widgets and swapping buffers, ms
     std::vector<float> recent;  // latest frame times, ms
     InputLatency latency;
 };

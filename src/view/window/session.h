@@ -19,15 +19,15 @@ struct SessionOptions {
     std::filesystem::path screenshot;    // file for a screenshot at the end; empty: none
     int frames = 0;                      // frames with the complete scene before the window closes; 0: no limit
     std::filesystem::path shaderFolder;  // replacement shaders; empty: the embedded shaders
-    bool quiet = false;                  // print no warnings on stderr
-    std::filesystem::path stats;         // JSON file for the state, updated continuously; empty: none
+    bool quiet = false;                  // true: print no warnings on stderr
+    std::filesystem::path stats;         // JSON file to which the window's state is written continuously; empty: none
 };
 
 // Opens a window and the scene; returns once the window is closed. Throws Error if there is no display or, with
 // SessionOptions::frames, if the scene can't be opened.
 void runSession(const SessionOptions& options);
 
-// All parts of a running session.
+// State of a running window: scene, picture, interface and input events.
 struct Session {
     explicit Session(const SessionOptions& options);
 
@@ -37,7 +37,7 @@ struct Session {
     ViewInterface interface;
     ViewInput input;
     ViewState state;
-    ViewActions actions;  // actions requested in this frame
+    ViewActions actions;  // actions that panels and keys requested in this frame
     Document document;
     LivePicture picture;
     std::optional<StillExport> still;
@@ -68,7 +68,7 @@ void layOut(Session& session);
 // Returns the events of the next frame. First adds samples to a still picture; waits if nothing else is to be done.
 std::vector<WindowEvent> fetchEvents(Session& session);
 
-// Writes the state to SessionOptions::stats several times a second. `now`: writes immediately.
+// Writes the state to the file SessionOptions::stats several times a second. `now`: whether to write immediately.
 void writeStats(Session& session, bool now = false);
 
 }  // namespace defocus::engine
