@@ -32,14 +32,14 @@ View withMargin(View view, int margin);
 
 // Poses of the scene at the shutter times: the times within the exposure at which motion is sampled.
 struct Shutter {
-    std::vector<Pose> poses;  // a pose of World::pose's objects per shutter time; empty if the scene doesn't move
+    std::vector<Pose> poses;  // one pose of World::pose's objects per shutter time; empty if the scene doesn't move
     // false: shutter times are evenly spaced from opening to closing, and vertices move linearly between them.
-    // Munkberg, Toth and Akenine-Möller 2012 use one such segment. true: each lens sample has its own shutter time,
-    // LensSample::time.
+    // Munkberg, Toth and Akenine-Möller 2012 use one such linear segment. true: each lens sample has its own shutter
+    // time, LensSample::time.
     bool perSample = false;
 };
 
-// A scene that is ready to be planned, with a pose, lights and one pyramid per mesh.
+// A scene that is ready for planning: a pose, lights, environment and one pyramid per mesh.
 struct World {
     std::shared_ptr<const Scene> scene;
     Pose pose;        // pose in the middle of the exposure

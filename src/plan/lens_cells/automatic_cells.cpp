@@ -19,7 +19,7 @@ constexpr int columns = 32;
 constexpr int rows = 24;
 constexpr int depths = 9;
 
-// Returns the fraction of an object's depths whose CoC is at least `minCoc` px.
+// Returns the fraction of the object's depth range in which the CoC diameter is at least `minCoc` px.
 double blurredShareOf(const ObjectPlan& object, const FramePlan& plan, double minCoc) {
     const double nearest = std::max(object.nearestDepth, plan.view.nearPlane);
     const double farthest = std::max(object.farthestDepth, nearest);
@@ -33,8 +33,8 @@ double blurredShareOf(const ObjectPlan& object, const FramePlan& plan, double mi
     return static_cast<double>(blurred) / depths;
 }
 
-// Returns the first and the last of `count` grid cells along an axis whose centres lie in [begin, end], in normalised
-// device coordinates.
+// Returns the first and the last of `count` grid cells along an axis whose centres lie in [begin, end]; coordinates are
+// normalised device coordinates.
 std::array<int, 2> cellsIn(double begin, double end, int count) {
     const auto cell = [&](double ndc) { return (ndc + 1) / 2 * count - 0.5; };
     return {static_cast<int>(std::ceil(std::clamp(cell(begin), -0.5, count + 0.5))),

@@ -1,5 +1,6 @@
-// Source: Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization. Vertices and
-// their circles of confusion C change linearly between the opening and the closing of the shutter.
+// Plans motion blur. Source: Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic
+// Rasterization. Vertices and their circles of confusion C change linearly between the opening and the closing of the
+// shutter.
 #include "plan/motion/motion.h"
 
 #include <algorithm>

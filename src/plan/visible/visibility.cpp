@@ -20,27 +20,27 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double snapping = 1.0 / 128;      // max change in px of a triangle's altitude by rounding to 8 subpixel bits
-constexpr double transformation = 0x1p-21;  // max error of a single-precision position, relative to its summands
+constexpr double transformation = 0x1p-21;  // max error of a single-precision position, relative to the summed terms
 constexpr double storage = 1e-6;            // relative error of a cluster's stored values
 constexpr double guardBand = 1.8;           // |NDC| beyond which triangles may be clipped
 constexpr int shutterParts = 4;         // parts of the time between two shutter times; each has its own motion bound
 constexpr std::size_t maxMoments = 64;  // max shutter times for culling; with more, all clusters are drawn
 // max vertices per level, over all shutter times; posing them takes about 10 ms
 constexpr std::size_t maxPosedVertices = 100'000;
-constexpr double minSaving = 1.0 / 8;  // fraction of a level's triangles; if less is culled, all are drawn
-constexpr std::uint32_t minGap = 128;  // min triangles to skip; drawing fewer costs less than another range
+constexpr double minSaving = 1.0 / 8;  // min culled fraction of a level's triangles; otherwise all are drawn
+constexpr std::uint32_t minGap = 128;  // min culled triangles between two ranges; a smaller gap costs less to draw
 
 // Bounds of the lens in object space during a part of the exposure.
 struct LensRange {
     glm::dvec3 eye{0};             // centre of the lens in the middle of this part of the exposure
     glm::dmat3 viewFromNormal{1};  // inverse transpose of the object's matrix
     double inverseSize = 0;        // Frobenius norm of the object's inverse matrix
-    double motion = 0;             // max distance of a lens point from its position at the part's middle
+    double motion = 0;             // max distance of a lens point from its position in the middle of this part
 };
 
 // An object as seen by all samples of the frame.
 struct ObjectViews {
-    std::vector<glm::dmat4> viewFromObject;  // first in the middle of the exposure, then at each shutter time
+    std::vector<glm::dmat4> viewFromObject;  // matrix in the middle of the exposure, then at each shutter time
     std::vector<LensRange> lenses;           // empty: no cluster is culled for facing away
     double lensRadius = 0;                   // radius in m of the disk that bounds the lens
     double shapeLoss = 1;                    // max factor by which a tilted focus plane shrinks a triangle's altitude
