@@ -12,7 +12,7 @@
 namespace defocus::engine {
 
 struct BenchSubject {
-    std::string program;                // name and version
+    std::string program;                // name and version of the program
     std::string commit;                 // commit of the program's sources; empty if unknown
     std::vector<std::string> commands;  // all commands whose results are included
     Machine machine;
@@ -21,9 +21,9 @@ struct BenchSubject {
     bool software = false;  // true for a software driver, whose timer queries miss the vertex work
     std::string scene;      // scene file; empty if the bench builds its own scenes
     std::string camera;
-    std::optional<Lens> lens;  // lens of all frames; nullopt if the bench varies the lens
-    int width = 0;             // width in px; 0 if the bench uses several sizes
-    int height = 0;            // height in px
+    std::optional<Lens> lens;  // lens of all frames; nullopt if it varies within the bench
+    int width = 0;             // image width in px; 0 if the bench uses several sizes
+    int height = 0;            // image height in px
     int runs = 0;              // timed runs of each frame; 0 if nothing is timed
     double pyramidMilliseconds = 0;
 };

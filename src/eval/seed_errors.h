@@ -1,6 +1,6 @@
 #pragma once
-// Errors of images that differ only in the seed of their lens samples. The range of these errors shows the random part
-// of the error.
+// Summarises errors of images that differ only in the seed of their lens samples. The range of these errors shows the
+// random part of the error.
 
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>

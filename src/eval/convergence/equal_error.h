@@ -14,8 +14,8 @@ namespace defocus::engine {
 
 inline constexpr std::array comparedErrors{0.01, 0.005, 0.0033};  // RMSE of display values in [0, 1]
 
-// A method, whose settings and number of samples are chosen for each error separately. Accumulation counts as two
-// competitors: at full detail and with levels.
+// A method in the comparison. Its settings and its number of samples are chosen for each error separately. Accumulation
+// counts as two competitors: at full detail and with levels.
 struct Competitor {
     std::string name;  // such as "accumulation with levels" or "embree"
     struct Time {

@@ -17,15 +17,15 @@ namespace defocus::engine {
 
 // ---- text tables ----------------------------------------------------------------------------------------------------
 
-std::string convergenceHeader();                         // two lines
-std::string convergenceLine(const ConvergenceRow& row);  // one line
-// Returns sentences about the reference, the rows on the Pareto front, the bias floors (rows.h), and the times to reach
-// equal errors.
+std::string convergenceHeader();                         // returns the table's header, two lines
+std::string convergenceLine(const ConvergenceRow& row);  // returns the table's line for a row
+// Returns sentences about the reference, the rows on the Pareto front, the errors that more samples cannot reduce
+// (BiasFloor), and the times to reach equal errors.
 std::string convergenceSummary(std::span<const ConvergenceRow> rows, const ReferenceImage& reference);
 
 // ---- results --------------------------------------------------------------------------------------------------------
 
-// Conditions of the measured rows: program, machine, scene, crops to show and skipped cases.
+// Properties that all measured rows share: program, machine, scene, crops to show and skipped cases.
 struct ConvergenceSubject {
     BenchSubject bench;
     std::vector<Crop> crops;

@@ -26,7 +26,7 @@ LodMode levelsOf(PoppingMode mode) {
     }
 }
 
-// The renderers of all modes. The layers are precise enough that rounding doesn't affect the results.
+// The renderers of all level modes. Their layers are precise enough that rounding doesn't affect the results.
 struct Renderers {
     std::unique_ptr<Renderer> accumulation;
     std::unique_ptr<Renderer> multirate;
@@ -122,7 +122,7 @@ PoppingFrame frameOf(const Renderers& renderers, PoppingMode mode, const ModeSta
     return frame;
 }
 
-// `step` is called after each frame, with all frames so far.
+// Measures one movement. Calls `step` after each frame with the results of all frames so far.
 std::vector<PoppingFrame> measureMovement(World& world, const Renderers& renderers, Movement name,
                                           const std::vector<MovementFrame>& movement, const std::vector<Image>& masks,
                                           const PoppingOptions& options, std::uint32_t samples,
@@ -156,7 +156,7 @@ std::vector<PoppingFrame> measureMovement(World& world, const Renderers& rendere
     return frames;
 }
 
-// ---- one sample's step ----------------------------------------------------------------------------------------------
+// ---- change of the image when one sample switches its level ---------------------------------------------------------
 
 // Returns the most blurred of the objects that have a coarser level; null if there is none.
 ObjectPlan* maxBlurred(FramePlan& plan, const World& world) {

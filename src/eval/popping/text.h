@@ -10,7 +10,7 @@
 
 namespace defocus::engine {
 
-// Summary of one measure over the frames of a movement.
+// Summary of one error measure over all frames of a movement.
 struct PopSummary {
     double worst = 0;
     int worstFrame = 0;
@@ -33,13 +33,13 @@ std::vector<PoppingRow> poppingRows(std::span<const PoppingFrame> frames);
 
 // Returns one line: the largest pop of each mode in the first frames of a movement.
 std::string firstFramesLine(std::span<const PoppingFrame> frames);
-std::string poppingHeader();                         // two lines
-std::string poppingLine(const PoppingRow& row);      // one line
-std::string sampleStepLine(const SampleStep& step);  // one line, labels included
+std::string poppingHeader();                         // returns the table's header, two lines
+std::string poppingLine(const PoppingRow& row);      // returns the table's line for a row
+std::string sampleStepLine(const SampleStep& step);  // returns one line with labels
 // Returns a sentence: the largest pop of each mode relative to LodMode::nearest, at the largest number of samples.
 std::string poppingSummary(std::span<const PoppingRow> rows);
 
-std::string poppingCsv(std::span<const PoppingFrame> frames);  // one line for each frame
+std::string poppingCsv(std::span<const PoppingFrame> frames);  // returns CSV with a line for each frame
 // Returns JSON with the worst frame and the 99th percentile of each movement, number of samples and mode.
 std::string poppingJson(std::span<const PoppingFrame> frames, std::span<const SampleStep> steps,
                         const BenchSubject& subject, const PoppingOptions& options);

@@ -2,9 +2,9 @@
 // The benchmark of Jeong, Kim and Lee 2011 (their Figure 2). Measures how much faster a frame is with levels of detail
 // than at full detail, for a fixed camera. Varies the number of lens samples, the f-number and the focus distance.
 //
-// Equal for full detail, nearest level and fractional level: scene, camera, lens, lens samples, image size, layers per
-// draw, process, renderer. Runs alternate between all compared modes and methods, so a slowdown of the machine affects
-// all of them.
+// Full detail, nearest level and fractional level have the same scene, camera, lens, lens samples, image size, number
+// of layers per draw, process and renderer. Runs alternate between all compared modes and methods, so a slowdown of the
+// machine affects all of them.
 
 #include <functional>
 #include <optional>
@@ -21,7 +21,7 @@
 
 namespace defocus::engine {
 
-// Settings of levels and lens samples, and a world whose pyramids are built with these settings.
+// Settings of levels and lens samples, and a world whose pyramids are built with them.
 struct SpeedupForm {
     std::string preset;              // name of the preset (settings of a publication); empty: none
     const World* world = nullptr;    // scene, pose, lights and environment are the same in all forms
@@ -30,13 +30,13 @@ struct SpeedupForm {
 };
 
 struct SpeedupOptions {
-    std::vector<std::uint32_t> sampleCounts = {16, 32, 64, 128, 256, 512};  // measured with the view's own lens
+    std::vector<std::uint32_t> sampleCounts = {16, 32, 64, 128, 256, 512};  // lens samples, with the view's own lens
     std::vector<double> fStops;                                             // f-numbers to measure with `sweepSamples`
     std::vector<double> focusDistances;  // focus distances (m) to measure with `sweepSamples`
     std::uint32_t sweepSamples = 64;
     std::vector<MethodUse> methods;  // measured after accumulation, with the first form's settings
-    int runs = 5;                    // runs of each frame, ≥ 1
-    int seeds = 5;                   // seeds, ≥ 1; run r uses the plan's seed + r % seeds, so the errors have a spread
+    int runs = 5;                    // number of runs of each frame, ≥ 1
+    int seeds = 5;                   // number of seeds, ≥ 1; run r uses the plan's seed + r % seeds, to show the spread
     // Lens samples of the converged reference for each lens (reference_image.h); 0: no reference. Default: eight times
     // the largest number of samples measured with that lens, which takes about two thirds of the time of three runs of
     // all modes.
@@ -54,8 +54,8 @@ struct SpeedupPart {
 
 struct SpeedupRow {
     std::string sweep;   // varied parameter: "samples", "aperture" or "focus"
-    std::string preset;  // SpeedupForm::preset of the row's form
-    std::string method;  // name and settings, separated by spaces
+    std::string preset;  // name of the preset that the row's settings come from; see SpeedupForm
+    std::string method;  // name of the method and its settings, separated by spaces
     std::uint32_t samples = 0;
     double fStop = 0;
     double focusDistance = 0;  // m
