@@ -5,7 +5,7 @@
 //   defocus_lens_space_bench [--size WIDTHxHEIGHT] [--figure7] MODEL...
 //
 // Held constant within a table: scene, camera, lights, image size and process. In Table 1, the blur of the most blurred
-// object is a tenth of the image's width. In Figure 7, each row gives the blur, and the focus is in front of all
+// object is a tenth of the image's width. In Figure 7, each row gives the blur, and the focal plane is in front of all
 // objects. Times are medians of three frames, drawn alternately after one frame that compiles the shaders. Errors are
 // RMSE of display-encoded images against accumulation with 1,600 samples of another seed at full detail. Errors of 8 x
 // 8 px compare the means of such squares, which suppresses noise and keeps structure. "As published" is the method of
@@ -50,7 +50,7 @@ struct Measured {
     RenderStats stats;
 };
 
-// A method to compare, with its scene, its view and its settings.
+// A method to compare, with its scene, view and settings.
 struct Contestant {
     const PreparedFrame* frame;
     const View* view;
@@ -58,8 +58,8 @@ struct Contestant {
     RenderSettings settings;
 };
 
-// Measures the contestants, drawing their frames alternately, so that other load on the machine affects all of them.
-// With frames = 0, only renders their images.
+// Measures the contestants. Their frames are drawn alternately, so that other load on the machine affects all of them.
+// With frames = 0, only renders the images.
 std::vector<Measured> measured(const std::vector<Contestant>& contestants, int frames = timedFrames) {
     std::vector<std::unique_ptr<Renderer>> renderers;
     std::vector<FramePlan> plans;
@@ -120,7 +120,7 @@ RenderSettings ofThreeLevels(std::uint32_t samples) {
 }
 
 // Returns the view with a blur scale that gives the most blurred object a blur of `share` times the image's width. With
-// `before`, the focus is at half the depth of the nearest object, so that all objects are blurred.
+// `before`, the focal plane is at half the depth of the nearest object, so that all objects are blurred.
 View blurredView(const PreparedFrame& frame, double share, bool before = false) {
     View view = frame.view;
     view.lens.blurScale = 1;

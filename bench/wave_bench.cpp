@@ -27,7 +27,7 @@ constexpr int runs = 5;
 struct Row {
     std::string format;
     std::uint32_t wave = 0;
-    double milliseconds = std::numeric_limits<double>::infinity();  // time per sample
+    double milliseconds = std::numeric_limits<double>::infinity();  // time per lens sample
     double gigabytes = 0;
 };
 

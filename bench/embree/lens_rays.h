@@ -1,5 +1,6 @@
 #pragma once
-// Rays of a thin lens in camera space, derived from lens geometry, not from the rasteriser's clip-space form.
+// Computes rays of a thin lens in camera space, derived from lens geometry instead of the rasteriser's clip-space
+// equations.
 //
 // Every point of the lens sees the plane of focus (depth s) as the lens centre does. The image point (X, Y) ∈ [-1, 1]²
 // (right, up) therefore corresponds to P = s·(X·tan(θx/2), Y·tan(θy/2), -1). The ray from the lens point L = (A/2)·(u,
@@ -34,7 +35,7 @@ struct LensCamera {
     double lensRadius = 0;       // lens radius in m; 0: pinhole
     double reciprocalFocus = 0;  // inverse focus distance in 1/m; 0: focus at infinity
 
-    // Members that are used only with a foreground limit.
+    // The two members below are used only with a foreground limit.
     double lensDepth = 0;  // depth α of the lens in m; 0: no foreground limit, the lens is at the eye
     double cone = 0;       // tangent of the half angle of the cone of rays from the eye
 };
@@ -54,11 +55,11 @@ LensRay lensRay(const LensCamera& camera, const glm::dvec2& image, const glm::dv
 LensRay eyeRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
 LensRay refractedRay(const LensCamera& camera, const glm::dvec2& image, const LensRay& eye);
 
-// Selects the lens's or the pixel's pair of dimensions.
+// Selects a pair of sample dimensions: for the point on the lens, or for the point in the pixel.
 enum class SamplePair : std::uint32_t { lens, pixel };
 
-// Returns point `index` ∈ [0, 1)² of a scrambled sequence. `stream` selects the scramble: a pixel's index, or one value
-// for all pixels.
+// Returns point `index` ∈ [0, 1)² of a scrambled Sobol' sequence. `stream` selects the scramble: a different value for
+// each pixel, or one value that all pixels share.
 glm::dvec2 scrambledPoint(std::uint32_t index, std::uint32_t stream, SamplePair pair, std::uint32_t seed);
 
 // Maps (r, s) ∈ [0, 1)² uniformly to the aperture: the unit disk, or the inscribed polygon with its first corner at the

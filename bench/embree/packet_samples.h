@@ -1,6 +1,6 @@
 #pragma once
-// Scrambled lens points for the pixels of a packet, in single precision: packet versions of scrambledPoint and
-// aperturePoint (lens_rays.h).
+// Computes scrambled lens points for the pixels of a packet, in single precision: versions of scrambledPoint and
+// aperturePoint (lens_rays.h) for packets.
 
 #include <array>
 #include <cstdint>
@@ -15,12 +15,12 @@ struct ReversedLanes {
     Lanes<std::uint32_t> x, y;
 };
 
-// Returns unscrambledPoint (sample_scramble.h) with one of the 16 point orders per lane. The result is the same for all
-// packets.
+// Returns unscrambledPoint (sample_scramble.h) for all 16 lanes, each with another of the 16 point orders. The result
+// is the same for all packets.
 ReversedLanes unscrambledPoints(std::uint32_t index, SamplePair pair, std::uint32_t seed);
 
-// Returns scrambleSeeds (sample_scramble.h) for 16 streams, beginning with firstStream (a multiple of 16). The result
-// is the same for all samples.
+// Returns scrambleSeeds (sample_scramble.h) for the streams of a packet's 16 pixels, beginning with firstStream (a
+// multiple of 16). The result is the same for all samples.
 ReversedLanes packetSeeds(std::uint32_t firstStream, SamplePair pair, std::uint32_t seed);
 
 // Writes the scrambled points, in [0, 1)², to `x` and `y`.

@@ -27,7 +27,8 @@ private:
     const World& world_;
     const TracedScene& scene_;
 
-    // Surface data by Embree geometry id. An additional geometry, a single black triangle, represents a miss.
+    // Surface data, indexed by Embree's geometry id. An additional geometry, a single black triangle, stands for rays
+    // that hit nothing (a miss).
     struct Surfaces {
         std::uint32_t miss = 0;                       // geometry id of a miss
         std::vector<std::int32_t> firstColor;         // index of a geometry's first colour
@@ -51,7 +52,7 @@ private:
     bool anyRayByRay_ = false;
 };
 
-// Sums over samples for each pixel of a packet, in double.
+// Colours summed over the samples for each pixel of a packet, in double.
 struct alignas(64) PacketSum {
     std::array<Lanes<double>, 4> channels;
 };

@@ -8,7 +8,7 @@
 
 namespace defocus::engine {
 
-// A hit in camera space, as Embree reports it.
+// A hit of a ray with a surface in camera space, as Embree reports it.
 struct SurfaceHit {
     std::uint32_t triangle = 0;  // index of the triangle in its primitive
     float u = 0;                 // barycentric weight of the triangle's second corner
@@ -19,7 +19,7 @@ struct SurfaceHit {
     glm::vec3 origin{0.0f};
 };
 
-// Shadow rays to one point on each light; the point is (r, s) ∈ [0, 1)², mapped to the light's disk.
+// Shadow rays to one point on each light. The point is (r, s) ∈ [0, 1)², which is mapped to the light's disk.
 struct ShadowRays {
     const TracedScene* scene = nullptr;  // scene for shadow rays; null: no shadows
     glm::vec2 lightPoint{0.5f};

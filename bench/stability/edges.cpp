@@ -1,5 +1,5 @@
-// Straight edges under extreme blur. The exact profile of such an edge is the area of the blur disk on one side of the
-// edge.
+// Tests straight edges under extreme blur. The exact image of such an edge at a pixel is the fraction of the blur disk
+// on one side of the edge.
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ double diskShare(double distance, double diameter) {
     return 0.5 + (x * std::sqrt(1 - x * x) + std::asin(x)) / std::numbers::pi;
 }
 
-// Returns the max error of a pixel relative to the closed form. The pixel's rays cross the depth of the half plane
+// Returns the max error of a pixel relative to the exact image. The pixel's rays cross the depth of the half plane
 // within one disk; the rays that pass the edge see the wall, so both fractions add up to 1.
 double edgeError(const Edge& edge) {
     const View& view = edge.view;

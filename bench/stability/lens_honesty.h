@@ -11,18 +11,18 @@
 
 namespace defocus::engine {
 
-// A method follows the lens equation if the blur disk of a point of light has at most these errors.
-inline constexpr double honestDiameter = 0.5;  // max error of the diameter, px
-// Error of the energy, relative to the energy of the light without blur. Noise alone gives 0.02 for methods with 256
-// independent samples per pixel.
+// Max errors with which the blur disk of a small light counts as following the lens equation.
+inline constexpr double honestDiameter = 0.5;  // max error of the disk's diameter, px
+// Max error of the disk's total radiance (energy), relative to that of the light without blur. Noise alone gives 0.02
+// for methods with 256 independent samples per pixel.
 inline constexpr double honestEnergy = 0.05;
 
 struct HonestyRow {
-    std::string method;        // name and settings, in the format of parseMethodUse
+    std::string method;        // name of the method and its settings, in the format of parseMethodUse
     std::string varied;        // varied parameter, such as "f/2.8"
-    double expected = 0;       // diameter by the formula, px
-    double measured = 0;       // diameter by the second moment, px
-    double energy = 0;         // relative to the energy of the sharp light
+    double expected = 0;       // blur diameter by the lens equation, px
+    double measured = 0;       // blur diameter derived from the image's second moment, px
+    double energy = 0;         // sum of the light's radiance, relative to the light without blur
     std::string leftOut = {};  // why the driver cannot draw the method; empty if it can
     [[nodiscard]] bool followsLens() const;
 };

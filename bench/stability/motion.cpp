@@ -1,4 +1,4 @@
-// Motion that a single straight segment between shutter opening and closing cannot represent.
+// Tests motion that a single straight segment between shutter opening and closing cannot represent.
 
 #include <cmath>
 #include <functional>
@@ -18,8 +18,8 @@ constexpr double halfSide = 8;  // half the side of the white square, px
 constexpr double way = 40;      // length of the square's path, px
 constexpr double squareDepth = 4;
 
-// Returns the square's matrix at `time` in [0, 1] of the exposure. `middle` is the square's matrix at the image's
-// centre.
+// Returns the matrix of a square at `time` in [0, 1] of the exposure. `middle` is the matrix that puts the square at
+// the image's centre.
 using Path = std::function<glm::dmat4(const glm::dmat4& middle, double time)>;
 
 Image movedSquare(const Path& path, int segments) {  // segments = 0: one pose per sample
@@ -40,7 +40,7 @@ Image movedSquare(const Path& path, int segments) {  // segments = 0: one pose p
     return rendered(square);
 }
 
-// Returns a path on which the square moves back and forth `turns` times at constant speed.
+// Returns a path on which a square moves back and forth `turns` times at constant speed.
 Path toAndFro(int turns) {
     return [turns](const glm::dmat4& middle, double time) {
         const double phase = time * turns - std::floor(time * turns);

@@ -1,4 +1,4 @@
-// NaN in materials and environment maps, which must not affect pixels outside the NaN's own blur.
+// Tests that NaN in materials and environment maps affects only the pixels inside the NaN's own blur.
 
 #include <fmt/format.h>
 
@@ -42,7 +42,8 @@ double materialError() {
 
 constexpr int mapWidth = 256;  // texels
 
-// Returns an environment map of uniform radiance 0.5. If x ≥ 0, the texel in column `x` at the horizon is NaN.
+// Returns an environment map with the radiance 0.5 everywhere. If x ≥ 0, the texel in column `x` at the horizon is NaN
+// instead.
 Environment surroundings(int x) {
     const auto map = std::make_shared<Image>(mapWidth, mapWidth / 2, 3);
     std::fill(map->pixels.begin(), map->pixels.end(), 0.5f);

@@ -36,7 +36,7 @@ struct SpeedupOptions {
     std::uint32_t sweepSamples = 64;
     std::vector<MethodUse> methods;  // measured after accumulation, with the first form's settings
     int runs = 5;                    // number of runs of each frame, ≥ 1
-    int seeds = 5;                   // number of seeds, ≥ 1; run r uses the plan's seed + r % seeds, to show the spread
+    int seeds = 5;                   // number of seeds, ≥ 1; run r uses the plan's seed + r % seeds
     // Lens samples of the converged reference for each lens (reference_image.h); 0: no reference. Default: eight times
     // the largest number of samples measured with that lens, which takes about two thirds of the time of three runs of
     // all modes.
