@@ -1,4 +1,4 @@
-"""Shared parts of the commands: repository root, option parsers, running programs."""
+"""Helps all commands of this folder: finds the repository root, parses options, runs programs."""
 
 import argparse
 import pathlib
@@ -15,7 +15,7 @@ def parser_of(name, text):
 
 
 def path(text):
-    """Returns the path as an absolute one, because programs run in the repository root."""
+    """Returns the absolute path, because programs run in the repository root instead of the user's folder."""
     return pathlib.Path(text).resolve()
 
 

@@ -198,7 +198,7 @@ def draw_sample_split():
 
 
 def halved(points, count):
-    """Divides points into equal groups by repeated halving across the longer side. count: groups, a power of 2."""
+    """Divides points into equal groups by repeated halving across the longer side. count: how many groups, 2^n."""
     if count == 1:
         return [points]
     spans = [max(point[axis] for point in points) - min(point[axis] for point in points) for axis in (0, 1)]

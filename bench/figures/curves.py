@@ -1,4 +1,4 @@
-"""Curves in bench/results/lens: the circle of confusion C over depth, for each control of the lens."""
+"""Draws the curves in bench/results/lens: the circle of confusion C over depth, for each control of the lens."""
 
 import json
 
@@ -22,7 +22,7 @@ DEPTHS = [0.2 + 0.02 * step for step in range(241)]  # m
 
 
 def blurs(program, options):
-    """Returns the signed blur (px) at each of DEPTHS, and the width of the image (px)."""
+    """Returns the signed diameters of the blur (px) at DEPTHS, and the width of the image (px)."""
     report = json.loads(run(program, "info", "--camera", "meshes/chess.glb", "--json", *LENS, *options, "--depths",
                             ",".join(f"{depth:.2f}" for depth in DEPTHS)))
     return [row["pixels"] for row in report["blur"]], report["width"]

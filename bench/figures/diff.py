@@ -84,7 +84,7 @@ def subject_of(document):
 
 
 def parse(document):
-    """Returns the Results of a JSON document or of a list of CSV rows."""
+    """Converts a JSON document or a list of CSV rows to Results."""
     rows, measured_on, subject = document, "CSV does not name scene, size, lens and machine; they are taken to be equal", {}
     if isinstance(document, dict):
         rows = [{"runs": document.get("runs")} | row for name in ("rows", "cases", "lensHonesty") for row in document.get(name, [])
@@ -129,7 +129,7 @@ def time_change(old, new, unlike):
 
 
 def distance(column, value):
-    """Converts an error metric to one that is 0 for equal images."""
+    """Converts an error metric to one that is 0 for equal images: SSIM to 1 - SSIM, PSNR to RMSE."""
     if "psnr" in column.lower():
         return 10 ** (-value / 20)
     return 1 - value if column.startswith("ssim") else value
@@ -175,7 +175,7 @@ def time_text(time):
 
 
 def errors_text(errors):
-    """Returns a text with the errors that changed or exceeded their limits."""
+    """Returns a text that lists the errors that changed or exceed their limits."""
     texts = [f"{name} {error.old:.4g} to {error.new:.4g} {error.verdict}" + (", BEYOND ITS LIMIT" if error.beyond_limit else "")
              for name, error in errors.items() if error.verdict != "equal" or error.beyond_limit]
     return "  ".join(texts) or ("equal" if errors else "")

@@ -6,7 +6,7 @@ from figures.command import run
 
 
 class Frames:
-    """Images in a folder. subject: the scene and the options that all images have."""
+    """Renders images to a folder. subject: the scene and the options that all images have."""
 
     def __init__(self, program, folder, *subject):
         self.program, self.folder, self.subject = program, folder, subject

@@ -1,4 +1,4 @@
-"""The runs of line samples and points on meshes/teapots.py, and the tables of bench/results/line-samples.md."""
+"""Defines the runs of line samples and points on meshes/teapots.py, and makes the tables of line-samples.md."""
 
 import math
 
@@ -32,7 +32,7 @@ def run_name(blur, method):
 
 
 def row_of(blur, method, samples):
-    """Returns the row of a method with a number of lines or points."""
+    """Returns the row of a method with this number of lines or points, at a scale of the blur."""
     (row,) = [row for row in run_of(run_name(blur, method))["rows"]
               if (row["method"], row["form"]) == method and row["samples"] == samples]
     return row
@@ -47,7 +47,7 @@ def milliseconds(row):
 
 
 def equal_time_points():
-    """Returns the number of points whose time is nearest to the time of 16 lines."""
+    """Returns the number of points whose render time is nearest to that of 16 lines."""
     lines = milliseconds(row_of(1, EXACT, 16))
     return min(COUNTS[POINTS], key=lambda count: abs(math.log(milliseconds(row_of(1, POINTS, count)) / lines)))
 

@@ -40,7 +40,7 @@ def measure(program, folder):
 
 
 class Pictures:
-    """Images of the runs in a folder."""
+    """Reads the images of the runs in a folder."""
 
     def __init__(self, folder):
         self.folder = folder

@@ -46,7 +46,7 @@ SCENES = {"school": [], "helmets": ["helmets.gltf"], "school-f11": ["--fstop", "
 
 
 class Point(NamedTuple):
-    """Errors and times in s of an image."""
+    """Errors of an image, and the times in s to render it."""
     cpu: float
     wall: float
     rmse: float
@@ -140,7 +140,7 @@ def rendered_with_eevee(program, settings):
 
 
 def measure(arguments, name, folder):
-    """Returns the lines of a scene and the facts about its file."""
+    """Measures a scene. Returns its lines of the table, and the facts about its file."""
     words = [folder / word if word == "helmets.gltf" else word for word in SCENES[name]]
     if name == "helmets":
         write_copies(arguments.defocus, arguments.models / "FlightHelmet/FlightHelmet.gltf", 20, words[0])

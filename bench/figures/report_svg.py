@@ -1,4 +1,4 @@
-"""Plots of the report: matplotlib axes in the page's colours, as SVG elements with a tooltip for each point."""
+"""Draws plots of the report with matplotlib: SVG elements in the page's colours with a tooltip for each point."""
 
 import html
 import io
@@ -85,7 +85,7 @@ def logarithmic(axis, text):
 
 
 def spread_apart(heights, step, top):
-    """Moves ascending heights at least `step` apart and to at most `top`: first upwards, then downwards."""
+    """Moves ascending heights until they are at least `step` apart and at most `top`: first upwards, then downwards."""
     spread = []
     for height in heights:
         spread.append(max(height, spread[-1] + step) if spread else height)

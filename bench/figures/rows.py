@@ -1,4 +1,4 @@
-"""Rows of results: labels, texts for values, comparisons between rows."""
+"""Describes and compares rows of results: labels, texts for values, times at equal error."""
 
 import math
 
