@@ -304,7 +304,7 @@ void stepBack(Stage& stage) {
     }
 }
 
-// Sets the f-number for which the mesh's centre has a CoC of `coc` px, with the focus at infinity.
+// Sets the f-number for which the mesh's centre has a CoC of `coc` px if the lens is focused at infinity.
 void blurBy(Stage& stage, double coc) {
     Lens& lens = stage.view.lens;
     const double aperture = coc * stage.depth * 2 * tanHalfHorizontalFov(lens) / stage.view.width;

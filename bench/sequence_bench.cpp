@@ -45,7 +45,7 @@ struct Pattern {
     std::function<std::vector<LensSample>(std::uint32_t count, std::uint32_t seed)> samples;
 };
 
-// ---- point sets of a known size -------------------------------------------------------------------------------------
+// ---- sets with a given number of points -----------------------------------------------------------------------------
 
 glm::dvec2 polar(double radius, double angle) {
     return radius * glm::dvec2(std::cos(angle), std::sin(angle));

@@ -178,7 +178,7 @@ def honesty(every_setting=True):
                      "a point of light; one value of the lens, the image or the sampling changes at a time")
 
 
-# ---- parts ----------------------------------------------------------------------------------------------------------
+# ---- parts of a frame -----------------------------------------------------------------------------------------------
 
 
 def sequences():

@@ -67,7 +67,7 @@ Edge macroEdge(double fStop, double depth) {
     return edge;
 }
 
-// Returns an edge at 0.02 m in front of a wall at 2,000 km, with a focus that blurs both.
+// Returns an edge at 0.02 m in front of a wall at 2,000 km, with a focus distance at which both are blurred.
 Edge deepEdge() {
     Edge edge{.view = boardView(), .depth = 0.02, .wall = 2e6};
     edge.view.lens.focusDistance = 0.035;

@@ -34,7 +34,7 @@ double splitError(double level, std::uint32_t samples) {
     return moved;
 }
 
-// ---- a ball ---------------------------------------------------------------------------------------------------------
+// ---- the rendered scene: a ball -------------------------------------------------------------------------------------
 
 // Returns a unit sphere made of rings of quads. Its levels have different silhouettes.
 Mesh ballMesh() {

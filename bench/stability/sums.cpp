@@ -57,7 +57,7 @@ double plainError(float value, std::uint32_t samples, std::uint32_t wave) {
 }
 
 // Returns the max relative error for a light of 10,000 that is blurred over a background of 0.0001. The reference is
-// the sum in double of the samples, each drawn alone.
+// the sum in double of the samples, each drawn separately.
 double mixedError() {
     constexpr std::uint32_t samples = 300;
     View view = boardView(24, 16);

@@ -28,7 +28,7 @@ struct BenchSubject {
     double pyramidMilliseconds = 0;
 };
 
-// Returns the members of `subject` that are set, for the beginning of a bench's JSON file. `bench`: name of the
+// Returns, as JSON, the members of `subject` that are set. A bench's results file begins with them. `bench`: name of the
 // command.
 nlohmann::ordered_json subjectJson(const std::string& bench, const BenchSubject& subject);
 

@@ -25,7 +25,7 @@ struct RenderSettings {
     // one texel per position.
     std::uint32_t positions = 1;
     Sequence sequence = Sequence::sobol;
-    std::uint32_t seed = 0;         // selects a different set of sample points
+    std::uint32_t seed = 0;         // selects one of many sets of sample points
     std::uint32_t firstSample = 0;  // first index in the sequence; reference images use another first index
     LodMode lod = LodMode::fractional;
     LodMetric metric = LodMetric::automatic;

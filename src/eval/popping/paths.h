@@ -1,5 +1,5 @@
 #pragma once
-// Movements of focus, camera and scene that change levels of detail, for the popping benchmark.
+// Computes movements of focus, camera and scene that change levels of detail, for the popping benchmark.
 
 #include <vector>
 

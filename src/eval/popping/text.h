@@ -22,7 +22,7 @@ struct PoppingRow {
     Movement movement = Movement::focusPull;
     std::uint32_t samples = 0;
     PoppingMode mode = PoppingMode::nearest;
-    int frames = 0;  // number of frame pairs: number of views − 1
+    int frames = 0;  // number of pairs of consecutive frames: number of views − 1
     double speed = 0;
     PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // measures over the object pixels
     PopSummary changeRmseImage, changeFlipImage, stepRmseImage, stepFlipImage;

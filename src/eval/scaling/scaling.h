@@ -94,7 +94,7 @@ struct ScalingTimes {
     std::vector<double> vertices;  // frame drawn into a small image
 };
 
-// Sets the row's members runs, milliseconds, layers, vertices and fill.
+// Sets the members `runs`, `milliseconds`, `layers`, `vertices` and `fill` of the row.
 void setTimes(ScalingRow& row, const ScalingTimes& times);
 
 struct ScalingVisitor {

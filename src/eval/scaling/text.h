@@ -18,8 +18,8 @@ std::string scalingLine(const ScalingRow& row);  // returns the table's line for
 // time.
 std::string scalingSummary(std::span<const ScalingRow> rows);
 
-// Returns the largest parts along the rows of one axis and mode, such as "fill up to 300 k, vertex work and fill alike
-// from 1 M".
+// Returns the parts that take most of the frame time along one axis and mode, such as "fill up to 300 k, vertex work
+// and fill alike from 1 M".
 std::string boundsAlong(std::span<const ScalingRow> rows);
 
 struct ScalingLeftOut {

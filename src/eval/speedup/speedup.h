@@ -1,6 +1,7 @@
 #pragma once
-// The benchmark of Jeong, Kim and Lee 2011 (their Figure 2). Measures how much faster a frame is with levels of detail
-// than at full detail, for a fixed camera. Varies the number of lens samples, the f-number and the focus distance.
+// Repeats the benchmark of Jeong, Kim and Lee 2011 (Figure 2): measures how much faster a frame is with levels of
+// detail than at full detail, for a fixed camera. Varies the number of lens samples, the f-number and the focus
+// distance.
 //
 // Full detail, nearest level and fractional level have the same scene, camera, lens, lens samples, image size, number
 // of layers per draw, process and renderer. Runs alternate between all compared modes and methods, so a slowdown of the
@@ -77,8 +78,8 @@ struct SpeedupRow {
 };
 
 // Calls `visit` with each row as soon as it is measured. For each setting, measures full detail, nearest level and
-// fractional level of each form, then the further methods. `forms` must not be empty. Needs a current GL context.
-// Throws Error in the same cases as planning and rendering.
+// fractional level of each form (settings and world), then the further methods. `forms` must not be empty. Needs a
+// current GL context. Throws Error in the same cases as planning and rendering.
 void measureSpeedup(std::span<const SpeedupForm> forms, const View& view, const SpeedupOptions& options,
                     const std::function<void(const SpeedupRow&)>& visit, const Progress& progress = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-// Lens cells: regions of the lens that are each represented by one lens sample (method "multirate").
+// Computes lens cells: regions of the lens that are each represented by one lens sample (method "multirate").
 //
 // N samples divide the lens into N cells that pass equal amounts of light. A cell's image is approximately the image
 // from the cell's centre, blurred slightly. The blur kernel is the lens's shape, √N times smaller. A sum of pinhole

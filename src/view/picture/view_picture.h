@@ -1,7 +1,7 @@
 #pragma once
-// Renders the picture of the window on the GPU. While the view changes, each frame is drawn completely, in a quality
-// that fits the time budget. While the view is still, the image accumulates samples. Shows one image, or two for
-// comparison, and overlays.
+// Renders the window's picture on the GPU: one image, or two images for comparison, and overlays. While the view
+// changes, each frame is drawn completely, in a quality that fits the time budget. While the view is still, the image
+// accumulates samples.
 //
 // After the first batch of samples of a still view, the images of its lens samples are also drawn and kept as lens
 // images (kept_images.h). If only the focus distance or the f-number changes, the picture is computed from these images

@@ -101,8 +101,8 @@ double cocAt(const FramePlan& plan, double depth) {
     return std::abs(circleOfConfusion(plan.coc, depth, plan.view.width));
 }
 
-// Returns the depth (m), at the image's centre, where the blur reaches one pixel. Searches from the focus to
-// `endDioptre` (1/m); if the blur stays below a pixel, returns the depth of `endDioptre`.
+// Returns the depth (m), at the image's centre, where the blur reaches one pixel. Searches from the focus distance to
+// `endDioptre` (1/m). If the blur stays below a pixel, returns the depth of `endDioptre`.
 double limitOfFocus(const FramePlan& plan, double endDioptre) {
     const auto sharp = [&](double dioptre) {
         return cocAt(plan, dioptre > 0 ? 1 / dioptre : std::numeric_limits<double>::infinity()) < 1;
