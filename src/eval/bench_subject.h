@@ -28,8 +28,8 @@ struct BenchSubject {
     double pyramidMilliseconds = 0;
 };
 
-// Returns, as JSON, the members of `subject` that are set. A bench's results file begins with them. `bench`: name of the
-// command.
+// Returns, as JSON, the members of `subject` that are set. A bench's results file begins with them. `bench`: name of
+// the command.
 nlohmann::ordered_json subjectJson(const std::string& bench, const BenchSubject& subject);
 
 }  // namespace defocus::engine

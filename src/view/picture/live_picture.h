@@ -13,7 +13,7 @@ struct LivePicture {
 
     bool meterDue = false;                                       // true: the view has moved since the last metering
     std::vector<std::string> clipping;                           // warnings about clipping
-    std::optional<std::pair<double, ToneMap>> clippingKnownFor;  // exposure (EV) and tone map at the check of `clipping`
+    std::optional<std::pair<double, ToneMap>> clippingKnownFor;  // exposure (EV) and tone map of the last check
 };
 
 // Returns the label of the picture on one side of the divider.
