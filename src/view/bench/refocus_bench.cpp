@@ -17,7 +17,7 @@ namespace {
 
 constexpr int dragFrames = 20;
 
-// A drag of the focus distance or the f-number.
+// Change of the focus distance or of the f-number, as if the user dragged its slider.
 struct Drag {
     std::string name;
     double focusDistance = 1;  // focus distance in m at the end of the drag

@@ -29,10 +29,10 @@ struct ViewBenchOptions {
 struct ViewBenchRow {
     std::string method;          // method and its settings, in the format of MethodUse::text
     double framesPerSecond = 0;  // mean frame rate over the movement
-    double slowFrame = 0;        // 95th percentile of the frame times, ms
+    double slowFrame = 0;        // 95th percentile of the frame times over the movement, ms
     double firstPicture = 0;     // time from the first camera change to the end of the frame that shows it, ms
     FrameQuality quality;        // resolution and lens samples of the last frame of the movement
-    double movingPsnr = 0;       // PSNR in dB, from the mean squared error of three frames of the movement
+    double movingPsnr = 0;       // PSNR in dB, from the mean squared error of three frames during the movement
     double stillPicture = 0;     // time from the end of the movement to the first accumulated image, s
     double converged = 0;        // time from the end of the movement to the converged image, s; infinity: not reached
     std::uint32_t samples = 0;   // lens samples of the final image

@@ -13,12 +13,12 @@ struct Document {
 
     SceneLoader loader;
     std::unique_ptr<PreparedFrame> frame;  // the scene, ready to draw; null: no scene is open
-    bool draft = false;                    // `frame` has draft pyramids; the final ones are being built
+    bool draft = false;                    // true: `frame` has draft pyramids; the final ones are being built
     EditHistory history;
     Request shown;                           // request that `frame` was last updated to; see updateWorld
     bool poseIsStale = false;                // true: the objects must be posed again even if the request is unchanged
     std::vector<double> ownBlurs;            // Node::cocScale of each scene node, as loaded
-    std::vector<glm::dmat4> shutterCameras;  // View::shutterCameras; empty unless the view follows the file's camera
+    std::vector<glm::dmat4> shutterCameras;  // for View::shutterCameras; empty unless the view follows the file's camera
     std::uint64_t poseVersion = 0;           // incremented when anything in the world moves
     std::uint64_t worldVersion = 0;          // incremented when GPU copies of the world must be rebuilt
 };
@@ -26,8 +26,8 @@ struct Document {
 // Starts to open a scene. Keeps samples, levels, method and environment of the current request.
 void openScene(Document& document, const ViewState& state, const std::filesystem::path& scene);
 
-// Adopts the loader's result, if there is one. Returns whether a new scene was opened, which invalidates all references
-// into `frame`. Needs a current GL context.
+// Takes over the result of the scene loader, if there is one. Returns whether a new scene was opened, which invalidates
+// all references into `frame`. Needs a current GL context.
 bool takeLoadedScene(Document& document, ViewState& state);
 
 // Returns the view that the window shows.
@@ -46,7 +46,7 @@ void actOnDocument(Document& document, ViewState& state, const ViewActions& acti
 // is applied once the pyramids are built.
 void updateWorld(Document& document, ViewState& state, bool held);
 
-// Switches to a camera of the file, or "auto", and to the camera's lens. Throws Error for an unknown camera.
+// Switches to the file's camera `name`, or "auto", and to the lens of that camera. Throws Error for an unknown camera.
 void switchCamera(Document& document, ViewState& state, const std::string& name);
 
 }  // namespace defocus::engine

@@ -41,7 +41,7 @@ private:
     ViewEdit opened_, current_;
     ViewEdit latest_;  // state of the previous frame
     Steps before_, after_;
-    bool pending_ = false;  // latest_ has changes that aren't an undo step yet
+    bool pending_ = false;  // true: latest_ has changes that aren't an undo step yet
     bool held_ = false;
     double changedAt_ = 0;  // time of the latest change in s, on the clock of note()
 };

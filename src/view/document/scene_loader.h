@@ -23,7 +23,7 @@ struct LoadedScene {
 class SceneLoader {
 public:
     SceneLoader() = default;
-    // Cancels all jobs and waits for them; a job ends when it next reports progress.
+    // Cancels all jobs and waits for them. A cancelled job ends when it next reports progress.
     ~SceneLoader();
     SceneLoader(const SceneLoader&) = delete;
     SceneLoader& operator=(const SceneLoader&) = delete;

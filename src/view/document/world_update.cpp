@@ -1,4 +1,5 @@
-// Applies the request in the window's state to the document's world. Panels, keys and undo change only the request.
+// Applies the settings in the window's state (its request) to the document's world. Panels, keys and undo change only
+// the request.
 
 #include <algorithm>
 #include <tuple>

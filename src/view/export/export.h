@@ -16,7 +16,7 @@ std::string pictureCommand(const Document& document, const ViewState& state);
 std::optional<std::string> actOnExport(std::optional<StillExport>& still, const Document& document, ViewState& state,
                                        const ViewActions& actions, bool software);
 
-// Continues rendering the still image for part of the frame time.
+// Spends part of the frame time on rendering the still image.
 void stepExport(std::optional<StillExport>& still, ViewState& state);
 
 }  // namespace defocus::engine

@@ -75,7 +75,8 @@ void drawDivider(const Ui& ui) {
     const std::string left = sideLabel(picture.firstSide());
     const float leftWidth = labelWidth(ui, left);
     drawLabel(ui, {std::max(begin, top.x - gap - leftWidth), top.y + gap}, left);
-    // If one side of the divider is too narrow, its label crosses the divider. The right label then moves down a row.
+    // If one side of the divider is too narrow for its label, the label crosses the divider. The right label then moves
+    // down a row.
     const std::string right = rightLabel(picture, display);
     const float x = std::min(top.x + gap, end - labelWidth(ui, right));
     const bool crosses = x < top.x || begin + leftWidth > top.x;

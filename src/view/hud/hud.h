@@ -1,5 +1,5 @@
 #pragma once
-// Heads-up display: labels, markers and messages drawn over the picture.
+// Draws the heads-up display: labels, markers and messages over the picture.
 
 #include "view/widgets/ui.h"
 
@@ -18,7 +18,7 @@ ImVec2 pictureCorner(const Ui& ui, double x, double y);
 
 struct LabelStyle {
     ImU32 color = brightColor;
-    float anchorX = 0, anchorY = 0;  // point of the label's box, 0 … 1, that lies at the given position
+    float anchorX = 0, anchorY = 0;  // which point of the label's box, 0 … 1, lies at the given position
     float alpha = 1;
     float width = 0;  // max width of wrapped text; 0: no wrapping
 };

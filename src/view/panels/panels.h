@@ -35,7 +35,7 @@ DEFOCUS_PANELS(DEFOCUS_DECLARE_PANEL)
 
 inline constexpr double panelWidth = 364;  // panel width in interface units; see interfaceScale
 
-// Returns the settings of the section "Samples and levels" from top to bottom: the settings of samples, levels and
+// Returns the settings of the section "Samples and levels" from top to bottom: all settings of samples, levels and
 // methods that affect the pixels and have a widget.
 std::vector<const Setting*> settingsPanelRows();
 

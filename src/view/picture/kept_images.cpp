@@ -40,7 +40,7 @@ FocusRange keptRange(const View& view, const FramePlan& plan) {
         range.nearest = std::min(range.nearest, std::max(object.nearestDepth, view.nearPlane));
         range.farthest = std::max(range.farthest, object.farthestDepth);
     }
-    const double maxMove = std::max(view.width, view.height) / 8.0;  // px
+    const double maxMove = std::max(view.width, view.height) / 8.0;  // max shift of a lens image, px
     const double dioptres = maxMove / lightFieldInfo(view, {own, own}).pixelsPerDioptre;
     range.nearest = std::max(range.nearest, 1 / (1 / own + dioptres));
     if (1 / own > dioptres) range.farthest = std::min(range.farthest, 1 / (1 / own - dioptres));
@@ -85,7 +85,7 @@ bool KeptImages::grow(double milliseconds) {
             drawImage();
             if (millisecondsSince(begin) + millisecondsSince(imageBegin) > milliseconds) break;
         }
-    } catch (const Error& error) {  // out of graphics memory
+    } catch (const Error& error) {  // graphics memory is full
         discard();
         obstacle_ = error.what();
     }

@@ -47,7 +47,7 @@ double poppingFocus(const FramePlan& plan, double nearPlane, double seconds) {
     return focusBetween(nearest, std::max(nearest, farthest), share);
 }
 
-// Returns the settings that affect the picture as text, without the number of samples, the level mode and the method.
+// Returns the settings that affect the picture as one text, without number of samples, level mode and method.
 std::string pictureSettings(Request request) {
     const Request defaults;
     request.samples = defaults.samples;
@@ -88,7 +88,7 @@ void makeImage(LivePicture& picture, const Document& document, const ViewState& 
     options.layerFormat = state.options.layerFormat;
     options.shaderFolder = document.shaderFolder;
     options.wave = state.options.wave.value_or(software ? 1 : 8);
-    picture.image.reset();  // free memory before the next allocation
+    picture.image.reset();  // free its memory before the next allocation
     picture.image.emplace(document.frame->world, options, software);
     picture.worldVersion = document.worldVersion;
 }

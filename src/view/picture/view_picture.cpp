@@ -14,9 +14,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto settleTime = 120ms;            // time without change before the image starts to accumulate samples
+constexpr auto settleTime = 120ms;            // time without change after which the image accumulates samples
 constexpr std::uint32_t minShownSamples = 4;  // a still image with fewer samples looks worse than the last moving frame
-constexpr double visibleGrowth = 1.08;        // relative growth of the sample count at which the window is updated
+constexpr double visibleGrowth = 1.08;        // growth of the sample count (a factor) at which the window is updated
 constexpr double softwareGrowthTime = 60;     // min time per frame for adding samples if OpenGL runs on the CPU, ms
 constexpr auto psnrInterval = 700ms;
 
@@ -52,7 +52,7 @@ std::vector<double> displayKey(const DisplaySettings& display) {
             display.differenceGain};
 }
 
-// Returns the view at another resolution. Limits on the lens's blur, in px, are also scaled.
+// Returns the view at another resolution. Limits on the blur that are given in px are scaled with the resolution.
 View resized(const View& view, double resolution) {
     View result = view;
     result.width = std::max(1, static_cast<int>(std::lround(view.width * resolution)));
@@ -167,7 +167,7 @@ bool ViewPicture::prepareSides(const PictureRequest& request) {
             sides_[i]->shows = wanted;
             continue;
         }
-        sides_[i].reset();  // free memory before the next allocation
+        sides_[i].reset();  // free its memory before the next allocation
         sides_[i] = std::make_unique<Side>(Side{wanted, {*world_, parseMethodUse(wanted.method), options_}});
         fresh_ = true;
     }

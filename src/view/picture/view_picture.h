@@ -35,9 +35,9 @@ struct PictureSide {
 struct PictureRequest {
     View view;                       // view at the window's resolution
     RenderSettings settings;         // settings; thresholds that are set replace the default level thresholds
-    std::string settingsKey;         // the image is restarted when this text changes
+    std::string settingsKey;         // text that identifies the settings; when it changes, the image is restarted
     std::uint64_t poseVersion = 0;   // value of Document::poseVersion
-    std::vector<PictureSide> sides;  // one side, or two for comparison
+    std::vector<PictureSide> sides;  // what each side shows: one side, or two for comparison
     DisplaySettings display;
     std::uint32_t maxSamples = 4096;
     std::optional<double> targetError;         // stops accumulating below this estimated error
@@ -77,11 +77,11 @@ public:
         return growing_ && !refocused_ ? first().estimatedError() : std::nullopt;
     }
     [[nodiscard]] Image image() { return readBack(firstTexture(), 4); }  // first image, linear RGBA
-    [[nodiscard]] const FramePlan& plan() const;  // plan of the first image; empty without an image
+    [[nodiscard]] const FramePlan& plan() const;  // plan of the first image; an empty plan without an image
     // Returns the right side of a comparison; null without a comparison.
     [[nodiscard]] const PictureSide* secondSide() const { return sides_.size() > 1 ? &sides_[1]->shows : nullptr; }
     [[nodiscard]] const PictureSide& firstSide() const { return sides_[0]->shows; }
-    [[nodiscard]] std::optional<double> psnr() const { return psnr_; }  // PSNR between the sides, dB
+    [[nodiscard]] std::optional<double> psnr() const { return psnr_; }  // PSNR in dB between the two sides
     [[nodiscard]] std::uint32_t workSamples() const { return work_ ? work_->samples() : 0; }
     [[nodiscard]] std::uint32_t wave() const { return sides_.empty() ? 0 : first().stats().wave; }
     // Returns the times of the latest frame: passes from timer queries, set-up by wall clock.

@@ -11,7 +11,7 @@
 namespace defocus::engine {
 
 struct FrameQuality {
-    double resolution = 1;       // rendered pixels per window pixel, in each dimension
+    double resolution = 1;       // rendered pixels per window pixel, along each axis
     std::uint32_t samples = 64;  // lens samples; 1: pinhole, without blur
     double thresholdBias = 1;    // multiplies the level-of-detail thresholds; > 1: coarser meshes
 };
@@ -41,7 +41,7 @@ inline FrameBudget windowBudget(bool software) {
 // frameQualities() as needed to meet the budget, or up one rung if twice the time would fit. Otherwise keeps the rung,
 // so that the quality doesn't flicker.
 inline FrameBudget adapted(FrameBudget budget, double measured) {
-    constexpr double tooSlow = 1.15;  // a frame above this multiple of the budget takes too long
+    constexpr double tooSlow = 1.15;  // a frame that takes more than this multiple of the budget is too slow
     constexpr double roomToClimb = 0.42;
     if (measured > tooSlow * budget.milliseconds) {
         const double doublings = std::log2(measured / budget.milliseconds);

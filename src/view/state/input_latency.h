@@ -18,7 +18,7 @@ public:
     using Time = std::chrono::steady_clock::time_point;
 
     // Records that events that arrived after `since` were fetched. The effect of these events may appear some frames
-    // later; the earliest event without a visible effect is timed.
+    // later; the measured time begins at the earliest event without a visible effect.
     void arrived(Time since) {
         if (!waiting_) waiting_ = since;
     }
@@ -29,7 +29,7 @@ public:
         if (answers_.size() > maxAnswers) answers_.pop_front();
         waiting_.reset();
     }
-    // Drops the waiting events, because they don't change the picture.
+    // Drops the events whose effect is awaited, because they don't change the picture.
     void forget() { waiting_.reset(); }
 
     struct Summary {  // latencies in ms of the latest events whose effect was shown

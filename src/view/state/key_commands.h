@@ -16,8 +16,8 @@ struct KeyContext {
 
 struct KeyCommand {
     const char* keys = nullptr;     // key names in the displayed list; null: the preceding row includes this key
-    const char* meaning = nullptr;  // explanation in the list of keys
-    int key = 0;                    // WindowEvent::key, or withControl; 0: row without a command
+    const char* meaning = nullptr;  // meaning of the keys in the displayed list
+    int key = 0;                    // key code: WindowEvent::key or withControl(); 0: the row has no command
     void (*run)(KeyContext) = nullptr;
 };
 

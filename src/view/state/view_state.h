@@ -1,5 +1,5 @@
 #pragma once
-// The complete state that the window shows and the user can change, as plain data.
+// Holds, as plain data, everything that the window shows and that the user can change.
 
 #include <deque>
 #include <filesystem>
@@ -75,7 +75,7 @@ struct SavedView {
     std::string name;
     ViewCamera camera;
     double nearPlane = 0.01;  // m
-    Lens lens;                // lens without aperture image, which saved views don't store
+    Lens lens;                // lens without aperture image, which saved views don't contain
 };
 
 struct ShotKey {
@@ -90,14 +90,14 @@ struct ViewEdit {
     ViewCamera camera;
     Lens lens;
     double nearPlane = 0.01;     // m
-    bool followsCamera = false;  // the view follows the file's camera, which may be animated
+    bool followsCamera = false;  // true: the view follows the file's camera, which may be animated
     double exposure = 0;         // exposure in EV; with `meters`, the latest metered value
     bool meters = false;         // true: the exposure is metered whenever the view comes to rest
 };
 
 // State that is reset when another scene is opened.
 struct SceneState {
-    int selected = -1;  // index into Pose::objects of the object focused on last; −1: none
+    int selected = -1;  // index into Pose::objects of the object last focused on; −1: none
     bool playing = false;
     std::optional<FocusPull> pull;
     FocusMarker marker;
@@ -135,7 +135,7 @@ struct ViewState : ViewEdit, SceneState {
     std::string fault;          // latest error message
     bool printsFaults = false;  // true: also print error messages on stderr
 
-    // Contents of text fields, and state of their dialogs.
+    // Contents of text fields, and the state of dialogs.
     std::string openPath, viewName, environmentPath, aperturePath;
     bool environmentIsFile = false;  // true: the field for an environment file is shown
     std::string exportPath = "still.png";
@@ -144,8 +144,8 @@ struct ViewState : ViewEdit, SceneState {
     std::string shotPath = "shot.json";
 };
 
-// Actions requested by panels and keys that need files, the GPU or the window. The actions are executed at the end of
-// the frame.
+// Actions that panels and keys request. They need files, the GPU or the window, so they are executed at the end of the
+// frame.
 struct ViewActions {
     std::optional<std::filesystem::path> open;
     std::optional<std::string> chooseCamera;  // name of the camera; "auto" frames the scene
@@ -158,8 +158,8 @@ struct ViewActions {
     bool copyCommand = false;
     bool recordKey = false;
     bool saveShot = false;
-    bool askExport = false;    // open the export dialog
-    bool exportStill = false;  // write the still to ViewState::exportPath, replacing an existing file
+    bool askExport = false;    // true: open the dialog for exporting a still
+    bool exportStill = false;  // true: write the still to ViewState::exportPath, and replace an existing file
     bool cancelExport = false;
     bool openDialog = false;
     bool screenshot = false;
@@ -170,14 +170,14 @@ struct ViewActions {
 // Returns the exposure of the picture in EV: from the lens if it has an exposure time, else ViewState::exposure.
 double shownExposure(const ViewState& state);
 
-// Returns the settings for encoding 8-bit images: exposure and tone map.
+// Returns the settings with which the picture is encoded in 8 bits: exposure and tone map.
 WriteOptions writeOptions(const ViewState& state);
 
 // say() and sayFault() show a message over the picture for some seconds; sayFault() is for errors.
 void say(ViewState& state, std::string text);
 void sayFault(ViewState& state, std::string text);
 
-// Sets the image on the right side of the divider, and moves the divider into the picture.
+// Chooses the image on the right side of the divider, and moves the divider into the picture.
 void compare(ViewState& state, Comparison comparison);
 
 // Starts a focus pull to `distance` m that takes `seconds`.
@@ -193,7 +193,7 @@ void frameScene(const PreparedFrame& frame, ViewState& state);
 
 // Starts or stops the popping test: a focus pull from near to far and back, which shows fractional levels on the left
 // side and nearest levels on the right.
-inline constexpr double poppingDuration = 8;  // s
+inline constexpr double poppingDuration = 8;  // duration of the popping test, s
 void togglePoppingTest(ViewState& state);
 
 // Advances focus pull and animation by `seconds`, and ends the popping test after poppingDuration.

@@ -21,7 +21,7 @@ ImU32 color(ImGuiCol index, float alpha = 1) {
 
 struct Canvas {
     ImDrawList& list;
-    ImVec2 origin, end;  // top left and bottom right corner
+    ImVec2 origin, end;  // top left and bottom right corner of the drawing area
     [[nodiscard]] float width() const { return end.x - origin.x; }
     [[nodiscard]] float height() const { return end.y - origin.y; }
 };
@@ -39,7 +39,7 @@ Canvas canvas(float height, float rounding, const char* id = nullptr, ImU32 fill
     return result;
 }
 
-// Returns the fractional index of an f-number in standardStops().
+// Returns the position of an f-number in the list standardStops(), as a fractional index.
 float stopPosition(double fStop) {
     const std::span<const double> stops = standardStops();
     if (fStop <= stops.front()) return 0;
@@ -78,7 +78,7 @@ void turnRing(double& fStop, float centre, float spacing) {
 
 // Range of depths on the diagram's logarithmic horizontal axis.
 struct DepthAxis {
-    double nearest = 0;  // m
+    double nearest = 0;  // nearest depth on the axis, m
     double farthest = 0;
     [[nodiscard]] float share(double depth) const {
         return static_cast<float>(std::log(std::clamp(depth, nearest, farthest) / nearest) /

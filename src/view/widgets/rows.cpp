@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double maxSliderRange = 64;  // integers with a larger range get no slider, which would be too coarse
+constexpr double maxSliderRange = 64;  // integers with a larger range get no slider, because it would be too coarse
 
 // Returns ImGui's format string for a value of the setting.
 std::string numberFormat(const Setting& setting, double value) {

@@ -1,5 +1,5 @@
 #pragma once
-// Runs the window of `defocus view`.
+// Runs the window of the command `defocus view`.
 
 #include <deque>
 
@@ -15,7 +15,7 @@
 namespace defocus::engine {
 
 struct SessionOptions {
-    Request request;                     // Request::size is the size of the picture
+    Request request;                     // all settings; Request::size is the size of the picture
     std::filesystem::path screenshot;    // file for a screenshot at the end; empty: none
     int frames = 0;                      // frames with the complete scene before the window closes; 0: no limit
     std::filesystem::path shaderFolder;  // replacement shaders; empty: the embedded shaders
@@ -45,14 +45,14 @@ struct Session {
     FrameTimes times;
 
     std::deque<WindowEvent> events;                // fetched events that no frame has taken yet
-    Clock::time_point queuedSince = Clock::now();  // time when the earliest of `events` arrived
+    Clock::time_point queuedSince = Clock::now();  // time at which the earliest of `events` arrived
     Clock::time_point fetchedAt = Clock::now();
     double growthTime = 0;  // time spent on the still image in this frame, ms
 
     const Clock::time_point begin = Clock::now();
     int framesWithScene = 0;  // frames drawn with the complete scene, not with a draft
     std::uint64_t framesDrawn = 0;
-    double statsWrittenAt = -1;  // seconds since the window was opened; -1: not written yet
+    double statsWrittenAt = -1;  // time of the last write, in s since the window was opened; -1: not yet
     Places places;               // positions of the widgets in the latest frame
 };
 
