@@ -1,5 +1,5 @@
 #pragma once
-// Describes the conditions of a bench: scene, camera, program and machine.
+// Describes the conditions of a bench for its results file: scene, camera, program and machine.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -14,7 +14,7 @@ namespace defocus::engine {
 struct BenchSubject {
     std::string program;                // name and version of the program
     std::string commit;                 // commit of the program's sources; empty if unknown
-    std::vector<std::string> commands;  // all commands whose results are included
+    std::vector<std::string> commands;  // command lines of all runs whose results are included
     Machine machine;
     std::string device;
     std::string driver;

@@ -9,7 +9,7 @@
 
 namespace defocus::engine {
 
-// Error of one seed's image relative to the common reference, computed from display-encoded values.
+// Error of the image of one seed relative to the reference that all seeds share, computed from display-encoded values.
 struct SeedError {
     double rmse = 0;
     double flip = 0;

@@ -163,7 +163,7 @@ void chooseRefinement(ObjectPlan& object, const World& world, const FramePlan& p
     if (object.cocDeviation.curved > plan.settings.cocTolerance) object.refinement = Refinement::subdivide;
 }
 
-// Approximate max number of small triangles per lens sample into which all objects are divided.
+// Approximate max number of small triangles that all objects together are divided into, per lens sample.
 constexpr double maxSmallTriangles = 4e6;
 
 // Returns the approximate number of small triangles of the object's drawn levels with at most `maxParts` parts per
@@ -199,7 +199,7 @@ void boundDivisions(FramePlan& plan, const World& world) {
     for (ObjectPlan& object : plan.objects) object.maxParts = parts;
 }
 
-// Returns the reason why the object need not be drawn; empty if the object must be drawn.
+// Returns why the object need not be drawn; empty if the object must be drawn.
 std::string reasonToLeaveOut(const World& world, const FramePlan& plan, const ObjectPlan& object) {
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
     if (pyramid.levels.front().triangleCount == 0) return "it has no triangles";

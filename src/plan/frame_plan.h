@@ -15,7 +15,7 @@
 
 namespace defocus::engine {
 
-// Time of a lens sample within the exposure.
+// Time of a lens sample within the exposure, between two shutter times.
 struct SampleMoment {
     std::uint32_t moment = 0;
     float fraction = 0;  // interpolation weight of the next shutter time, [0, 1); 0 at the last shutter time
@@ -27,7 +27,7 @@ struct LevelDraw {
     std::uint32_t level = 0;
     std::uint32_t firstSample = 0;  // index into FramePlan::samples
     std::uint32_t sampleCount = 0;
-    // triangles of all primitives, without culled triangles (see ObjectPlan::visible)
+    // number of triangles of all primitives, without culled triangles (see ObjectPlan::visible)
     std::uint32_t triangleCount = 0;
 };
 
@@ -61,12 +61,12 @@ struct ObjectPlan {
     int object = -1;  // index into World::pose.objects
     int mesh = -1;
     std::string name;
-    glm::dmat4 viewFromObject{1.0};  // relative to the camera, computed in double precision
+    glm::dmat4 viewFromObject{1.0};  // matrix relative to the camera, computed in double precision
     ObjectPose pose;                 // pose in the middle of the exposure
     // Poses at the shutter times (see Shutter in plan/view.h); empty if the object doesn't move relative to the camera.
     std::vector<ObjectPose> motion;
     bool skinned = false;
-    bool deformed = false;      // the skin or morph targets deform the mesh
+    bool deformed = false;      // true: the skin or morph targets deform the mesh
     Bounds viewBox;             // bounding box in view space over the entire exposure
     double nearestDepth = 0;    // nearest depth of the bounding box in m; may be less than View::nearPlane
     double farthestDepth = 0;   // farthest depth of the bounding box in m
@@ -82,15 +82,15 @@ struct ObjectPlan {
     std::vector<VisibleLevel> visible;  // levels of which some clusters are culled; other levels are drawn completely
     double cocScale = 1;                // factor on the blur of the entire object, ≥ 0
     OwnBlur own;                        // bounds of the blur modifiers of the object's surfaces
-    bool blurMoves = false;             // vertices have blur modifiers that change during the exposure
+    bool blurMoves = false;             // true: vertices have blur modifiers that change during the exposure
     Refinement refinement = Refinement::none;
     // Max number of parts into which Refinement::subdivide divides an edge.
     std::uint32_t maxParts = maxEdgeParts;
-    bool cuts = false;       // refined triangles may reach the near plane, or the slope of C may jump inside them
-    bool mirrored = false;   // the transform flips the winding of triangles
-    bool blended = false;    // the object has alpha-blended primitives
-    bool transmits = false;  // the object has transmissive primitives
-    bool ground = false;     // the object is the ground plane, which casts no shadow
+    bool cuts = false;       // true: refined triangles may reach the near plane, or the slope of C may jump inside them
+    bool mirrored = false;   // true: the transform flips the winding of triangles
+    bool blended = false;    // true: the object has alpha-blended primitives
+    bool transmits = false;  // true: the object has transmissive primitives
+    bool ground = false;     // true: the object is the ground plane, which casts no shadow
 };
 
 // An alpha-blended or transmissive primitive of an object, or some of its triangles: an entry of the drawing order.
@@ -110,10 +110,10 @@ struct ShadowMap {
     int light = 0;  // index into World::lights, or `surroundings` (shadows.h) for the environment
     // Face of a cube around the light: +x, −x, +y, −y, +z, −z. −1 if a single map contains all shadow casters.
     int face = -1;
-    double lightSize = 0;  // directional light: angular diameter in radians; other lights: radius in m
+    double lightSize = 0;  // for a directional light, angular diameter in radians; for other lights, radius in m
 };
 
-// Shadow casters and the lights that cast shadows; see shadows.h.
+// Shadow maps of the lights that cast shadows, and the objects that cast them; see shadows.h.
 struct ShadowPlan {
     std::vector<ShadowMap> maps;      // maps of the same light are adjacent; empty: no shadows
     int size = 0;                     // width and height of each map, px
@@ -144,7 +144,7 @@ struct FramePlan {
     // uses a pinhole because the blur is too small to be visible.
     double largestBlur = 0;
     ClipCircleOfConfusion coc;
-    std::vector<LensSample> samples;  // samples to draw, in order
+    std::vector<LensSample> samples;  // samples to draw, in this order
     // `frameSamples` is the number of samples in the completed frame, counted from the start of the sequence.
     // `frameFirst` is the index of the first sample that was planned together with `samples`.
     std::uint32_t frameSamples = 0;
@@ -159,18 +159,18 @@ struct FramePlan {
     std::vector<LeftOut> leftOut;
     std::vector<std::vector<bool>> levelsUsed;  // [mesh][level]: true if any object draws the level
     bool usesLens = true;                       // false: no blur reaches half a pixel, so samples only antialias edges
-    bool usesCocControls = false;  // for some object, the circle of confusion C at depth w differs from a + b·w
-    bool usesOwnBlur = false;      // an object or a vertex modifies the lens's blur
+    bool usesCocControls = false;  // true: for some object, the circle of confusion C at depth w differs from a + b·w
+    bool usesOwnBlur = false;      // true: an object or a vertex modifies the lens's blur
     bool usesTextures = false;
-    bool usesBlending = false;   // some object is alpha-blended
-    bool sortsBlending = false;  // some primitive is blended in order from back to front
+    bool usesBlending = false;   // true: some object is alpha-blended
+    bool sortsBlending = false;  // true: some primitive is blended in order from back to front
     bool usesTransmission = false;
-    bool needsAlpha = false;  // the background is transparent, so alpha is accumulated, too
-    bool showsMap = false;    // the background is an environment map
+    bool needsAlpha = false;  // true: the background is transparent, so alpha is accumulated, too
+    bool showsMap = false;    // true: the background is an environment map
     // Triangle counts, summed over all samples.
     std::uint64_t trianglesDrawn = 0;
-    std::uint64_t trianglesFacingAway = 0;  // culled from the drawn levels because their clusters face away
-    std::uint64_t trianglesOutside = 0;     // culled from the drawn levels because their clusters lie outside the image
+    std::uint64_t trianglesFacingAway = 0;    // triangles culled because their clusters face away
+    std::uint64_t trianglesOutside = 0;       // triangles culled because their clusters lie outside the image
     std::uint64_t trianglesAtFullDetail = 0;  // triangles at level 0 of the drawn objects, without culling
 };
 

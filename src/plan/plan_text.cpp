@@ -46,7 +46,7 @@ std::string thresholdsText(const FramePlan& plan) {
     return fmt::format("blur threshold {:.4g}, size threshold {:.4g} px", thresholds.blur, thresholds.size);
 }
 
-// Describes the choice of method "auto".
+// Describes which method "auto" has chosen, and why.
 std::string chosenMethodText(const FramePlan& plan) {
     if (const std::string reason = reasonForAccumulation(plan); !reason.empty())
         return fmt::format("--method auto is accumulation, as {}\n", reason);

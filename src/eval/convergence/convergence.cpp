@@ -161,7 +161,7 @@ std::string faultOf(const Image& image, const FramePlan& plan, const RenderStats
     return {};
 }
 
-// Returns whether the primitive is lit or not opaque. glTF's default material is lit.
+// Returns true unless the primitive is unlit and opaque. glTF's default material is lit.
 bool needsShading(const Scene& scene, const Primitive& primitive) {
     if (primitive.material < 0) return true;
     const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
@@ -275,7 +275,7 @@ private:
             return;
         }
         if (frame.image.width != view_.width || frame.image.height != view_.height)
-            return;  // wrong image size: report no error value
+            return;  // the image has the wrong size, so report no error value
         CompareOptions options;
         if (std::ranges::none_of(runs_, ofCase)) options.flipMap = &flipMap;
         run.error = errorOf(compareImages(reference_.image, frame.image, options));

@@ -26,8 +26,8 @@ namespace defocus::engine {
 
 // Variants of a method's settings. They are measured if the user names the method without settings.
 enum class MethodForm {
-    published,  // settings of the method's paper, if there is a paper
-    best,       // settings in Method::best; called `standard` if equal to the defaults
+    published,  // settings of the method's paper; not measured if there is no paper
+    best,       // settings in Method::best; called `standard` if these equal the defaults
     standard,
 };
 const char* methodFormName(MethodForm form);
@@ -55,15 +55,15 @@ struct ConvergenceOptions {
     std::vector<double> thresholdFactors = {0.5, 1, 2};  // factors that multiply the default level thresholds
     int runs = 3;                                        // number of runs of each case, ≥ 1
     int seeds = 1;             // number of seeds, ≥ 1; run r uses the plan's seed + r % seeds, to show the spread
-    RendererOptions renderer;  // RendererOptions::settings is ignored
+    RendererOptions renderer;  // options of all renderers; RendererOptions::settings is ignored
 };
 
 // A case to measure: a method with its settings and a number of lens samples.
 struct ConvergenceCase {
     MethodUse use;
     std::string form;  // variant of the settings: "published", "best", "standard"; empty for other settings
-    // Text of the settings: "lod=fractional metric=size thresholds=2", "components=5", "standard" for the defaults, or
-    // a preset's name.
+    // Text that describes the settings: "lod=fractional metric=size thresholds=2", "components=5", "standard" for the
+    // defaults, or a preset's name.
     std::string setting;
     std::uint32_t samples = 0;  // requested lens samples; 0 if the method uses none
     RenderSettings plan;
@@ -83,7 +83,7 @@ struct ImageError {
     double mse = 0;
     double ssim = 1;
     double flip = 0;
-    [[nodiscard]] double psnr() const;  // PSNR in dB; infinity for equal images
+    [[nodiscard]] double psnr() const;  // returns the PSNR in dB; infinity for equal images
 };
 
 // Measurement of one run of a case.
@@ -92,8 +92,8 @@ struct ConvergenceRun {
     std::string form;
     std::string setting;
     std::uint32_t asked = 0;         // requested lens samples; 0 if the method uses none
-    int run = 0;                     // index of the run, from 0
-    std::uint32_t samples = 0;       // lens samples drawn
+    int run = 0;                     // index of the run within its case, from 0
+    std::uint32_t samples = 0;       // number of lens samples drawn
     double pyramidMilliseconds = 0;  // build time of the pyramids, if the case uses levels
     double setupMilliseconds = 0;    // set-up time of the renderer: uploads, shaders, ray-tracing structures
     double milliseconds = 0;         // wall-clock time of the frame
@@ -114,8 +114,8 @@ struct ConvergenceVisitor {
     // a case.
     std::function<void(const ConvergenceRun& run, const Image* image, const Image* flipMap)> run;
     // Called with each skipped case and the reason. Either the method cannot render the scene (for example, a ray
-    // tracer without environment maps), or its image differs from the reference by design (Method::shadesAsLit,
-    // drawsMotion).
+    // tracer that doesn't support environment maps), or its image differs from the reference by design
+    // (Method::shadesAsLit, drawsMotion).
     std::function<void(const ConvergenceCase& wanted, const std::string& reason)> leftOut;
 };
 

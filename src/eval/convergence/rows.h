@@ -17,7 +17,7 @@ struct ConvergenceRow {
     std::string form;  // variant of the settings; see ConvergenceCase::form
     std::string setting;
     std::uint32_t asked = 0;    // requested lens samples; 0 if the method uses none
-    std::uint32_t samples = 0;  // lens samples drawn
+    std::uint32_t samples = 0;  // number of lens samples drawn
     int runs = 0;
     Spread milliseconds;              // wall-clock time of a frame
     Spread setupMilliseconds;         // set-up time of the renderer; not part of `milliseconds`
@@ -48,7 +48,8 @@ struct Trial {
 };
 
 // Returns for each trial whether it is on the Pareto front. A trial is not on the front if another trial has a cost and
-// an error that are both at most as large, one of them smaller. Equal trials are all on the front or all off it.
+// an error that are both at most as large, one of them smaller. Of several equal trials, either all are on the front or
+// none.
 std::vector<bool> paretoFront(std::span<const Trial> trials);
 
 // Error of a level setting against full detail, at the thresholds for the largest measured number of samples. More lens

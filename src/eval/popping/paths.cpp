@@ -81,7 +81,7 @@ std::vector<MovementFrame> framesAlong(Movement movement, const World& world, co
     const Depths depths = depthsOf(world, view);
     const glm::dvec3 centre = world.pose.bounds.centre();
     const double focusDistance =
-        std::min(view.lens.focusDistance, depths.farthest);  // stays finite if the lens focuses at infinity
+        std::min(view.lens.focusDistance, depths.farthest);  // remains finite if the lens focuses at infinity
     std::vector<MovementFrame> result;
     for (int i = 0; i < frames; ++i) {
         const double place = static_cast<double>(i) / (frames - 1);

@@ -1,4 +1,5 @@
-// Measures popping, which Jeong, Kim and Lee discuss in Multi-Resolution Depth-of-Field Rendering (2011).
+// Measures popping: visible jumps between levels of detail, discussed by Jeong, Kim and Lee 2011, Multi-Resolution
+// Depth-of-Field Rendering.
 
 #include "eval/popping/popping.h"
 
@@ -68,7 +69,7 @@ double mean(const Image& map, const Image* mask) {
     return values > 0 ? sum / static_cast<double>(values) : 0;
 }
 
-// Returns the difference between `image` and `expected`, both in display values.
+// Returns the error of `image` relative to `expected`; both contain display values.
 Pop popBetween(const Image& expected, const Image& image, const Image& objects) {
     Image difference = image;
     for (std::size_t i = 0; i < difference.pixels.size(); ++i) difference.pixels[i] -= expected.pixels[i];
@@ -106,8 +107,8 @@ std::vector<Image> masksOf(World& world, const std::vector<MovementFrame>& movem
 
 struct ModeState {
     FramePlan plan;
-    Image image;      // display values
-    Image reference;  // full detail with the same samples, display values
+    Image image;      // image of the level mode, in display values
+    Image reference;  // image at full detail with the same lens samples, in display values
 };
 
 PoppingFrame frameOf(const Renderers& renderers, PoppingMode mode, const ModeState& before, const ModeState& now,
@@ -200,7 +201,7 @@ std::optional<SampleStep> measureSampleStep(const World& world, Renderer& render
     step.level = static_cast<std::uint32_t>(object->lambda);
     const double depth = 0.5 * (object->nearestDepth + object->farthestDepth);
     step.coc = std::abs(circleOfConfusion(plan.coc, depth, view.width));
-    // projectedEdge is the size in px of level 0's mean edge at the object's nearest depth.
+    // projectedEdge is the projected mean edge length of level 0 in px, at the object's nearest depth.
     step.edgeError = pyramid.levels[step.level + 1].error / pyramid.levels[0].meanEdge * object->projectedEdge *
                      object->nearestDepth / depth;
     step.expected = std::sqrt(std::max(step.coc / step.edgeError, 1.0)) / samples;

@@ -52,13 +52,13 @@ struct PoppingOptions {
     int clip = 0;          // index of the scene's clip, for Movement::clip
     int pathFrames = 240;  // number of frames of a complete movement; determines its speed
     int frames = 48;       // number of measured frames per movement: the consecutive ones with most level changes
-    RenderSettings plan;   // settings that the bench doesn't vary: seed, metric, keepAll …
+    RenderSettings plan;   // settings that the bench keeps constant: seed, metric, keepAll …
     RendererOptions renderer;
 };
 
 struct PopError {
     double rmse = 0;
-    double flip = 0;  // mean FLIP over the pixels
+    double flip = 0;  // mean FLIP over the measured pixels
 };
 
 struct Pop {

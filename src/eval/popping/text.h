@@ -15,7 +15,7 @@ struct PopSummary {
     double worst = 0;
     int worstFrame = 0;
     double percentile99 = 0;  // 99th percentile, interpolated linearly between frames
-    double ofNearest = 0;     // `worst` divided by `worst` of LodMode::nearest; NaN if that is 0 or missing
+    double ofNearest = 0;     // `worst`, divided by that of LodMode::nearest; NaN if the latter is 0 or missing
 };
 
 struct PoppingRow {
@@ -24,7 +24,7 @@ struct PoppingRow {
     PoppingMode mode = PoppingMode::nearest;
     int frames = 0;  // number of pairs of consecutive frames: number of views − 1
     double speed = 0;
-    PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // measures over the object pixels
+    PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // errors over the object pixels
     PopSummary changeRmseImage, changeFlipImage, stepRmseImage, stepFlipImage;
 };
 

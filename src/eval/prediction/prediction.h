@@ -20,9 +20,9 @@
 namespace defocus::engine {
 
 struct PredictionOptions {
-    std::vector<double> cocs = {1, 4, 16, 64};  // CoC diameters at the mesh's centre, px
-    int width = 320;                            // px
-    int height = 240;                           // px
+    std::vector<double> cocs = {1, 4, 16, 64};  // measured CoC diameters at the mesh's centre, px
+    int width = 320;                            // image width, px
+    int height = 240;                           // image height, px
     RendererOptions renderer;
 };
 

@@ -40,7 +40,7 @@ const char* scalingAxisName(ScalingAxis axis);  // returns the axis's name on th
 struct ScalingOptions {
     std::vector<ScalingAxis> axes = {ScalingAxis::triangles, ScalingAxis::instances, ScalingAxis::samples,
                                      ScalingAxis::pixels, ScalingAxis::blur};
-    bool large = false;                 // extends the triangles axis to 50,000,000
+    bool large = false;                 // true: extends the triangles axis to 50,000,000
     int runs = 3;                       // timed runs of each frame
     std::filesystem::path cacheFolder;  // cache of the pyramids; empty: no cache
     RendererOptions renderer;
@@ -75,7 +75,7 @@ struct ScalingRow {
     Spread milliseconds;             // time of the complete frame
     Spread layers;                   // time of the empty frame, in which layers are only cleared and added, ms
     Spread vertices;                 // time of the frame drawn into a small image, which is mainly work per vertex, ms
-    Spread fill;                     // rest of the complete frame's time, ms, ≥ 0
+    Spread fill;                     // rest of the complete frame's time: work per pixel of a surface, ms, ≥ 0
     std::uint64_t triangles = 0;     // drawn triangles, sum over all samples
     std::uint64_t gpuBytes = 0;      // peak size of the renderer's resources
     std::uint64_t pyramidBytes = 0;  // main memory of all levels of all meshes
@@ -90,8 +90,8 @@ struct ScalingRow {
 // the same size.
 struct ScalingTimes {
     std::vector<double> complete;
-    std::vector<double> layers;    // empty frame
-    std::vector<double> vertices;  // frame drawn into a small image
+    std::vector<double> layers;    // times of the empty frame
+    std::vector<double> vertices;  // times of the frame drawn into a small image
 };
 
 // Sets the members `runs`, `milliseconds`, `layers`, `vertices` and `fill` of the row.
@@ -106,7 +106,7 @@ struct ScalingVisitor {
 // Measures all points of the requested axes. Needs a current GL context.
 void measureScaling(const ScalingOptions& options, const ScalingVisitor& visitor, const Progress& progress = {});
 
-// Least-squares fit of y ≈ factor · x^exponent to the logarithms of x and y.
+// A power law y ≈ factor · x^exponent, fitted by least squares to the logarithms of x and y.
 struct PowerLaw {
     double exponent = 0;
     double residual = 0;  // RMS of ln y − ln(factor · x^exponent): approximately the relative RMS error

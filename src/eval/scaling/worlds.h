@@ -13,7 +13,7 @@ namespace defocus::engine {
 struct ScalingWorld {
     std::shared_ptr<Scene> scene = std::make_shared<Scene>();
     World world;
-    View view;  // the school's default camera, 640 × 480 px
+    View view;  // view of the built-in school's default camera, 640 × 480 px
 };
 
 // Returns a school of eight fish with about `triangles` in total (1,600 … 80,000,000). Shapes and positions don't

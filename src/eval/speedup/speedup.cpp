@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array modes = {LodMode::off, LodMode::nearest, LodMode::fractional};
 constexpr std::uint32_t warmUpSamples = 2;
-constexpr std::uint32_t referenceFactor = 8;  // default reference samples / largest measured sample count
+constexpr std::uint32_t referenceFactor = 8;  // default reference samples, divided by the max measured number
 
 struct Setting {
     const char* sweep;
@@ -88,14 +88,14 @@ struct SpeedupSubject {
     MethodUse use;
     LodMode mode = LodMode::off;
     LodCause cause = LodCause::blurAndSize;
-    const SpeedupSubject* fullDetail = nullptr;  // variant with the same settings at full detail
+    const SpeedupSubject* fullDetail = nullptr;  // the variant at full detail with otherwise the same settings
     std::unique_ptr<Renderer> renderer;
     std::vector<FramePlan> plans;  // plans of the frame, one per seed
     std::vector<double> milliseconds;
     std::vector<double> gpuMilliseconds;
     double setupMilliseconds = 0;           // set-up time of the renderer
     Image image;                            // image of the first seed
-    std::vector<Difference> fromReference;  // errors, one per seed
+    std::vector<Difference> fromReference;  // errors relative to the reference, one per seed
 };
 
 // Returns whether the method draws levels of detail. Ray tracers trace the loaded meshes only. Post-process methods
@@ -158,7 +158,7 @@ void run(SpeedupSubject& subject, std::size_t number, const ReferenceImage* refe
     const RenderStats stats = subject.renderer->stats();
     subject.milliseconds.push_back(stats.renderMilliseconds);
     subject.gpuMilliseconds.push_back(stats.gpuMilliseconds);
-    if (number >= subject.plans.size()) return;  // an earlier run has drawn the same image
+    if (number >= subject.plans.size()) return;  // an earlier run has already drawn the image of this seed
     Image image = subject.renderer->image();
     if (reference != nullptr) subject.fromReference.push_back(compareImages(reference->image, image));
     if (number == 0) subject.image = std::move(image);

@@ -35,7 +35,7 @@ struct SpeedupOptions {
     std::vector<double> fStops;                                             // f-numbers to measure with `sweepSamples`
     std::vector<double> focusDistances;  // focus distances (m) to measure with `sweepSamples`
     std::uint32_t sweepSamples = 64;
-    std::vector<MethodUse> methods;  // measured after accumulation, with the first form's settings
+    std::vector<MethodUse> methods;  // methods to measure after accumulation, with the first form's settings
     int runs = 5;                    // number of runs of each frame, ≥ 1
     int seeds = 5;                   // number of seeds, ≥ 1; run r uses the plan's seed + r % seeds
     // Lens samples of the converged reference for each lens (reference_image.h); 0: no reference. Default: eight times
@@ -59,7 +59,7 @@ struct SpeedupRow {
     std::string method;  // name of the method and its settings, separated by spaces
     std::uint32_t samples = 0;
     double fStop = 0;
-    double focusDistance = 0;  // m
+    double focusDistance = 0;  // focus distance, m
     LodMode mode = LodMode::off;
     int runs = 0;
     Spread milliseconds;             // wall-clock time of a frame
@@ -67,11 +67,11 @@ struct SpeedupRow {
     double setupMilliseconds = 0;    // set-up time of the renderer; not part of `milliseconds`
     double pyramidMilliseconds = 0;  // build time of the pyramids, if levels are used; not part of `milliseconds`
     double speedUp = 1;              // median time of the settings at full detail divided by this row's median time
-    std::optional<SpeedupPart> sizeOnly, blurOnly;  // results by cause; only for accumulation with fractional levels
+    std::optional<SpeedupPart> sizeOnly, blurOnly;  // by LodCause; only for accumulation with fractional levels
     std::uint64_t triangles = 0;
     std::uint64_t gpuBytes = 0;               // peak size of the renderer's resources
-    Difference fromFullDetail;                // difference with the same lens samples, for the first seed
-    std::optional<Difference> fromReference;  // mean over the seeds
+    Difference fromFullDetail;                // from full detail with the same lens samples, for the first seed
+    std::optional<Difference> fromReference;  // from the reference, mean over the seeds
     std::vector<SeedError> ofSeeds;           // difference from the reference, one per measured seed
     std::uint32_t referenceSamples = 0;       // lens samples of the reference; 0: no reference
     Difference referenceRemaining;            // estimate of the reference's own error

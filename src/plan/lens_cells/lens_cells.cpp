@@ -102,7 +102,7 @@ void moveToMeans(std::vector<LensSample>& samples, const FramePlan& plan) {
     rotate(samples, turn);
 }
 
-// Returns the lower triangular L with L·Lᵀ = m (Cholesky).
+// Returns the lower triangular matrix L with L·Lᵀ = m (Cholesky decomposition).
 glm::dmat2 root(const glm::dmat2& m) {
     const double a = std::sqrt(std::max(m[0][0], 1e-12));
     const double b = m[0][1] / a;

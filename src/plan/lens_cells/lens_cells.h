@@ -30,7 +30,7 @@ inline constexpr int maxCellClasses = 5;  // max number of variance classes on e
 // Returns the blur variance of class k ≥ 0, a group of pixels with similar blur, along an axis in px²: 4^k/3 + 1/6. The
 // image of a class consists of tent-weighted means over squares of 2^k px, interpolated linearly between their centres.
 double cellClassVariance(int k);
-inline constexpr double minCellVariance = 0.01;  // subtracted from each blur variance, px²; too small to be visible
+inline constexpr double minCellVariance = 0.01;  // px², subtracted from each blur's variance; too small to be visible
 
 struct LensCells {
     double blur = 0;                 // σ of the blur as a fraction of |c|; 0: images are not blurred
@@ -45,7 +45,7 @@ struct LensCells {
     [[nodiscard]] int classes() const { return inFront + behind; }
 };
 
-// Returns why the images of the plan's samples cannot be blurred by lens cells; empty if they can.
+// Returns why the images of the plan's samples cannot be blurred by lens cells; empty if they can be.
 std::string reasonForNoCells(const FramePlan& plan);
 
 // Returns the lens cells of the plan's samples. A frame whose samples are added batch by batch has separate cells in

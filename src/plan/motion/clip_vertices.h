@@ -10,7 +10,7 @@
 namespace defocus::engine {
 
 struct ClipVertices {
-    std::vector<glm::dvec3> places;  // (x, y, w) in the clip space of the pinhole camera
+    std::vector<glm::dvec3> places;  // positions (x, y, w) in the clip space of the pinhole camera
     std::vector<double> coc;         // circle of confusion C; undefined for w ≤ 0 with artistic controls
 };
 

@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 // Settings of the exposure's duration and of the sampling of motion.
 struct ShutterSettings {
-    double seconds = 0;  // duration of the exposure; 0: no motion blur
+    double seconds = 0;  // duration of the exposure in s; 0: no motion blur
     ShutterPosition position = ShutterPosition::centre;
     MotionSegments motionSegments = 1u;
     std::optional<double> opening;  // opening time in s, relative to the frame's time; replaces `position`

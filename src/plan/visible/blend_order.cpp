@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t maxConvexTriangles = 1000;  // max triangles of a primitive that isConvex() tests
 constexpr std::size_t maxParts = 5000;            // max total of parts; limits the time for comparing pairs
-constexpr double tolerance = 1e-4;                // relative to the primitive's size; allows for rounded positions
+constexpr double tolerance = 1e-4;                // allowance for rounded positions, relative to the primitive's size
 
 // An alpha-blended or transmissive primitive of an object.
 struct Candidate {
@@ -43,7 +43,7 @@ class BlendSorter {
 public:
     BlendSorter(FramePlan& plan, const World& world) : plan_(&plan), world_(&world) {}
 
-    // Returns FramePlan::blendOrder and sets ObjectPlan::blended.
+    // Returns the value for FramePlan::blendOrder, and sets ObjectPlan::blended.
     std::vector<BlendRun> runs();
 
 private:
@@ -163,7 +163,7 @@ void BlendSorter::relate() {
 std::vector<std::size_t> BlendSorter::backToFront() {
     const std::size_t count = nodes_.size();
     std::vector<std::vector<std::size_t>> later(count);
-    std::vector<std::size_t> earlier(count);  // number of remaining nodes that must be drawn before the node
+    std::vector<std::size_t> earlier(count);  // number of remaining nodes that must be drawn before each node
     const auto constrain = [&](std::size_t first, std::size_t then) {
         const bool free = nodes_[first].run.stochastic || nodes_[then].run.stochastic;
         if (free && !transmits(first) && !transmits(then)) return;

@@ -27,8 +27,8 @@ struct PosedPart {
 };
 
 struct BlendPart {
-    std::vector<PosedPart> poses;  // one pose, or one for each shutter time
-    bool flat = false;             // the part is a single triangle
+    std::vector<PosedPart> poses;  // the part in one pose, or in one pose for each shutter time
+    bool flat = false;             // true: the part is a single triangle
     // Bounds in px, relative to the centre of the image, of the part's projections in all lens samples.
     glm::dvec2 low{0}, high{0};
 };

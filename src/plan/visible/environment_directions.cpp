@@ -1,4 +1,5 @@
-// Importance sampling of an environment on an equirectangular grid (Pharr, Jakob and Humphreys 2016, section 14.2.4).
+// Samples directions to an environment by importance, on an equirectangular grid (Pharr, Jakob and Humphreys 2016,
+// section 14.2.4).
 #include "plan/visible/environment_directions.h"
 
 #include <algorithm>

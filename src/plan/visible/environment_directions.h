@@ -20,7 +20,7 @@ public:
     explicit EnvironmentDirections(const Environment& environment, bool onGround = false);
 
     struct Choice {
-        glm::dvec3 toLight{0, 1, 0};  // unit vector
+        glm::dvec3 toLight{0, 1, 0};  // unit vector to the environment
         glm::dvec3 radiance{0.0};     // radiance divided by the probability density of the direction, W/m²
     };
     // Maps `point` ∈ [0, 1)² to a direction.

@@ -19,7 +19,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int minMapSize = 128;               // px
+constexpr int minMapSize = 128;               // min width and height of a shadow map, px
 constexpr int maxImageMapSize = 2048;         // max map size in px that is chosen to match the image's size
 constexpr double resolvedShare = 0.95;        // fraction of visible points where texels are at most texelPixels wide
 constexpr double texelPixels = 2;             // texel width in px; can exceed 1, because samples shift the texels
@@ -101,7 +101,7 @@ bool oneMapShows(const PlacedLight& placed, const glm::dvec3& position, const st
 
 struct ShadowCandidate {
     int light = 0;
-    double share = 0;  // fraction of the visible illuminance
+    double share = 0;  // fraction of the visible illuminance that the light causes
     int faces = 1;
 };
 

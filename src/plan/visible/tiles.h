@@ -28,7 +28,7 @@ struct Tile {
     bool operator==(const Tile&) const = default;
 };
 
-inline constexpr int maxCellPixels = 8192;  // px; larger images are divided into cells with separate window coordinates
+inline constexpr int maxCellPixels = 8192;  // max side of a cell, px; larger images consist of several cells
 
 // Returns the cells of an image, row by row. All cells have the same size, except that the last cell of a row or column
 // may be smaller.

@@ -18,7 +18,7 @@ struct Document {
     Request shown;                           // request that `frame` was last updated to; see updateWorld
     bool poseIsStale = false;                // true: the objects must be posed again even if the request is unchanged
     std::vector<double> ownBlurs;            // Node::cocScale of each scene node, as loaded
-    std::vector<glm::dmat4> shutterCameras;  // for View::shutterCameras; empty unless the view follows the file's camera
+    std::vector<glm::dmat4> shutterCameras;  // View::shutterCameras; empty unless the view follows the file's camera
     std::uint64_t poseVersion = 0;           // incremented when anything in the world moves
     std::uint64_t worldVersion = 0;          // incremented when GPU copies of the world must be rebuilt
 };
