@@ -54,7 +54,7 @@ const std::array<Kernel, 5> publishedKernels = {{
      {1.512961, 16.116382, 0.138051, -0.010000}},
 }};
 
-// ---- one kernel's weights ---------------------------------------------------------------------------------------
+// ---- weights of a kernel with given decays and frequencies ------------------------------------------------------
 
 struct Problem {
     Values squaredRadii;  // squared distances of the quadrature nodes from the centre
@@ -82,10 +82,10 @@ Problem problemOf(double extent, double guard) {
 }
 
 struct Fit {
-    Values shape;  // decays and frequencies of the components, interleaved
+    Values shape;  // decays and frequencies of the components, alternating
     Kernel kernel;
     Values residual;
-    double squares = std::numeric_limits<double>::infinity();  // |residual|²
+    double squares = std::numeric_limits<double>::infinity();  // squared norm of the residual
 };
 
 // Basis functions of the kernel at the nodes: two columns per component, √weight·e^(−a·u)·cos b·u and
@@ -130,7 +130,7 @@ Fit fitWeights(const Problem& problem, const Values& shape) {
     return fit;
 }
 
-// ---- decays and frequencies -------------------------------------------------------------------------------------
+// ---- fit of decays and frequencies ------------------------------------------------------------------------------
 
 struct Residual : Eigen::DenseFunctor<double> {
     Residual(const Problem& fitted, Eigen::Index unknowns)
@@ -195,7 +195,7 @@ std::vector<Kernel> fitKernels(double extent, double guard, int count) {
     return kernels;
 }
 
-// ---- tables -----------------------------------------------------------------------------------------------------
+// ---- printed tables ---------------------------------------------------------------------------------------------
 
 struct Ripple {
     double insideMax = 0;  // max |value − 1| of the kernel for r < 0.9

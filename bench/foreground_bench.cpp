@@ -4,7 +4,7 @@
 // triangle doesn't grow with the blur. A limit saves only triangles that lie outside the image and would be blurred
 // into it. A limit also makes levels of detail finer.
 //
-//   defocus_foreground_bench [--stochastic]   --stochastic: method "stochastic" alone
+//   defocus_foreground_bench [--stochastic]   --stochastic: measures only method "stochastic"
 //
 // Held equal: camera, lens, size, lens samples, renderer and process. Runs alternate; the fastest of each counts. CPU
 // is the time of all threads, which depends less on other load. `work` is the heat map of --aov work: triangles that
@@ -130,7 +130,7 @@ void measureStochastic(const Figure& figure) {
         view.lens.foregroundLimit = limit;
         rows.push_back({.limit = limit, .plan = planFrame(frame.world, view, frame.settings)});
     }
-    RendererOptions linear;  // as in the preset munkberg2012: dividing triangles would add work only to limited frames
+    RendererOptions linear;  // as in preset munkberg2012, because dividing triangles would slow only limited frames
     linear.settings = {{"coc-interpolation", "linear"}};
     const auto renderer = methodNamed("stochastic").make(frame.world, linear);
     std::vector<double> tests(rows.size());

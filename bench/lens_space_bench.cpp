@@ -41,7 +41,7 @@ using namespace defocus::engine;
 
 constexpr int timedFrames = 3;
 constexpr std::uint32_t referenceSamples = 1600;
-constexpr double tableBlur = 0.1;     // blur as a fraction of the image's width
+constexpr double tableBlur = 0.1;     // largest blur in Table 1, as a fraction of the image's width
 constexpr double largestError = 0.1;  // max RMSE against accumulation
 
 struct Measured {
@@ -91,7 +91,7 @@ Image imageOf(const Contestant& contestant) {
     return std::move(measured({contestant}, 0).front().image);
 }
 
-// Returns the method of preset tzeng2012 with its settings.
+// Returns the method of the preset tzeng2012 with its settings, as text.
 std::string publishedMethod() {
     Request request;
     applyPreset(presetNamed("tzeng2012"), request);
@@ -115,7 +115,7 @@ RenderSettings byScore(std::uint32_t samples) {
 RenderSettings ofThreeLevels(std::uint32_t samples) {
     RenderSettings settings = byScore(samples);
     settings.lod = LodMode::nearest;
-    settings.thresholds.blur = 0.25;  // value of the preset tzeng2012
+    settings.thresholds.blur = 0.25;  // value from the preset tzeng2012
     return settings;
 }
 

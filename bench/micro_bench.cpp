@@ -1,6 +1,6 @@
-// Micro-benchmarks of the CPU side of a frame. Held constant: one thread, the same inputs in every run (a mesh,
-// pyramid, world or image pair), default lens and settings. GPU and disk are not used. Each benchmark checks its result
-// and reports an error instead of a time if the result is wrong.
+// Measures parts of the CPU work of a frame separately (micro-benchmarks). Held constant: one thread, the same inputs
+// in every run (a mesh, pyramid, world or image pair), default lens and settings. GPU and disk are not used. Each
+// benchmark checks its result and reports an error instead of a time if the result is wrong.
 
 #include <benchmark/benchmark.h>
 

@@ -95,7 +95,7 @@ void costOverRadius() {
         for (int i = 0; i <= runs; ++i) {
             const double first = milliseconds(separable, field, radius);
             const double second = milliseconds(direct, field, radius);
-            if (i == 0) continue;  // skip the run that compiles the shaders
+            if (i == 0) continue;  // don't count the run that compiles the shaders
             a.push_back(first);
             b.push_back(second);
         }
@@ -131,7 +131,7 @@ void savedByOnePass() {
             for (int i = 0; i <= runs; ++i) {
                 const double first = milliseconds(blur, field, radius);
                 const double second = milliseconds(blur, field, none);
-                if (i == 0) continue;  // skip the run that compiles the shaders
+                if (i == 0) continue;  // don't count the run that compiles the shaders
                 with.push_back(first);
                 without.push_back(second);
             }

@@ -65,10 +65,10 @@ using DecimatedMesh = OpenMesh::TriMesh_ArrayKernelT<>;
 
 constexpr std::size_t minTriangles = 64;
 constexpr std::uint32_t lensSamples = 32;
-constexpr std::size_t distancePoints = 40'000;  // sample points on each surface
+constexpr std::size_t distancePoints = 40'000;  // number of sample points on each surface
 
-// Returns the min CPU time of this thread over all runs, s; unlike wall-clock time, it excludes other load on the
-// machine.
+// Returns the min CPU time of this thread over all runs, in s. Unlike wall-clock time, CPU time excludes other load on
+// the machine.
 double secondsOf(int runs, const std::function<void()>& work) {
     const auto now = [] {
         timespec time{};
@@ -84,7 +84,7 @@ double secondsOf(int runs, const std::function<void()>& work) {
     return min;
 }
 
-// Returns the value of a line of /proc/self/status, bytes; 0 if the line is missing.
+// Returns the value in bytes of a line of /proc/self/status, such as "VmRSS"; 0 if the line is missing.
 double memory(const std::string& line) {
     std::ifstream status("/proc/self/status");
     for (std::string text; std::getline(status, text);)
@@ -314,7 +314,7 @@ void blurBy(Stage& stage, double coc) {
 Image drawn(const Stage& stage, std::uint32_t level) {
     RenderSettings settings;
     settings.sampleCount = lensSamples;
-    settings.sequence = Sequence::halton;  // lens sequence of the committed results
+    settings.sequence = Sequence::halton;  // lens sequence with which the committed results were made
     settings.lod = LodMode::off;
     FramePlan plan = planFrame(stage.world, stage.view, settings);
     for (ObjectPlan& object : plan.objects) {

@@ -118,7 +118,7 @@ std::vector<Pattern> patterns() {
 // ---- area errors of the points, without rendering -------------------------------------------------------------------
 
 struct Region {
-    double area = 0;  // fraction of the lens or pixel area
+    double area = 0;  // area of the region, as a fraction of the lens or pixel area
     std::function<bool(const LensSample&)> holds;
 };
 
@@ -218,12 +218,12 @@ void measurePoints() {
     }
 }
 
-// ---- images ---------------------------------------------------------------------------------------------------------
+// ---- rendered images ------------------------------------------------------------------------------------------------
 
 RendererOptions precise() {
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;
-    options.wave = 8;  // allows reading the image after every 8 samples
+    options.wave = 8;  // batch size; allows reading the image after every 8 samples
     return options;
 }
 
@@ -253,7 +253,7 @@ std::vector<Image> rendered(Renderer& renderer, FramePlan plan, const std::vecto
 }
 
 struct Errors {
-    std::vector<double> square;  // RMSE², mean over the seeds, by sample count
+    std::vector<double> square;  // squared RMSE, averaged over the seeds, by sample count
     std::vector<double> flip;
 };
 

@@ -57,7 +57,7 @@ double ApertureMask::imageAt(const glm::dvec2& point) const {
 
 double ApertureMask::at(const glm::dvec2& point) const {
     if (lens_.apertureImage) return imageAt(point);
-    double edge = 1;  // aperture's radius in the direction of `point`
+    double edge = 1;  // radius of the aperture's edge in the direction of `point`
     if (lens_.bladeCount > 0) {
         const double half = std::numbers::pi / lens_.bladeCount;
         const double fromCorner = std::fmod(std::atan2(point.y, point.x) + 4 * std::numbers::pi, 2 * half);

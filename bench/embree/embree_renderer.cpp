@@ -43,12 +43,12 @@ struct TileSeeds {
 
 // The part of a lens sample's data that all tiles share.
 struct WaveSample {
-    std::uint32_t index = 0;  // index of the sample in the sequence
+    std::uint32_t index = 0;  // index of the lens sample in the sequence
     // Sample points that all pixels share (unused with EmbreeSampling::perPixel): in the pixel ([0, 1)² px, right and
     // down), and on the lens (unit disk).
     glm::dvec2 pixel{0};
     glm::dvec2 lens{0};
-    glm::vec2 light{0.5f};  // point on each light
+    glm::vec2 light{0.5f};  // sample point on each light, in [0, 1)²
     // Unscrambled points for EmbreeSampling::perPixel; each pixel scrambles them differently.
     ReversedLanes ownPixel;
     ReversedLanes ownLens;
@@ -133,7 +133,7 @@ private:
     View view_;
     RenderSettings settings_;
     bool castsShadows_ = false;
-    std::vector<LensSample> planned_;  // samples of the plan; used only with EmbreeSampling::planned
+    std::vector<LensSample> planned_;  // lens samples of the plan; used only with EmbreeSampling::planned
     LensCamera camera_;
     std::optional<ApertureMask> mask_;  // aperture mask; nullopt if ApertureMask::isNeeded is false
     ApertureMap aperture_{Lens{}};      // maps sample points to the aperture; used if mask_ is empty
@@ -177,7 +177,7 @@ std::uint32_t EmbreeRenderer::sampleCount() const {
     return sampling_ == EmbreeSampling::planned ? static_cast<std::uint32_t>(planned_.size()) : settings_.sampleCount;
 }
 
-// ---- samples --------------------------------------------------------------------------------------------------------
+// ---- sample points of the pixels ------------------------------------------------------------------------------------
 
 WaveSample EmbreeRenderer::waveSample(std::uint32_t number) const {
     WaveSample sample;
@@ -256,7 +256,7 @@ std::array<glm::vec2, packetSize> EmbreeRenderer::lightPointsOf(const Tile& tile
     return points;
 }
 
-// ---- rays -----------------------------------------------------------------------------------------------------------
+// ---- tracing of rays ------------------------------------------------------------------------------------------------
 
 LaneMask EmbreeRenderer::lanesInside(const Tile& tile, int place) const {
     const int left = tile.left + place % packetsPerTileRow * packetSide;

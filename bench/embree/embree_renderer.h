@@ -17,15 +17,15 @@
 namespace defocus::engine {
 
 enum class EmbreeSampling {
-    perPixel,  // each pixel has its own scrambled lens and pixel samples: the error is noise
-    shared,    // all pixels share lens and pixel samples, as in accumulation: the error is banding
+    perPixel,  // each pixel has its own scrambled samples of lens and pixel, so the error is noise
+    shared,    // all pixels share the samples of lens and pixel, as in accumulation, so the error is banding
     // Like `shared`, but with the points of FramePlan::samples, so that only geometry and visibility can differ from
     // the rasteriser. Traced watertight; in the other modes, about one ray in a million passes between two adjacent
     // triangles.
     planned,
 };
 
-// Returns a ray tracer; advance() traces up to 16 samples of every pixel on all cores.
+// Returns a ray tracer whose advance() traces up to 16 samples of every pixel on all cores.
 std::unique_ptr<Renderer> makeEmbreeRenderer(const World& world, EmbreeSampling sampling = EmbreeSampling::perPixel);
 
 // Adds the methods "embree", "embree-shared" and "embree-planned" to the table of methods. Further calls have no

@@ -10,7 +10,7 @@
 
 namespace defocus::engine {
 
-// A ReversedPoint (sample_scramble.h) for each lane.
+// A ReversedPoint (sample_scramble.h) for each of a packet's 16 lanes.
 struct ReversedLanes {
     Lanes<std::uint32_t> x, y;
 };
@@ -26,13 +26,13 @@ ReversedLanes packetSeeds(std::uint32_t firstStream, SamplePair pair, std::uint3
 // Writes the scrambled points, in [0, 1)², to `x` and `y`.
 void scramblePoints(const ReversedLanes& points, const ReversedLanes& seeds, FloatLanes& x, FloatLanes& y);
 
-// Aperture data that mapToAperture needs, computed once per lens.
+// Data of the aperture that mapToAperture needs, computed once per lens.
 struct ApertureMap {
     explicit ApertureMap(const Lens& lens);
 
     static constexpr int maxBlades = 64;
     int bladeCount = 0;  // number of blades; 0: round aperture
-    float scaleX = 1;    // anamorphic scaling
+    float scaleX = 1;    // horizontal factor of the anamorphic scaling
     float scaleY = 1;
     std::array<float, maxBlades + 1> cornerX{};  // corners of the polygon; the first is repeated at the end
     std::array<float, maxBlades + 1> cornerY{};

@@ -32,7 +32,7 @@ struct alignas(64) Lanes {
 };
 
 using FloatLanes = Lanes<float>;
-using LaneMask = Lanes<int>;  // −1: lane in use, 0: not in use
+using LaneMask = Lanes<int>;  // −1 for lanes in use, 0 for unused lanes
 
 // Sample points of all lanes: in the pixel ([0, 1)² px, right and down) and on the lens (unit disk).
 struct PacketPoints {

@@ -23,7 +23,7 @@ namespace defocus::engine {
 // A primitive of an object, as one Embree geometry.
 struct TracedGeometry {
     const Mesh* mesh = nullptr;
-    const std::vector<glm::vec3>* normals = nullptr;  // normals of the mesh, or posed normals
+    const std::vector<glm::vec3>* normals = nullptr;  // normals of the mesh, or posed normals if the object deforms
     const Primitive* primitive = nullptr;
     const Material* material = nullptr;
     glm::mat3 worldNormalFromObject{1.0f};  // transforms normals to world space, without normalising

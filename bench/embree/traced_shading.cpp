@@ -122,7 +122,8 @@ glm::vec2 onDisk(const glm::vec2& place) {
     return {ring * std::cos(angle), ring * std::sin(angle)};
 }
 
-// Light that arrives at a point if nothing occludes it: illuminance in lux on a surface perpendicular to the light.
+// Light that arrives at a point if nothing is in between: the illuminance in lux on a surface perpendicular to the
+// light.
 struct Incoming {
     glm::vec3 illuminance{0.0f};
     glm::vec3 toMiddle{0.0f};  // unit vector to the light's centre

@@ -15,7 +15,7 @@ struct SurfaceHit {
     float v = 0;                 // barycentric weight of the triangle's third corner
     glm::vec3 facet{0.0f};       // triangle normal, not normalised
     glm::vec3 direction{0.0f};   // direction of the ray
-    float distance = 0;          // ray parameter: distance in units of `direction`
+    float distance = 0;          // ray parameter at the hit: distance in units of the length of `direction`
     glm::vec3 origin{0.0f};
 };
 
@@ -25,8 +25,8 @@ struct ShadowRays {
     glm::vec2 lightPoint{0.5f};
 };
 
-// Returns the linear radiance from a hit towards the camera. The base colour is factor × vertex colour × texture level
-// 0.
+// Returns the linear radiance from a hit towards the camera. The base colour is factor × vertex colour × texture, read
+// from texture level 0.
 glm::vec3 surfaceRadiance(const World& world, const TracedGeometry& geometry, const SurfaceHit& hit,
                           const ShadowRays& shadows);
 

@@ -31,7 +31,7 @@ def add_program(parser):
 
 
 def run(*words, cwd=ROOT):
-    """Runs a program in a folder, by default the repository root, and returns its output. If it fails, exits with its error message."""
+    """Runs a program in a folder (default: repository root). Returns its output, or exits with its error message."""
     done = subprocess.run([str(word) for word in words], capture_output=True, text=True, cwd=cwd)
     if done.returncode != 0:
         sys.exit(done.stderr.strip())

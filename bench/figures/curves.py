@@ -18,7 +18,7 @@ CURVES = [
     ("focus range 0.7 m to 1.8 m", "tab:green", "-", RANGE),
     ("the same, --focus-range-refocuses", "tab:green", "--", [*RANGE, "--focus-range-refocuses"]),
 ]
-DEPTHS = [0.2 + 0.02 * step for step in range(241)]  # m
+DEPTHS = [0.2 + 0.02 * step for step in range(241)]  # plotted depths, m
 
 
 def blurs(program, options):
@@ -29,7 +29,7 @@ def blurs(program, options):
 
 
 def draw_curves(program, file):
-    """Plots over depth w. Left: C in clip space, w · c / W for a blur of c px in an image W px wide. Right: c.
+    """Plots over depth w. Left: C in clip space, which is w · c / W for a blur of c px in an image W px wide. Right: c.
 
     C has the opposite sign in Munkberg, Toth and Akenine-Möller 2012.
     """

@@ -50,7 +50,7 @@ def normals(waves, slope, seed, size=256):
 
 
 def finished(surface, repeat=1.0, smooth=False):
-    """Gives the newest object its material, and repeats its texture."""
+    """Gives the object that was added last its material, and repeats the texture."""
     thing = bpy.context.object
     thing.data.materials.append(surface)
     thing.cycles.shadow_terminator_geometry_offset = 0
@@ -162,7 +162,7 @@ def leather():
 
 
 def boxes():
-    """160 small boxes at many depths: every third of metal with a normal map, the others textured dielectrics."""
+    """160 small boxes at many depths: every third is metal with a normal map, the others are textured dielectrics."""
     camera(0, 1.1, 0.95, 0)
     surfaces = [material("metal box", blotches(COPPER, STEEL, 7), normal=normals(4, 0.15, 8), metallic=1, roughness=0.5),
                 material("checkered box", checker(WHITE, BLUE, 24), roughness=0.6),

@@ -18,7 +18,7 @@ from collections import Counter, namedtuple
 from figures.command import parser_of, path
 from figures.files import read_csv, read_json
 
-MIN_RUNS = 3  # fewer runs give no verdict on times
+MIN_RUNS = 3  # results with fewer runs get no verdict on times
 TOLERANCE = 0.01  # min change of an error, relative to the larger of both errors
 SSIM_ROUNDING = 1e-6  # CSV files contain six digits of SSIM
 # Columns that identify a row, and columns that are errors.
@@ -31,7 +31,7 @@ Results = namedtuple("Results", "measured_on subject rows")
 Change = namedtuple("Change", "old new verdict beyond_limit", defaults=(False,))
 
 
-# ---- reading --------------------------------------------------------------------------------------------------------
+# ---- reading of results ---------------------------------------------------------------------------------------------
 
 
 def numeric(value):
@@ -72,7 +72,7 @@ def row_of(cells):
 
 
 def subject_of(document):
-    """Returns the document's properties that must be equal in comparable results, by name."""
+    """Returns {name: value} of the document's properties that must be equal in comparable results."""
     subject = {name: document[name] for name in ("scene", "camera", "device", "driver", "frames", "pathFrames") if name in document}
     if "width" in document:
         subject["size"] = f"{document['width']} x {document['height']} px"
@@ -105,7 +105,7 @@ def read(file):
         sys.exit(f"{file}: {fault}")
 
 
-# ---- verdicts -------------------------------------------------------------------------------------------------------
+# ---- verdicts on rows -----------------------------------------------------------------------------------------------
 
 
 def unlike_subjects(old, new):
@@ -161,7 +161,7 @@ def compare(old, new):
                     for row, other in pairs]
 
 
-# ---- text -----------------------------------------------------------------------------------------------------------
+# ---- text of the comparison -----------------------------------------------------------------------------------------
 
 
 def ratio(new, old):

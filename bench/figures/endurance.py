@@ -53,7 +53,7 @@ def place(number, count):
 
 
 def many(kind, count):
-    """Returns the document and the data of a glTF file with `count` parts of this kind, each with one triangle."""
+    """Returns the document and the data of a glTF file with `count` parts of this kind, such as meshes."""
     data = TRIANGLE
     accessor = {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}
     document = {"asset": {"version": "2.0"}, "scene": 0, "accessors": [accessor]}

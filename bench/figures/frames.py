@@ -18,5 +18,5 @@ class Frames:
         return json.loads(stats.read_text())
 
     def difference(self, reference, file):
-        """Returns the metrics of `defocus compare`, such as "rmse" and "flip"."""
+        """Compares a file with the reference. Returns the metrics of `defocus compare`, such as "rmse" and "flip"."""
         return json.loads(run(self.program, "compare", self.folder / reference, self.folder / file, "--json"))

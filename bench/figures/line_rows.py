@@ -13,7 +13,7 @@ NAMES = {EXACT: "lines", PUBLISHED: "lines, as published", POINTS: "points"}
 COUNTS = {EXACT: (4, 16), PUBLISHED: (4, 16), POINTS: (16, 64, 256)}
 COMMON = ["--lod", "off", "--focus-breathing", "--background", "0.25,0.28,0.33", "--reference-samples", "1600", "--runs", "3",
           "--seeds", "1"]
-# Details that are shown beside the reference: (method and settings, number of samples).
+# Images whose details are shown beside the reference: (method and settings, number of samples).
 DETAILS = [(EXACT, 4), (EXACT, 16), (PUBLISHED, 16), (POINTS, 64), (POINTS, 256)]
 
 

@@ -179,7 +179,7 @@ def draw_modes(axes, points_of, size):
 
 
 def popping_plot(rows, samples):
-    """Plots pop, change and speed of levels frame by frame, with one column per movement."""
+    """Plots pops, changes and the speed of levels for each frame, with one column of plots per movement."""
     kinds = [("stepRmse", "pop, RMSE"), ("changeRmse", "change, RMSE"), ("speed", "levels a frame")]
     movements = list(dict.fromkeys(row["movement"] for row in rows))
     figure, plots = new_plots(len(movements), 0.8, 7.5, len(kinds))

@@ -58,7 +58,7 @@ def as_svg(figure, name, description):
 
 
 def new_plots(count, right, height, rows=1):
-    """Returns a figure and its axes by row and column; all axes of a row share the y axis."""
+    """Returns a figure and its plots by row and column; all plots of a row share the y axis."""
     plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "defocus", "font.size": 10})
     figure, plots = plt.subplots(rows, count, figsize=(10, height), sharex="col" if rows > 1 else False, sharey="row",
                                  squeeze=False)

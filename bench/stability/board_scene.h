@@ -15,7 +15,7 @@ struct Board {
     double depth = 2;        // depth of the board, m
     glm::dvec2 centre{0};    // centre in m, in the plane at `depth`
     glm::dvec2 halfSize{1};  // half the width and height, m
-    glm::vec3 radiance{1};   // linear RGB
+    glm::vec3 radiance{1};   // radiance in linear RGB
 };
 
 // Returns the view of a camera at the origin with a 50 mm f/1 lens and a 36 mm sensor, focused at 2 m.
@@ -27,10 +27,10 @@ struct BoardScene {
     std::shared_ptr<Scene> scene = std::make_shared<Scene>();  // the scene that `world` refers to
     World world;
     View view;
-    RenderSettings settings;  // full detail, no culling
+    RenderSettings settings;  // settings for full detail without culling
 };
 
-// Renders the scene. `method`: in the format of parseMethodUse.
+// Renders the scene with a method. `method`: name and settings in the format of parseMethodUse.
 Image rendered(const BoardScene& boards, const std::string& method = "accumulation",
                const RendererOptions& options = {});
 

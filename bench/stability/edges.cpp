@@ -14,8 +14,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double edgeTurn = 0.5;   // rotation, radians; aligned with neither rows nor columns
-constexpr double edgeOffset = 10;  // distance from the image's centre, px
+constexpr double edgeTurn = 0.5;   // rotation of the edge in radians, aligned with neither rows nor columns
+constexpr double edgeOffset = 10;  // distance of the edge from the image's centre, px
 constexpr std::uint32_t edgeSamples = 4096;
 
 // A half plane whose edge crosses the image, in front of a wall. Both have a uniform colour.

@@ -25,7 +25,7 @@ struct LensSetting {
     double focusDistance = 2;  // m
     double depth = 6;          // m
     double nearPlane = 0.01;   // m
-    int width = 96;            // width in px; the height is 64 px
+    int width = 96;            // image width in px; the height is 64 px
 };
 
 // Returns the error (px) of the blur diameter of a small light relative to the formula. The diameter is derived from

@@ -27,8 +27,8 @@ struct HonestyRow {
     [[nodiscard]] bool followsLens() const;
 };
 
-// Returns every method of the table with its defaults, each followed by its variants. A variant changes one setting to
-// another of its choices, or to its max value.
+// Returns every method of the program's table with its default settings, each followed by variants of these settings. A
+// variant changes one setting to another of its choices, or to its max value.
 std::vector<std::string> honestyMethods();
 
 // Measures all rows of each method. The light is a square of 3 px, in front of a black wall at nearly the same depth.

@@ -67,7 +67,7 @@ double ownDistanceError(double distance) {
     return largest;
 }
 
-// Returns the max difference between the image of a floor that begins behind the camera and one that begins at the near
+// Returns the max difference between the images of two floors: one begins behind the camera, the other at the near
 // plane.
 double cameraPlaneError() {
     const View view = boardView();

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double nudge = 1e-6;                 // tiny change of λ
 constexpr double oneSample = 1 + 1e-4;         // max change: one sample, plus rounding of 32-bit layers
-constexpr std::uint32_t renderedSamples = 60;  // not a multiple of the size of a batch of samples
+constexpr std::uint32_t renderedSamples = 60;  // not a multiple of the number of samples drawn together
 
 // Returns the number of samples that change their level when the fractional level λ crosses the integer `level`.
 double splitError(double level, std::uint32_t samples) {
@@ -109,7 +109,7 @@ void addSplitCases(std::vector<StabilityCase>& cases) {
     };
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous}) {
         const char* name = lodModeName(mode);
-        // λ at which the 21st sample changes to the coarser level (fractional) or begins to change (continuous).
+        // λ at which the 21st sample switches to the coarser level (fractional) or begins to switch (continuous).
         const double boundary = 1 + (mode == LodMode::fractional ? 20.5 : 20) / renderedSamples;
         for (const double level : {1.0, 2.0})
             add(fmt::format("rendered: level {:g} by ±1e-6, {}", level, name), oneSample, level - nudge, level + nudge,

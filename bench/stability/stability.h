@@ -15,7 +15,7 @@ inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct StabilityCase {
     std::string area;       // tested area: "sums", "lens", "motion", "space", "values", "levels", "traced"
-    std::string name;       // short description of the difficulty
+    std::string name;       // short description of what makes the case difficult
     std::string measured;   // name and unit of the measured error
     std::string reference;  // exact or comparison value, such as "closed form" or "double sum"
     double limit = 0;       // max error that passes; infinity: for comparison only
@@ -27,10 +27,10 @@ struct StabilityRow {
     StabilityCase subject;
     double error = 0;
     bool leftOut = false;  // true: this program lacks the method of the reference
-    [[nodiscard]] bool failed() const { return !leftOut && !(error <= subject.limit); }  // an error of NaN fails
+    [[nodiscard]] bool failed() const { return !leftOut && !(error <= subject.limit); }  // a NaN error fails
 };
 
-// Returns all cases. StabilityCase::error needs a current GL context.
+// Returns all cases. Measuring a case (StabilityCase::error) needs a current GL context.
 std::vector<StabilityCase> stabilityCases();
 
 void measureStability(const std::function<void(const StabilityRow&)>& visit, const Progress& progress = {});

@@ -19,7 +19,7 @@ namespace {
 constexpr const char* baselineMethod = "accumulation";
 constexpr std::array alwaysThere = {"embree", "embree-shared"};
 
-// ---- cases ----------------------------------------------------------------------------------------------------------
+// ---- list of cases to measure ---------------------------------------------------------------------------------------
 
 MethodUse standardUse(const Method& method) {
     return {&method, completeSettings(method.name, method.settings, {})};
@@ -133,7 +133,7 @@ std::vector<ConvergenceCase> casesOfForms(const MethodUse& use, std::uint32_t sa
     return cases;
 }
 
-// ---- one frame ------------------------------------------------------------------------------------------------------
+// ---- measurement of one frame ---------------------------------------------------------------------------------------
 
 struct Frame {
     ConvergenceRun run;
@@ -223,7 +223,7 @@ ImageError errorOf(const Difference& difference) {
     return {difference.rmse * difference.rmse, difference.ssim, difference.flip};
 }
 
-// ---- all cases ------------------------------------------------------------------------------------------------------
+// ---- measurement of all cases ---------------------------------------------------------------------------------------
 
 class Measurement {
 public:

@@ -23,7 +23,7 @@ std::string convergenceLine(const ConvergenceRow& row);  // returns the table's 
 // (BiasFloor), and the times to reach equal errors.
 std::string convergenceSummary(std::span<const ConvergenceRow> rows, const ReferenceImage& reference);
 
-// ---- results --------------------------------------------------------------------------------------------------------
+// ---- conditions and files of the results ----------------------------------------------------------------------------
 
 // Properties that all measured rows share: program, machine, scene, crops to show and skipped cases.
 struct ConvergenceSubject {
@@ -46,7 +46,7 @@ std::string convergenceCsv(std::span<const ConvergenceRow> rows);
 std::string convergenceJson(std::span<const ConvergenceRow> rows, const ReferenceImage& reference,
                             const ConvergenceSubject& subject);
 
-// ---- journal --------------------------------------------------------------------------------------------------------
+// ---- journal of measured frames -------------------------------------------------------------------------------------
 
 // Returns one CSV line per frame, with numbers that are read back exactly. `subject`: hash of the properties that all
 // frames of a journal share (scene, reference, device, program).

@@ -56,7 +56,7 @@ double largestSpeed(const FramePlan& plan, const FramePlan& before) {
     return largest;
 }
 
-// ---- errors ---------------------------------------------------------------------------------------------------------
+// ---- errors between images ------------------------------------------------------------------------------------------
 
 double mean(const Image& map, const Image* mask) {
     double sum = 0;
@@ -89,7 +89,7 @@ Image carriedOn(const Image& before, const Image& reference, const Image& refere
     return result;
 }
 
-// ---- movements ------------------------------------------------------------------------------------------------------
+// ---- measurement of a movement --------------------------------------------------------------------------------------
 
 std::vector<Image> masksOf(World& world, const std::vector<MovementFrame>& movement, const PoppingOptions& options) {
     std::vector<Image> masks;

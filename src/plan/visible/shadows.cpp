@@ -143,7 +143,7 @@ std::uint32_t pointsFor(const RenderSettings& settings, std::size_t maps) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, maxPointsPerSample(maps)));
 }
 
-// ---- projections ----------------------------------------------------------------------------------------------------
+// ---- projections of the shadow maps ---------------------------------------------------------------------------------
 
 // Returns the corners of the volume that the lens samples see, up to the farthest object. Shadows outside this volume
 // are invisible.
@@ -293,7 +293,7 @@ ShadowProjection mapProjection(const World& world, const glm::dvec3& camera, con
     return parallelProjection(shadows, axes.z + tangent * (onDisk.x * axes.x + onDisk.y * axes.y), shift);
 }
 
-// ---- size of the maps -----------------------------------------------------------------------------------------------
+// ---- size of the shadow maps ----------------------------------------------------------------------------------------
 
 // Returns the number of texels across the map that makes a texel at `seen` twice as wide as the smallest visible
 // detail, which is a pixel or half the blur. Returns 0 if the point is outside the map.

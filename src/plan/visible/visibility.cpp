@@ -346,7 +346,7 @@ bool cornersFaceAway(const IndexRange& range, const Bounds& box, const LevelCorn
     return true;
 }
 
-// ---- levels --------------------------------------------------------------------------------------------------------
+// ---- culling of levels ---------------------------------------------------------------------------------------------
 
 bool clusterOutside(const Bounds& box, const ObjectViews& views, const FramePlan& plan) {
     double largest = infinity;
