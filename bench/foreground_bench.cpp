@@ -123,7 +123,7 @@ void measureStochastic(const Figure& figure) {
     fmt::print("\n{}, method stochastic, {} x {}, {} rays per pixel, fastest of {} interleaved runs\n\n", figure.scene,
                frame.view.width, frame.view.height, frame.settings.sampleCount, stochasticRuns);
     std::vector<Row> rows;
-    // A limit is in px of the image, so an equal limit relative to the image has fewer px in a smaller image.
+    // A limit is in px, so the same blur relative to the image has a smaller limit in a smaller image.
     for (const double of512 : figure.limits) {
         const double limit = of512 * frame.view.width / 512;
         View view = frame.view;

@@ -25,7 +25,7 @@ def label_of(row):
 
 
 def drawn_text(row, part=""):
-    """Returns the label of a `bench speedup` row, such as "jeong2011, fractional levels". part: text for one of its parts."""
+    """Returns the label of a `bench speedup` row, or of a part of the row, such as "jeong2011, fractional levels"."""
     drawn = part or (MODES[row["lod"]][0] if row["method"] == "accumulation" else row["method"])
     return f"{row['preset']}, {drawn}" if row["preset"] else drawn
 

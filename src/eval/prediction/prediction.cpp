@@ -21,8 +21,8 @@ namespace {
 constexpr std::uint32_t fewSamples = 64;
 constexpr std::uint32_t enoughSamples = 1024;  // per image; noise cancels in the product of two images' errors
 
-// Scene for the measurement: a single static mesh without background, under the default lights, with the focus far
-// away.
+// Scene for the measurement: a single static mesh without background, under the default lights, with the focal plane
+// far away.
 struct Stand {
     World world;
     View view;

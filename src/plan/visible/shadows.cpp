@@ -21,7 +21,7 @@ namespace {
 
 constexpr int minMapSize = 128;               // min width and height of a shadow map, px
 constexpr int maxImageMapSize = 2048;         // max map size in px that is chosen to match the image's size
-constexpr double resolvedShare = 0.95;        // fraction of visible points where texels are at most texelPixels wide
+constexpr double resolvedShare = 0.95;        // fraction of visible points with texels of at most texelPixels px
 constexpr double texelPixels = 2;             // texel width in px; can exceed 1, because samples shift the texels
 constexpr double minTexelLimit = 1 << 20;     // max texels of a map; for large images, twice the number of pixels
 constexpr double maxSampleTexels = 64 << 20;  // max texels of all maps of a lens sample: 256 MiB

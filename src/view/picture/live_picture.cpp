@@ -118,8 +118,8 @@ void meter(LivePicture& picture, Document& document, ViewState& state, bool expo
     state.exposure = meteredExposure(frame.world, currentView(document, state), frame.settings, document.shaderFolder);
 }
 
-// Updates the warnings about a still picture. Clipping needs a read-back from the GPU, so it is checked once per
-// exposure.
+// Updates the warnings about the picture of a view at rest. Clipping needs a read-back from the GPU, so it is checked
+// once per exposure.
 void updateWarnings(LivePicture& picture, const ViewState& state) {
     picture.warnings.clear();
     if (picture.image->moving()) {

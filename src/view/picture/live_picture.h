@@ -19,7 +19,7 @@ struct LivePicture {
 // Returns the label of the picture on one side of the divider.
 std::string sideLabel(const PictureSide& side);
 
-// Adds samples to the picture of a still view; see ViewPicture::grow.
+// Adds samples to the picture of a view at rest; see ViewPicture::grow.
 void growPicture(LivePicture& picture, const Document& document, const ViewState& state);
 
 // Updates the picture so that it matches document and state. Turns off a method or comparison that fails, with a

@@ -15,7 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto settleTime = 120ms;            // time without change after which the image accumulates samples
-constexpr std::uint32_t minShownSamples = 4;  // a still image with fewer samples looks worse than the last moving frame
+constexpr std::uint32_t minShownSamples = 4;  // with fewer samples, an image looks worse than the last moving frame
 constexpr double visibleGrowth = 1.08;        // growth of the sample count (a factor) at which the window is updated
 constexpr double softwareGrowthTime = 60;     // min time per frame for adding samples if OpenGL runs on the CPU, ms
 constexpr auto psnrInterval = 700ms;

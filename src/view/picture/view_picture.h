@@ -1,12 +1,12 @@
 #pragma once
 // Renders the window's picture on the GPU: one image, or two images for comparison, and overlays. While the view
-// changes, each frame is drawn completely, in a quality that fits the time budget. While the view is still, the image
+// changes, each frame is drawn completely, in a quality that fits the time budget. While the view is at rest, the image
 // accumulates samples.
 //
-// After the first batch of samples of a still view, the images of its lens samples are also drawn and kept as lens
+// After the first batch of samples of a view at rest, the images of its lens samples are also drawn and kept as lens
 // images (kept_images.h). If only the focus distance or the f-number changes, the picture is computed from these images
 // until the accumulated image has as many samples. If OpenGL runs on the CPU and adding all images takes longer than
-// the budget, fewer images are added until the view is still.
+// the budget, fewer images are added until the view rests.
 
 #include <chrono>
 #include <memory>
@@ -51,8 +51,8 @@ public:
     // `world` must outlive the picture. Needs a current GL context.
     ViewPicture(const World& world, RendererOptions options, bool software);
 
-    // Adds samples to a still image for about the budget's time, at least 60 ms if OpenGL runs on the CPU. Call this
-    // before fetching the events of a frame, so that the frame reacts to events that arrive meanwhile.
+    // Adds samples to the image of a view at rest for about the budget's time, at least 60 ms if OpenGL runs on the
+    // CPU. Call this before fetching the events of a frame, so that the frame reacts to events that arrive meanwhile.
     void grow(const FrameBudget& budget);
     // Updates the picture to match the request. While the view changes, draws a frame in about the budget's time and
     // adapts the budget's quality.
@@ -71,7 +71,7 @@ public:
     [[nodiscard]] bool refocused() const { return refocused_.has_value(); }
     // Returns the stored lens images; null before the view first comes to rest.
     [[nodiscard]] const KeptImages* keptImages() const { return images_ ? &*images_ : nullptr; }
-    // Returns whether the first image of a still view has reached its target error.
+    // Returns whether the first image of a view at rest has reached its target error.
     [[nodiscard]] bool converged() const { return growing_ && first().converged(); }
     [[nodiscard]] std::optional<double> estimatedError() const {
         return growing_ && !refocused_ ? first().estimatedError() : std::nullopt;
@@ -87,7 +87,7 @@ public:
     // Returns the times of the latest frame: passes from timer queries, set-up by wall clock.
     [[nodiscard]] const std::vector<PassTime>& passes() const { return passes_; }
     [[nodiscard]] std::uint64_t changes() const { return changes_; }  // number of changes of the view or the scene
-    [[nodiscard]] std::uint64_t begun() const { return begun_; }      // number of still images begun so far
+    [[nodiscard]] std::uint64_t begun() const { return begun_; }      // number of images begun so far for views at rest
 
 private:
     using Clock = std::chrono::steady_clock;

@@ -47,7 +47,7 @@ struct Session {
     std::deque<WindowEvent> events;                // fetched events that no frame has taken yet
     Clock::time_point queuedSince = Clock::now();  // time at which the earliest of `events` arrived
     Clock::time_point fetchedAt = Clock::now();
-    double growthTime = 0;  // time spent on the still image in this frame, ms
+    double growthTime = 0;  // time spent in this frame on adding samples to the image of a view at rest, ms
 
     const Clock::time_point begin = Clock::now();
     int framesWithScene = 0;  // frames drawn with the complete scene, not with a draft
@@ -65,7 +65,8 @@ InputContext inputContext(const Session& session);
 // Sets ViewState::area and pictureSize from the size of the window.
 void layOut(Session& session);
 
-// Returns the events of the next frame. First adds samples to a still picture; waits if nothing else is to be done.
+// Returns the events of the next frame. First adds samples to the picture if the view is at rest; waits if nothing else
+// is to be done.
 std::vector<WindowEvent> fetchEvents(Session& session);
 
 // Writes the state to the file SessionOptions::stats several times a second. `now`: whether to write immediately.
