@@ -1,4 +1,5 @@
-// defocus_bench: the program `defocus` (src/cli/run_program.cpp), with the Embree ray tracers in its table of methods.
+// Runs defocus_bench: the program `defocus` (src/cli/run_program.cpp) with the Embree ray tracers added to its table of
+// methods.
 
 #include "embree/embree_renderer.h"
 

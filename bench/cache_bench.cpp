@@ -1,5 +1,5 @@
-// Measures the time that the disk cache of pyramids saves on the built-in school: times to build, store and load the
-// pyramids.
+// Measures the time that the disk cache of pyramids saves on the built-in school of fish. Compares the times to build,
+// store and load the pyramids.
 //
 // Held constant: meshes, options, process and number of threads (all cores). The cache is a new temporary folder, and
 // its files are in the page cache when they are loaded. Loading includes hashing the meshes, as in the program. Loading

@@ -54,7 +54,7 @@ const std::array<Kernel, 5> publishedKernels = {{
      {1.512961, 16.116382, 0.138051, -0.010000}},
 }};
 
-// ---- one kernel's weights ---------------------------------------------------------------------------------------
+// ---- weights of a kernel with given decays and frequencies ------------------------------------------------------
 
 struct Problem {
     Values squaredRadii;  // squared distances of the quadrature nodes from the centre
@@ -69,8 +69,8 @@ Problem problemOf(double extent, double guard) {
     Problem problem{Values(count), Values(count), Values(count), Values(count)};
     for (Eigen::Index i = 0; i < count; ++i) {
         const RadialNode& node = nodes[static_cast<std::size_t>(i)];
-        // Ratio of a complete ring of radius r to its arcs inside the square. Arcs with a total angle of
-        // 8·arccos(extent/r) lie outside.
+        // Ratio of the length of a complete ring of radius r to the length of its arcs inside the square. Arcs with a
+        // total angle of 8·arccos(extent/r) lie outside.
         const double outward = std::max(1.0, std::sqrt(node.squaredRadius) / extent);
         const double ring = pi / (pi - 4 * std::acos(1 / outward));
         problem.squaredRadii[i] = node.squaredRadius;
@@ -82,14 +82,14 @@ Problem problemOf(double extent, double guard) {
 }
 
 struct Fit {
-    Values shape;  // decays and frequencies of the components, interleaved
+    Values shape;  // decays and frequencies of the components, alternating
     Kernel kernel;
     Values residual;
-    double squares = std::numeric_limits<double>::infinity();  // |residual|²
+    double squares = std::numeric_limits<double>::infinity();  // squared norm of the residual
 };
 
-// Basis functions of the kernel: two columns per component, √weight·e^(−a·u)·cos b·u and √weight·e^(−a·u)·sin b·u with
-// u = r², and the integral of each function over the square.
+// Basis functions of the kernel at the nodes: two columns per component, √weight·e^(−a·u)·cos b·u and
+// √weight·e^(−a·u)·sin b·u with u = r², and the integral of each function over the square.
 struct Basis {
     Eigen::MatrixXd columns;
     Values energies;
@@ -130,7 +130,7 @@ Fit fitWeights(const Problem& problem, const Values& shape) {
     return fit;
 }
 
-// ---- decays and frequencies -------------------------------------------------------------------------------------
+// ---- fit of decays and frequencies ------------------------------------------------------------------------------
 
 struct Residual : Eigen::DenseFunctor<double> {
     Residual(const Problem& fitted, Eigen::Index unknowns)
@@ -142,8 +142,8 @@ struct Residual : Eigen::DenseFunctor<double> {
     const Problem& problem;
 };
 
-// Runs the Levenberg–Marquardt method with numerical derivatives until a step reduces the error by a fraction below
-// `tolerance`.
+// Runs the Levenberg–Marquardt method with numerical derivatives until a step reduces the error by less than the
+// fraction `tolerance`.
 Fit fitShape(const Problem& problem, const Values& start, double tolerance) {
     Eigen::NumericalDiff<Residual, Eigen::Central> residual(problem, start.size());
     Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Residual, Eigen::Central>> method(residual);
@@ -153,7 +153,7 @@ Fit fitShape(const Problem& problem, const Values& start, double tolerance) {
     return fitWeights(problem, shape);
 }
 
-// Returns the kernel with positive frequencies, sorted by frequency and rounded to the printed digits.
+// Returns the same kernel with positive frequencies, sorted by frequency and rounded to the printed digits.
 Kernel tidied(Kernel kernel) {
     const auto rounded = [](double value) { return std::round(value * 1e6) / 1e6; };
     for (CircularComponent& c : kernel) {
@@ -195,7 +195,7 @@ std::vector<Kernel> fitKernels(double extent, double guard, int count) {
     return kernels;
 }
 
-// ---- tables -----------------------------------------------------------------------------------------------------
+// ---- printed tables ---------------------------------------------------------------------------------------------
 
 struct Ripple {
     double insideMax = 0;  // max |value − 1| of the kernel for r < 0.9
@@ -249,7 +249,7 @@ Suited suitedTo(const Kernel& kernel, double from, double to) {
     return best;
 }
 
-// Returns the kernel in units of its disk radius and scaled to ∫K = ∫D. In these units, its extent is suited.extent /
+// Returns the kernel rescaled to a disk of radius 1 and to ∫K = ∫D. In these units, its extent is suited.extent /
 // suited.diskRadius.
 Kernel inRadii(Kernel kernel, const Suited& suited) {
     const double gain = energyGain(kernel, suited.extent, suited.diskRadius);
@@ -314,7 +314,8 @@ void printTables(const std::vector<Kernel>& kernels) {
     }
 }
 
-// Returns whether the errors of `kernels` equal those of the kernels in circular_kernel.cpp to within 1e-5.
+// Returns whether `kernels` fit as well as the kernels in circular_kernel.cpp: their errors must be equal to within
+// 1e-5.
 bool agreesWithCommitted(const std::vector<Kernel>& kernels) {
     return std::ranges::all_of(kernels, [](const Kernel& kernel) {
         const auto committed = circularKernel(static_cast<int>(kernel.size()));

@@ -45,12 +45,12 @@ void prepare(Fish& fish) {
     fish.view.worldFromCamera = placed.worldFromCamera;
     fish.view.lens.fStop = placed.camera.lensValue("fStop").value();
     fish.view.lens.focusDistance = placed.camera.lensValue("focusDistance").value();
-    fish.settings.sequence = Sequence::halton;  // lens sequence of the committed results
+    fish.settings.sequence = Sequence::halton;  // lens sequence with which the committed results were made
 }
 
 struct Measured {
-    double setup = std::numeric_limits<double>::infinity();   // ms
-    double render = std::numeric_limits<double>::infinity();  // ms
+    double setup = std::numeric_limits<double>::infinity();   // set-up time of the renderer, ms
+    double render = std::numeric_limits<double>::infinity();  // render time, ms
     double megabytes = 0;
     Image image;
 };

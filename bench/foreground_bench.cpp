@@ -4,7 +4,7 @@
 // triangle doesn't grow with the blur. A limit saves only triangles that lie outside the image and would be blurred
 // into it. A limit also makes levels of detail finer.
 //
-//   defocus_foreground_bench [--stochastic]   --stochastic: method "stochastic" alone
+//   defocus_foreground_bench [--stochastic]   --stochastic: measures only method "stochastic"
 //
 // Held equal: camera, lens, size, lens samples, renderer and process. Runs alternate; the fastest of each counts. CPU
 // is the time of all threads, which depends less on other load. `work` is the heat map of --aov work: triangles that
@@ -46,7 +46,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Row {
     LodMode lod = LodMode::off;
-    double limit = infinity;  // px
+    double limit = infinity;  // limit on the foreground blur, px
     FramePlan plan;
     double milliseconds = infinity;
     double cpuMilliseconds = infinity;
@@ -123,14 +123,14 @@ void measureStochastic(const Figure& figure) {
     fmt::print("\n{}, method stochastic, {} x {}, {} rays per pixel, fastest of {} interleaved runs\n\n", figure.scene,
                frame.view.width, frame.view.height, frame.settings.sampleCount, stochasticRuns);
     std::vector<Row> rows;
-    // A limit is in px, so the same blur has a smaller limit in a smaller image.
+    // A limit is in px, so the same blur relative to the image has a smaller limit in a smaller image.
     for (const double of512 : figure.limits) {
         const double limit = of512 * frame.view.width / 512;
         View view = frame.view;
         view.lens.foregroundLimit = limit;
         rows.push_back({.limit = limit, .plan = planFrame(frame.world, view, frame.settings)});
     }
-    RendererOptions linear;  // as in the preset munkberg2012: dividing triangles would add work only to limited frames
+    RendererOptions linear;  // as in preset munkberg2012, because dividing triangles would slow only limited frames
     linear.settings = {{"coc-interpolation", "linear"}};
     const auto renderer = methodNamed("stochastic").make(frame.world, linear);
     std::vector<double> tests(rows.size());

@@ -5,7 +5,7 @@
 //   defocus_lens_space_bench [--size WIDTHxHEIGHT] [--figure7] MODEL...
 //
 // Held constant within a table: scene, camera, lights, image size and process. In Table 1, the blur of the most blurred
-// object is a tenth of the image's width. In Figure 7, each row gives the blur, and the focus is in front of all
+// object is a tenth of the image's width. In Figure 7, each row gives the blur, and the focal plane is in front of all
 // objects. Times are medians of three frames, drawn alternately after one frame that compiles the shaders. Errors are
 // RMSE of display-encoded images against accumulation with 1,600 samples of another seed at full detail. Errors of 8 x
 // 8 px compare the means of such squares, which suppresses noise and keeps structure. "As published" is the method of
@@ -41,7 +41,7 @@ using namespace defocus::engine;
 
 constexpr int timedFrames = 3;
 constexpr std::uint32_t referenceSamples = 1600;
-constexpr double tableBlur = 0.1;     // blur as a fraction of the image's width
+constexpr double tableBlur = 0.1;     // largest blur in Table 1, as a fraction of the image's width
 constexpr double largestError = 0.1;  // max RMSE against accumulation
 
 struct Measured {
@@ -50,7 +50,7 @@ struct Measured {
     RenderStats stats;
 };
 
-// A method to compare, with its scene, its view and its settings.
+// A method to compare, with its scene, view and settings.
 struct Contestant {
     const PreparedFrame* frame;
     const View* view;
@@ -58,8 +58,8 @@ struct Contestant {
     RenderSettings settings;
 };
 
-// Measures the contestants, drawing their frames alternately, so that other load on the machine affects all of them.
-// With frames = 0, only renders their images.
+// Measures the contestants. Their frames are drawn alternately, so that other load on the machine affects all of them.
+// With frames = 0, only renders the images.
 std::vector<Measured> measured(const std::vector<Contestant>& contestants, int frames = timedFrames) {
     std::vector<std::unique_ptr<Renderer>> renderers;
     std::vector<FramePlan> plans;
@@ -91,7 +91,7 @@ Image imageOf(const Contestant& contestant) {
     return std::move(measured({contestant}, 0).front().image);
 }
 
-// Returns the method of preset tzeng2012 with its settings.
+// Returns the method of the preset tzeng2012 with its settings, as text.
 std::string publishedMethod() {
     Request request;
     applyPreset(presetNamed("tzeng2012"), request);
@@ -115,12 +115,12 @@ RenderSettings byScore(std::uint32_t samples) {
 RenderSettings ofThreeLevels(std::uint32_t samples) {
     RenderSettings settings = byScore(samples);
     settings.lod = LodMode::nearest;
-    settings.thresholds.blur = 0.25;  // value of the preset tzeng2012
+    settings.thresholds.blur = 0.25;  // value from the preset tzeng2012
     return settings;
 }
 
 // Returns the view with a blur scale that gives the most blurred object a blur of `share` times the image's width. With
-// `before`, the focus is at half the depth of the nearest object, so that all objects are blurred.
+// `before`, the focal plane is at half the depth of the nearest object, so that all objects are blurred.
 View blurredView(const PreparedFrame& frame, double share, bool before = false) {
     View view = frame.view;
     view.lens.blurScale = 1;

@@ -1,6 +1,6 @@
-// Micro-benchmarks of the CPU side of a frame. Held constant: one thread, the same inputs in every run (a mesh,
-// pyramid, world or image pair), default lens and settings. GPU and disk are not used. Each benchmark checks its result
-// and reports an error instead of a time if the result is wrong.
+// Measures parts of the CPU work of a frame separately (micro-benchmarks). Held constant: one thread, the same inputs
+// in every run (a mesh, pyramid, world or image pair), default lens and settings. GPU and disk are not used. Each
+// benchmark checks its result and reports an error instead of a time if the result is wrong.
 
 #include <benchmark/benchmark.h>
 
@@ -36,7 +36,7 @@ void lensSamplePoint(benchmark::State& state) {
 }
 BENCHMARK(lensSamplePoint)->ArgNames({"blades", "sequence"})->ArgsProduct({{0, 6}, {0, 1, 2, 3}});
 
-// Computes an object's level of detail for blurs from 0 to 40 px.
+// Measures the selection of an object's level of detail for blurs from 0 to 40 px.
 void levelOfDetailOfObject(benchmark::State& state) {
     const Pyramid pyramid = buildPyramid(smallSchool(1).meshes.front());
     const LodMetric metric = state.range(0) == 0 ? LodMetric::size : LodMetric::error;
@@ -53,7 +53,7 @@ void levelOfDetailOfObject(benchmark::State& state) {
 }
 BENCHMARK(levelOfDetailOfObject)->ArgName("error")->Arg(0)->Arg(1);
 
-// Plans a frame with 64 samples at 1024×768 px, with levels from pyramids.
+// Measures planning a frame with 64 samples at 1024×768 px, with levels from pyramids.
 void planOfFrame(benchmark::State& state) {
     World world;
     world.scene = std::make_shared<const Scene>(smallSchool(static_cast<int>(state.range(0))));
@@ -94,7 +94,7 @@ void pyramidOfFish(benchmark::State& state) {
 }
 BENCHMARK(pyramidOfFish)->Unit(benchmark::kMillisecond);
 
-// Computes all metrics for two 256×256 images whose display-encoded grey differs by 0.1 on half of the pixels.
+// Measures all image metrics, on two 256×256 images whose display-encoded grey differs by 0.1 on half of the pixels.
 void differenceOfImages(benchmark::State& state) {
     constexpr int size = 256;
     Image reference(size, size, 3);

@@ -33,10 +33,10 @@ using namespace defocus;
 using namespace defocus::engine;
 using Json = nlohmann::json;
 
-// Images with at most this number of samples are drawn three times, and the fastest run counts.
+// Images with at most this number of lens samples are drawn three times; the fastest run counts.
 constexpr std::uint32_t maxRepeated = 32;
 constexpr std::uint32_t referenceSeed = 1'000'000;
-constexpr Color background = {0.02f, 0.08f, 0.15f};  // linear
+constexpr Color background = {0.02f, 0.08f, 0.15f};  // background, linear RGB
 
 struct Options {
     std::filesystem::path folder;
@@ -54,7 +54,7 @@ void print(const Json& line) {
     std::fflush(stdout);
 }
 
-// Writes the scene's file, and returns the request for it.
+// Writes the scene file FOLDER/scene.glb, and returns the request to render it.
 Request sceneFile(const Options& options) {
     Request request;
     request.scene = options.scene;

@@ -60,7 +60,7 @@ double milliseconds(ComplexBlur& blur, const GlTexture& field, const GlTexture& 
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// Returns the exponent p of y ∝ x^p, by a least-squares fit to the logarithms.
+// Returns the exponent p of the power law y ∝ x^p, by a least-squares fit to the logarithms of x and y.
 double exponent(const std::vector<double>& x, const std::vector<double>& y) {
     double sx = 0, sy = 0, sxx = 0, sxy = 0;
     const auto n = static_cast<double>(x.size());
@@ -95,7 +95,7 @@ void costOverRadius() {
         for (int i = 0; i <= runs; ++i) {
             const double first = milliseconds(separable, field, radius);
             const double second = milliseconds(direct, field, radius);
-            if (i == 0) continue;  // skip the run that compiles the shaders
+            if (i == 0) continue;  // don't count the run that compiles the shaders
             a.push_back(first);
             b.push_back(second);
         }
@@ -104,7 +104,7 @@ void costOverRadius() {
         const double ofSeparable = spreadOf(a).median;
         const double ofDirect = spreadOf(b).median;
         fmt::print("{:>10} {:>12.2f} {:>12.2f}\n", r, ofSeparable, ofDirect);
-        if (r == 0) continue;  // leave radius 0, which has no taps, out of the fit
+        if (r == 0) continue;  // leave radius 0 out of the fit, because it has no taps
         radii.push_back(r);
         separableTimes.push_back(ofSeparable);
         directTimes.push_back(ofDirect);
@@ -131,7 +131,7 @@ void savedByOnePass() {
             for (int i = 0; i <= runs; ++i) {
                 const double first = milliseconds(blur, field, radius);
                 const double second = milliseconds(blur, field, none);
-                if (i == 0) continue;  // skip the run that compiles the shaders
+                if (i == 0) continue;  // don't count the run that compiles the shaders
                 with.push_back(first);
                 without.push_back(second);
             }
@@ -200,8 +200,8 @@ void disks() {
 struct Measured {
     std::string method;
     Image image;
-    double milliseconds = 0;  // median
-    double megabytes = 0;     // peak of graphics memory
+    double milliseconds = 0;  // median time of a frame
+    double megabytes = 0;     // peak use of graphics memory
 };
 
 // Draws `frame` `repeats` times with each method. The methods run alternately.
@@ -252,7 +252,7 @@ PreparedFrame school(std::optional<double> fStop) {
     return prepareFrame(scene);
 }
 
-// Prints the error of an image for each storage format, relative to 32-bit floats.
+// Prints the error of the image for each storage format, relative to storage in 32-bit floats.
 void storages() {
     const PreparedFrame frame = school(0.95);
     fmt::print("Storage, school of fish at {} x {} px, f/{}, against 32-bit floats\n", frame.view.width,

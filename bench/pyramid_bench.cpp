@@ -65,10 +65,10 @@ using DecimatedMesh = OpenMesh::TriMesh_ArrayKernelT<>;
 
 constexpr std::size_t minTriangles = 64;
 constexpr std::uint32_t lensSamples = 32;
-constexpr std::size_t distancePoints = 40'000;  // sample points on each surface
+constexpr std::size_t distancePoints = 40'000;  // number of sample points on each surface
 
-// Returns the min CPU time of this thread over all runs, s; unlike wall-clock time, it excludes other load on the
-// machine.
+// Returns the min CPU time of this thread over all runs, in s. Unlike wall-clock time, CPU time excludes other load on
+// the machine.
 double secondsOf(int runs, const std::function<void()>& work) {
     const auto now = [] {
         timespec time{};
@@ -84,7 +84,7 @@ double secondsOf(int runs, const std::function<void()>& work) {
     return min;
 }
 
-// Returns the value of a line of /proc/self/status, bytes; 0 if the line is missing.
+// Returns the value in bytes of a line of /proc/self/status, such as "VmRSS"; 0 if the line is missing.
 double memory(const std::string& line) {
     std::ifstream status("/proc/self/status");
     for (std::string text; std::getline(status, text);)
@@ -101,7 +101,7 @@ double peakBytesOf(const std::function<void()>& work) {
     return memory("VmHWM") - before;
 }
 
-// A mesh welded by position, as meshoptimizer and OpenMesh require.
+// A mesh whose vertices at equal positions are merged (welded), as meshoptimizer and OpenMesh require.
 struct JoinedSurface {
     std::vector<glm::vec3> positions;
     std::vector<std::uint32_t> indices;
@@ -125,7 +125,8 @@ std::vector<std::uint32_t> simplified(const std::vector<glm::vec3>& positions,
     return result;
 }
 
-// Simplifies a mesh from level to level with meshoptimizer. Returns the number of triangles in the last level.
+// Simplifies a mesh with meshoptimizer, each level from the previous one. Returns the number of triangles in the last
+// level.
 std::size_t meshoptimizerChain(const JoinedSurface& surface) {
     std::vector<std::uint32_t> indices = surface.indices;
     while (indices.size() / 3 > minTriangles) {
@@ -155,7 +156,7 @@ std::size_t decimaterChain(const JoinedSurface& surface) {
     return mesh.n_faces();
 }
 
-// Builds our levels without fitting attributes and measuring errors. Returns the number of triangles in the last level.
+// Builds our levels without fitted attributes and measured errors. Returns the number of triangles in the last level.
 std::size_t levelsAlone(const Mesh& mesh) {
     TriangleSet<MeshVertexNumber> triangles;
     for (const Primitive& primitive : mesh.primitives) {
@@ -201,7 +202,7 @@ void timeRow(const std::string& name, const Mesh& mesh) {
 struct DistanceRatios {
     double sum = 0;
     int levels = 0;
-    int within = 0;  // number of levels with a ratio ≤ 1.1
+    int within = 0;  // number of levels for which the ratio is ≤ 1.1
     double worst = 0;
 
     void add(double ratio) {
@@ -256,7 +257,7 @@ void distanceRow(const std::string& name, const Mesh& mesh, DistanceRatios& all)
     printRatios(name, mesh.triangleCount(), own, stopped);
 }
 
-// A single static mesh in front of a camera that frames it.
+// A scene with a single static mesh, in front of a camera that frames the mesh.
 struct Stage {
     World world;
     View view;
@@ -303,7 +304,7 @@ void stepBack(Stage& stage) {
     }
 }
 
-// Sets the f-number for which the mesh's centre has a CoC of `coc` px, with the focus at infinity.
+// Sets the f-number for which the mesh's centre has a CoC of `coc` px if the lens is focused at infinity.
 void blurBy(Stage& stage, double coc) {
     Lens& lens = stage.view.lens;
     const double aperture = coc * stage.depth * 2 * tanHalfHorizontalFov(lens) / stage.view.width;
@@ -313,7 +314,7 @@ void blurBy(Stage& stage, double coc) {
 Image drawn(const Stage& stage, std::uint32_t level) {
     RenderSettings settings;
     settings.sampleCount = lensSamples;
-    settings.sequence = Sequence::halton;  // lens sequence of the committed results
+    settings.sequence = Sequence::halton;  // lens sequence with which the committed results were made
     settings.lod = LodMode::off;
     FramePlan plan = planFrame(stage.world, stage.view, settings);
     for (ObjectPlan& object : plan.objects) {
@@ -560,7 +561,7 @@ int run(int argc, char** argv) {
         "\nmean distance over meshoptimizer's, of each mesh that has levels\n{:<44} {:>9} {:>6} {:>6} {:>6} {:>6}\n",
         "mesh", "triangles", "levels", "mean", "worst", "<= 1.1");
     DistanceRatios all;
-    std::vector<std::vector<glm::vec3>> seen;  // positions of the meshes so far, to skip duplicates
+    std::vector<std::vector<glm::vec3>> seen;  // positions of the meshes measured so far, to skip duplicate meshes
     for (const auto& [name, scene] : scenes)
         for (const Mesh& mesh : scene.meshes) {
             if (std::find(seen.begin(), seen.end(), mesh.vertices.positions) != seen.end()) continue;

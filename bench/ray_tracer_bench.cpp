@@ -41,7 +41,7 @@ struct Row {
     const char* name;
     EmbreeSampling sampling;
     std::unique_ptr<Renderer> renderer;
-    double milliseconds = std::numeric_limits<double>::infinity();  // time per sample
+    double milliseconds = std::numeric_limits<double>::infinity();  // time per lens sample
     double cpuMilliseconds = std::numeric_limits<double>::infinity();
 };
 

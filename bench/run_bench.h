@@ -1,6 +1,6 @@
 #pragma once
-// Shared main function of the benches. Keeps freed memory, as `defocus` does. An error is printed as one line on
-// stderr, after the program's name; the exit code is then 1.
+// Implements the main function that the benches share. Keeps freed memory, as `defocus` does. An error is printed as
+// one line on stderr, after the program's name; the exit code is then 1.
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-// Calls `run` and returns its exit code.
+// Calls `run`, prints its errors, and returns the exit code.
 template <typename Run>
 int runBench(const char* program, const Run& run) {
     keepFreedMemory();

@@ -41,17 +41,17 @@ const std::vector<std::uint32_t> counts = {8, 16, 32, 64, 128, 256, 512, 1024};
 
 struct Pattern {
     std::string name;
-    bool needsCount = false;  // all points depend on the count, so prefixes are not valid sets
+    bool needsCount = false;  // true: points depend on their number N, so the first n < N are unevenly spread
     std::function<std::vector<LensSample>(std::uint32_t count, std::uint32_t seed)> samples;
 };
 
-// ---- point sets of a known size -------------------------------------------------------------------------------------
+// ---- sets with a given number of points -----------------------------------------------------------------------------
 
 glm::dvec2 polar(double radius, double angle) {
     return radius * glm::dvec2(std::cos(angle), std::sin(angle));
 }
 
-// Returns the spiral of Vogel 1979, A Better Way to Construct the Sunflower Head.
+// Returns points on the spiral of Vogel 1979, A Better Way to Construct the Sunflower Head.
 std::vector<glm::dvec2> vogelSpiral(std::uint32_t count, std::uint32_t seed) {
     const double golden = fullTurn * (2 - std::numbers::phi);
     std::vector<glm::dvec2> points;
@@ -115,14 +115,14 @@ std::vector<Pattern> patterns() {
     return list;
 }
 
-// ---- points alone ---------------------------------------------------------------------------------------------------
+// ---- area errors of the points, without rendering -------------------------------------------------------------------
 
 struct Region {
-    double area = 0;  // fraction of the lens or pixel area
+    double area = 0;  // area of the region, as a fraction of the lens or pixel area
     std::function<bool(const LensSample&)> holds;
 };
 
-// Returns half planes of the lens: the parts of the lens that see past a blurred straight edge.
+// Returns half planes of the lens: the lens areas from which a point behind a straight blurred edge is visible.
 std::vector<Region> halfPlanes() {
     std::vector<Region> regions;
     for (int direction = 0; direction < 32; ++direction)
@@ -135,7 +135,7 @@ std::vector<Region> halfPlanes() {
     return regions;
 }
 
-// Returns boxes with one corner in the pixel's lower left corner.
+// Returns boxes in the pixel that share the pixel's lower left corner.
 std::vector<Region> boxes() {
     std::vector<Region> regions;
     for (int x = 1; x <= 16; ++x)
@@ -147,8 +147,8 @@ std::vector<Region> boxes() {
 }
 
 struct Discrepancy {
-    double all = 0;     // RMS area error over the regions, with all points
-    double prefix = 0;  // max area error over all regions and all prefixes of at least 16 points
+    double all = 0;     // RMS over the regions of the area error, with all points
+    double prefix = 0;  // max area error over all regions and all sets of the first n ≥ 16 points
     double suffix = 0;
 };
 
@@ -218,12 +218,12 @@ void measurePoints() {
     }
 }
 
-// ---- images ---------------------------------------------------------------------------------------------------------
+// ---- rendered images ------------------------------------------------------------------------------------------------
 
 RendererOptions precise() {
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;
-    options.wave = 8;  // allows reading the image after every 8 samples
+    options.wave = 8;  // batch size; allows reading the image after every 8 samples
     return options;
 }
 
@@ -253,7 +253,7 @@ std::vector<Image> rendered(Renderer& renderer, FramePlan plan, const std::vecto
 }
 
 struct Errors {
-    std::vector<double> square;  // RMSE², mean over the seeds, by sample count
+    std::vector<double> square;  // squared RMSE, averaged over the seeds, by sample count
     std::vector<double> flip;
 };
 

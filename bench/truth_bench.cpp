@@ -36,8 +36,8 @@ struct Options {
     std::uint32_t samples = 1024;
     std::string size = "1024x768";
     Sequence sequence = RenderSettings{}.sequence;                     // sequence of the rasteriser's lens samples
-    double foregroundLimit = std::numeric_limits<double>::infinity();  // px
-    std::optional<double> shadows;                                     // angular diameter of the sun, degrees
+    double foregroundLimit = std::numeric_limits<double>::infinity();  // limit on the foreground blur, px
+    std::optional<double> shadows;                                     // angular diameter of the sun, °; nullopt: none
     std::string output;
     std::vector<std::string> scenes;
     int width = 0;

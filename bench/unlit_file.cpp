@@ -19,8 +19,8 @@ namespace tinygltf = gltf::tinygltf;
 
 void addMesh(tinygltf::Model& model, const Mesh& mesh) {
     if (!mesh.morphTargets.empty()) fail("mesh \"{}\" has morph targets, which are not written", mesh.name);
-    // Write normals, although unlit materials don't need them: without normals, importers split the vertices of
-    // triangles.
+    // Write normals, although unlit materials don't need them, because importers give each triangle vertices of its own
+    // if there are no normals.
     const std::map<std::string, int> attributes = {
         {"POSITION", gltf::appendPositions(model, mesh.vertices.positions)},
         {"NORMAL", gltf::appendVectors(model, mesh.vertices.normals)},
@@ -73,7 +73,7 @@ tinygltf::Model modelOf(const PreparedFrame& frame) {
     for (const Material& material : scene.materials) model.materials.push_back(materialOf(material));
     model.cameras = {cameraOf(frame.view)};
     addNode(model, frame.view.worldFromCamera).camera = 0;
-    std::map<int, int> meshes;  // for each drawn mesh: index in the scene → index in the file
+    std::map<int, int> meshes;  // for each drawn mesh, its index in the scene → its index in the file
     for (const Object& object : frame.world.pose.objects) {
         if (object.skinned()) fail("object \"{}\" has a skin, which is not written", object.name);
         const auto [found, added] = meshes.try_emplace(object.mesh, static_cast<int>(meshes.size()));

@@ -1,5 +1,5 @@
 #pragma once
-// Writes a scene with baked lighting as a .glb file, so that other renderers can draw the picture of the benches.
+// Writes a scene with baked lighting as a .glb file, so that other renderers can draw the same image as the benches.
 
 #include <filesystem>
 

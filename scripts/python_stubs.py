@@ -15,7 +15,7 @@ STUB = Path(__file__).resolve().parents[1] / "python" / "defocus" / "__init__.py
 BEGIN = "# ---- keywords, from the settings table ----\n"
 END = "# ---- end of keywords ----\n"
 TYPES = {"number": "float", "integer": "int", "boolean": "bool", "text": "str", "path": "Path"}
-# Python types of settings of kind "other", by their command-line syntax.
+# Python types of settings of kind "other", keyed by the syntax of their command-line values.
 FORMS = {
     "N|exact": "Union[int, str]",
     "environment|none|R,G,B": "Union[str, Point]",

@@ -48,7 +48,7 @@ ApertureMask::ApertureMask(const Lens& lens) : lens_(lens) {
 
 double ApertureMask::imageAt(const glm::dvec2& point) const {
     const Image& image = *lens_.apertureImage;
-    const double scale = 0.5 * std::max(image.width, image.height);  // scale in px per lens radius
+    const double scale = 0.5 * std::max(image.width, image.height);  // px per lens radius
     const auto x = static_cast<int>(std::floor(0.5 * image.width + scale * point.x));
     const auto y = static_cast<int>(std::floor(0.5 * image.height - scale * point.y));
     if (x < 0 || y < 0 || x >= image.width || y >= image.height) return 0;
@@ -57,7 +57,7 @@ double ApertureMask::imageAt(const glm::dvec2& point) const {
 
 double ApertureMask::at(const glm::dvec2& point) const {
     if (lens_.apertureImage) return imageAt(point);
-    double edge = 1;  // aperture's radius in the direction of `point`
+    double edge = 1;  // radius of the aperture's edge in the direction of `point`
     if (lens_.bladeCount > 0) {
         const double half = std::numbers::pi / lens_.bladeCount;
         const double fromCorner = std::fmod(std::atan2(point.y, point.x) + 4 * std::numbers::pi, 2 * half);

@@ -1,6 +1,7 @@
 #pragma once
-// An aperture as a mask over the unit disk, sampled by rejection: a candidate point is accepted with the probability
-// that light passes there. Slower than the inverse maps of lens/aperture.h, but independent of their code.
+// Represents an aperture as a mask over the unit disk and samples it by rejection: a candidate point is accepted with
+// the probability that light passes there. Slower than the inverse maps of lens/aperture.h, but independent of their
+// code.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -19,11 +20,12 @@ public:
     // (lens_rays.h) samples them directly.
     [[nodiscard]] static bool isNeeded(const Lens& lens);
 
-    // Returns the transmission at a point of the unit disk relative to the most transparent point, in [0, 1]. `point`
-    // is the position before the rotation and the anamorphic scaling of the aperture.
+    // Returns the transmission at `point` of the unit disk, relative to the disk's most transparent point, in [0, 1].
+    // `point` is the position before the rotation and the anamorphic scaling of the aperture.
     [[nodiscard]] double at(const glm::dvec2& point) const;
 
-    // Returns lens point `index` of stream `stream` (see scrambledPoint), after rotation and anamorphic scaling.
+    // Returns lens point number `index`, after rotation and anamorphic scaling. `stream` selects the scramble, as in
+    // scrambledPoint (lens_rays.h).
     [[nodiscard]] glm::dvec2 lensPoint(std::uint32_t index, std::uint32_t stream, std::uint32_t seed) const;
 
 private:

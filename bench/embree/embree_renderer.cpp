@@ -23,8 +23,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Samples per advance(). A thread traces these samples of a tile one after another, while the tile's part of the scene
-// is in the CPU cache.
+// Lens samples per call of advance(). A thread traces these samples of a tile one after another, while the tile's part
+// of the scene is in the CPU cache.
 constexpr std::uint32_t samplesPerWave = 16;
 
 using Clock = std::chrono::steady_clock;
@@ -35,21 +35,21 @@ double millisecondsSince(Clock::time_point start) {
 
 constexpr float infinitelyFar = std::numeric_limits<float>::infinity();
 
-// Scrambling seeds of the pixels of a tile.
+// Seeds that scramble the sample points of each pixel of a tile.
 struct TileSeeds {
     std::array<ReversedLanes, packetsPerTile> pixel;
     std::array<ReversedLanes, packetsPerTile> lens;
 };
 
-// The part of a lens sample's data that is equal for all tiles.
+// The part of a lens sample's data that all tiles share.
 struct WaveSample {
-    std::uint32_t index = 0;  // index of the sample in the sequence
-    // Sample points, for sampling modes in which all pixels share them: in the pixel ([0, 1)² px, right and down), and
-    // on the lens (unit disk).
+    std::uint32_t index = 0;  // index of the lens sample in the sequence
+    // Sample points that all pixels share (unused with EmbreeSampling::perPixel): in the pixel ([0, 1)² px, right and
+    // down), and on the lens (unit disk).
     glm::dvec2 pixel{0};
     glm::dvec2 lens{0};
-    glm::vec2 light{0.5f};  // point on each light
-    // Unscrambled points for EmbreeSampling::perPixel, which scrambles them differently in each pixel.
+    glm::vec2 light{0.5f};  // sample point on each light, in [0, 1)²
+    // Unscrambled points for EmbreeSampling::perPixel; each pixel scrambles them differently.
     ReversedLanes ownPixel;
     ReversedLanes ownLens;
 };
@@ -103,7 +103,7 @@ public:
     [[nodiscard]] RenderStats stats() const override;
 
 private:
-    // First pixel of a tile, and the sums of the tile's packets.
+    // First pixel of a tile, and the accumulated colours of the tile's packets.
     struct Tile {
         int left = 0;
         int top = 0;
@@ -133,14 +133,14 @@ private:
     View view_;
     RenderSettings settings_;
     bool castsShadows_ = false;
-    std::vector<LensSample> planned_;  // samples of the plan; used only with EmbreeSampling::planned
+    std::vector<LensSample> planned_;  // lens samples of the plan; used only with EmbreeSampling::planned
     LensCamera camera_;
     std::optional<ApertureMask> mask_;  // aperture mask; nullopt if ApertureMask::isNeeded is false
-    ApertureMap aperture_{Lens{}};      // samples the lens if mask_ is empty
+    ApertureMap aperture_{Lens{}};      // maps sample points to the aperture; used if mask_ is empty
     std::unique_ptr<TracedScene> scene_;
     std::unique_ptr<PacketShading> shading_;
     glm::dmat4 tracedFrom_{0.0};   // camera matrix for which scene_ was built
-    std::vector<PacketSum> sums_;  // sums of all packets; the packets of a tile are consecutive
+    std::vector<PacketSum> sums_;  // accumulated colours of all packets; the packets of a tile are consecutive
     std::uint32_t samples_ = 0;
     double setupMilliseconds_ = 0;
     double renderMilliseconds_ = 0;
@@ -177,7 +177,7 @@ std::uint32_t EmbreeRenderer::sampleCount() const {
     return sampling_ == EmbreeSampling::planned ? static_cast<std::uint32_t>(planned_.size()) : settings_.sampleCount;
 }
 
-// ---- samples --------------------------------------------------------------------------------------------------------
+// ---- sample points of the pixels ------------------------------------------------------------------------------------
 
 WaveSample EmbreeRenderer::waveSample(std::uint32_t number) const {
     WaveSample sample;
@@ -201,8 +201,8 @@ WaveSample EmbreeRenderer::waveSample(std::uint32_t number) const {
     return sample;
 }
 
-// Returns the stream index of a packet's first pixel. Pixels are numbered packet by packet; `place` is the packet's
-// index in the tile.
+// Returns the scramble index (stream) of a packet's first pixel, which differs for every pixel. Pixels are numbered
+// packet by packet; `place` is the packet's index in the tile.
 std::uint32_t EmbreeRenderer::firstStream(const Tile& tile, int place) const {
     const int column = tile.left / packetSide + place % packetsPerTileRow;
     const int row = tile.top / packetSide + place / packetsPerTileRow;
@@ -256,7 +256,7 @@ std::array<glm::vec2, packetSize> EmbreeRenderer::lightPointsOf(const Tile& tile
     return points;
 }
 
-// ---- rays -----------------------------------------------------------------------------------------------------------
+// ---- tracing of rays ------------------------------------------------------------------------------------------------
 
 LaneMask EmbreeRenderer::lanesInside(const Tile& tile, int place) const {
     const int left = tile.left + place % packetsPerTileRow * packetSide;

@@ -1,7 +1,7 @@
 #pragma once
-// An independent reference: a thin-lens ray tracer on Embree 3 that shares no code with the rasteriser. It takes from a
-// FramePlan only the view and the sample count, seed and offset. Lens model (lens_rays.h) and sampling are its own. It
-// traces the loaded meshes without any culling.
+// Renders independent references with a thin-lens ray tracer on Embree 3 that shares no code with the rasteriser. The
+// ray tracer takes from a FramePlan only the view and the sample count, seed and offset. It has its own lens model
+// (lens_rays.h) and sampling, and traces the loaded meshes without any culling.
 //
 // Pixel filter: box of 1 px. Output: linear RGBA, premultiplied; summed in double. Surfaces are opaque and shaded as in
 // traced_shading.h. Throws Error for environment maps.
@@ -17,14 +17,15 @@
 namespace defocus::engine {
 
 enum class EmbreeSampling {
-    perPixel,  // each pixel has its own scrambled lens and pixel samples: the error is noise
-    shared,    // all pixels share lens and pixel samples, as in accumulation: the error is banding
+    perPixel,  // each pixel has its own scrambled samples of lens and pixel, so the error is noise
+    shared,    // all pixels share the samples of lens and pixel, as in accumulation, so the error is banding
     // Like `shared`, but with the points of FramePlan::samples, so that only geometry and visibility can differ from
-    // the rasteriser. Watertight; in the other modes, about one ray in a million passes between two adjacent triangles.
+    // the rasteriser. Traced watertight; in the other modes, about one ray in a million passes between two adjacent
+    // triangles.
     planned,
 };
 
-// Returns a ray tracer; advance() traces up to 16 samples of every pixel on all cores.
+// Returns a ray tracer whose advance() traces up to 16 samples of every pixel on all cores.
 std::unique_ptr<Renderer> makeEmbreeRenderer(const World& world, EmbreeSampling sampling = EmbreeSampling::perPixel);
 
 // Adds the methods "embree", "embree-shared" and "embree-planned" to the table of methods. Further calls have no

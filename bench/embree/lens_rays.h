@@ -1,5 +1,6 @@
 #pragma once
-// Rays of a thin lens in camera space, derived from lens geometry, not from the rasteriser's clip-space form.
+// Computes rays of a thin lens in camera space, derived from lens geometry instead of the rasteriser's clip-space
+// equations.
 //
 // Every point of the lens sees the plane of focus (depth s) as the lens centre does. The image point (X, Y) ∈ [-1, 1]²
 // (right, up) therefore corresponds to P = s·(X·tan(θx/2), Y·tan(θy/2), -1). The ray from the lens point L = (A/2)·(u,
@@ -7,12 +8,12 @@
 //   L + t·(X·tan(θx/2) − L.x/s, Y·tan(θy/2) − L.y/s, −1)
 // so t is the depth in metres, and a lens focused at infinity (1/s = 0) needs no special case.
 //
-// A limit c₀ (px, in an image W px wide) of the blur in front of the focus replaces the lens of radius A/2 at the eye.
-// Each pixel has a separate lens on its own axis, at depth α, that images the eye onto the plane of focus. Rays leave
-// the eye as through a pinhole, inside a cone around the axis that covers c₀ px. Objects between the eye and this lens
-// are therefore blurred by c₀ px at any depth. Behind this lens, the blur must equal that of the original lens. This
-// determines α: the original bundle of rays is as wide there as the cone, 2·(A/2)·(1/α − 1/s)·W/(2 tan(θx/2)) = c₀.
-// With object distance α and image distance s − α, the thin lens has
+// A limit c₀ (px, in an image W px wide) of the blur in front of the focal plane replaces the lens of radius A/2 at the
+// eye. Each pixel has a separate lens on its own axis, at depth α, that images the eye onto the plane of focus. Rays
+// leave the eye as through a pinhole, inside a cone around the axis that covers c₀ px. Objects between the eye and this
+// lens are therefore blurred by c₀ px at any depth. Behind this lens, the blur must equal that of the original lens.
+// This determines α: the original bundle of rays is as wide there as the cone, 2·(A/2)·(1/α − 1/s)·W/(2 tan(θx/2)) =
+// c₀. With object distance α and image distance s − α, the thin lens has
 //   1/f = 1/α + 1/(s − α) = s/(α(s − α))
 // (Munkberg, Toth and Akenine-Möller 2012, who print f for the right-hand side). A ray that meets the lens at distance
 // h from its centre is bent by −h/f; see eyeRay and refractedRay.
@@ -34,7 +35,7 @@ struct LensCamera {
     double lensRadius = 0;       // lens radius in m; 0: pinhole
     double reciprocalFocus = 0;  // inverse focus distance in 1/m; 0: focus at infinity
 
-    // Members that are used only with a foreground limit.
+    // The two members below are used only with a foreground limit.
     double lensDepth = 0;  // depth α of the lens in m; 0: no foreground limit, the lens is at the eye
     double cone = 0;       // tangent of the half angle of the cone of rays from the eye
 };
@@ -49,16 +50,16 @@ struct LensRay {
 // Returns the ray from lens point `lens` (unit disk) for image point `image` ([-1, 1]², right and up).
 LensRay lensRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
 
-// For cameras with a foreground limit: return the ray from the eye to the lens at lensDepth, and the ray's continuation
-// behind that lens.
+// For cameras with a foreground limit: eyeRay returns the ray from the eye to the lens at lensDepth; refractedRay
+// returns the ray's continuation behind that lens.
 LensRay eyeRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
 LensRay refractedRay(const LensCamera& camera, const glm::dvec2& image, const LensRay& eye);
 
-// Selects the lens's or the pixel's pair of dimensions.
+// Selects a pair of sample dimensions: for the point on the lens, or for the point in the pixel.
 enum class SamplePair : std::uint32_t { lens, pixel };
 
-// Returns point `index` ∈ [0, 1)² of a scrambled sequence. `stream` selects the scramble: a pixel's index, or one value
-// for all pixels.
+// Returns point `index` ∈ [0, 1)² of a scrambled Sobol' sequence. `stream` selects the scramble: a different value for
+// each pixel, or one value that all pixels share.
 glm::dvec2 scrambledPoint(std::uint32_t index, std::uint32_t stream, SamplePair pair, std::uint32_t seed);
 
 // Maps (r, s) ∈ [0, 1)² uniformly to the aperture: the unit disk, or the inscribed polygon with its first corner at the

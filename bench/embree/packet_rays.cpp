@@ -6,7 +6,7 @@ namespace {
 
 // Change of a ray when the point in the pixel moves by 1 px, or the lens point by the lens radius.
 struct RaySteps {
-    float pixelX, pixelY;  // slope per px
+    float pixelX, pixelY;  // change of the slope per px
     float radius;          // change of the origin: the lens radius, m
     float focus;           // change of the slope that keeps the ray aimed at its point on the plane of focus
 };

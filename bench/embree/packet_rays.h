@@ -1,5 +1,5 @@
 #pragma once
-// Rays of lens_rays.h, for the packets of a tile of 16 × 16 pixels.
+// Computes the rays of lens_rays.h for packets of pixels in tiles of 16 × 16 pixels.
 
 #include <array>
 
@@ -8,12 +8,12 @@
 
 namespace defocus::engine {
 
-inline constexpr int tileSide = 16;  // px
+inline constexpr int tileSide = 16;  // width and height of a tile, px
 inline constexpr int packetsPerTileRow = tileSide / packetSide;
 inline constexpr int packetsPerTile = packetsPerTileRow * packetsPerTileRow;
 
-// Origin and slopes of the rays of a tile for a shared lens sample. Computed in double and rounded once, so that no
-// accuracy is lost.
+// Origin and slopes of the rays of a tile whose pixels share a lens sample. They are computed in double and rounded
+// once, so that no accuracy is lost.
 struct TileRays {
     std::array<float, tileSide> slopeX{};  // slopes by pixel column
     std::array<float, tileSide> slopeY{};  // slopes by pixel row
@@ -26,7 +26,8 @@ struct TileRays {
 TileRays tileRays(const LensCamera& camera, const View& view, int left, int top, const glm::dvec2& pixel,
                   const glm::dvec2& lens);
 
-// Sets the rays of packet `place` of the tile (counted row by row), for the tile's shared sample.
+// Sets the rays of packet `place` of the tile, for the lens sample that all its pixels share. Packets are counted row
+// by row.
 void makeRays(const TileRays& tile, int place, RTCRayHit16& packet);
 
 // Sets the rays of a packet with a different sample in each pixel. `tile` must be computed for the points {0, 0} in the

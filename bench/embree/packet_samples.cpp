@@ -23,7 +23,7 @@ DEFOCUS_ALWAYS_INLINE float sineOfTurn(float t) {
 DEFOCUS_VECTOR_CLONES void mapToDisk(const ApertureMap& map, FloatLanes& x, FloatLanes& y) {
     for (int i = 0; i < packetSize; ++i) {
         const float radius = std::sqrt(x[i]);
-        const float turn = y[i] - 0.5f;  // offset by half a turn, so both coordinates get the opposite sign below
+        const float turn = y[i] - 0.5f;  // half a turn is subtracted, so both coordinates get the opposite sign below
         const float folded = 0.25f - std::abs(turn);
         const float sine = sineOfTurn(std::copysign(0.25f - std::abs(folded), turn));
         const float cosine = sineOfTurn(folded);

@@ -1,6 +1,6 @@
 #pragma once
-// Scrambled lens points for the pixels of a packet, in single precision: packet versions of scrambledPoint and
-// aperturePoint (lens_rays.h).
+// Computes scrambled lens points for the pixels of a packet, in single precision: versions of scrambledPoint and
+// aperturePoint (lens_rays.h) for packets.
 
 #include <array>
 #include <cstdint>
@@ -10,29 +10,29 @@
 
 namespace defocus::engine {
 
-// A ReversedPoint (sample_scramble.h) for each lane.
+// A ReversedPoint (sample_scramble.h) for each of a packet's 16 lanes.
 struct ReversedLanes {
     Lanes<std::uint32_t> x, y;
 };
 
-// Returns unscrambledPoint (sample_scramble.h) with one of the 16 point orders per lane. The result is the same for all
-// packets.
+// Returns unscrambledPoint (sample_scramble.h) for all 16 lanes, each with another of the 16 point orders. The result
+// is the same for all packets.
 ReversedLanes unscrambledPoints(std::uint32_t index, SamplePair pair, std::uint32_t seed);
 
-// Returns scrambleSeeds (sample_scramble.h) for 16 streams, beginning with firstStream (a multiple of 16). The result
-// is the same for all samples.
+// Returns scrambleSeeds (sample_scramble.h) for the streams of a packet's 16 pixels, beginning with firstStream (a
+// multiple of 16). The result is the same for all samples.
 ReversedLanes packetSeeds(std::uint32_t firstStream, SamplePair pair, std::uint32_t seed);
 
 // Writes the scrambled points, in [0, 1)², to `x` and `y`.
 void scramblePoints(const ReversedLanes& points, const ReversedLanes& seeds, FloatLanes& x, FloatLanes& y);
 
-// Aperture data that mapToAperture needs, computed once per lens.
+// Data of the aperture that mapToAperture needs, computed once per lens.
 struct ApertureMap {
     explicit ApertureMap(const Lens& lens);
 
     static constexpr int maxBlades = 64;
     int bladeCount = 0;  // number of blades; 0: round aperture
-    float scaleX = 1;    // anamorphic scaling
+    float scaleX = 1;    // horizontal factor of the anamorphic scaling
     float scaleY = 1;
     std::array<float, maxBlades + 1> cornerX{};  // corners of the polygon; the first is repeated at the end
     std::array<float, maxBlades + 1> cornerY{};

@@ -12,8 +12,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Interpolates between three corner values with barycentric weights. The differences from the first corner's value are
-// added to this value, so that three equal values give exactly this value.
+// Interpolates between three corner values with barycentric weights. Weighted differences are added to the first
+// corner's value, so that three equal values give exactly that value.
 DEFOCUS_ALWAYS_INLINE float mixed(float a, float b, float c, float u, float v) {
     return a + u * (b - a) + v * (c - a);
 }

@@ -15,8 +15,8 @@ public:
     // `scene` and `world` must outlive the object.
     PacketShading(const World& world, const TracedScene& scene, const glm::dmat3& worldFromCamera);
 
-    // Returns the radiance of all lanes, including unused ones. Rays that hit nothing return the environment's
-    // radiance. `lightPoints`: ShadowRays::lightPoint for each lane; null: no shadows.
+    // Returns the radiance of all lanes, including unused ones; for rays that hit nothing, the environment's radiance.
+    // `lightPoints`: ShadowRays::lightPoint for each lane; null: no shadows.
     [[nodiscard]] PacketColors radiance(const RTCRayHit16& packet,
                                         const std::array<glm::vec2, packetSize>* lightPoints = nullptr) const;
     [[nodiscard]] std::uint64_t bytes() const;
@@ -27,13 +27,14 @@ private:
     const World& world_;
     const TracedScene& scene_;
 
-    // Surface data by Embree geometry id. An additional geometry, a single black triangle, represents a miss.
+    // Surface data, indexed by Embree's geometry id. An additional geometry, a single black triangle, stands for rays
+    // that hit nothing (a miss).
     struct Surfaces {
-        std::uint32_t miss = 0;                       // geometry id of a miss
-        std::vector<std::int32_t> firstColor;         // index of a geometry's first colour
+        std::uint32_t miss = 0;                       // geometry id that stands for a miss
+        std::vector<std::int32_t> firstColor;         // by geometry: index of the first colour in cornerColors
         std::vector<std::int32_t> colorsPerTriangle;  // 3, or 0 if all triangles have the same three colours
-        std::vector<float> red, green, blue;          // components of baseColorFactor
-        std::vector<glm::vec3> cornerColors;          // three colours per triangle
+        std::vector<float> red, green, blue;          // by geometry: components of baseColorFactor
+        std::vector<glm::vec3> cornerColors;          // three vertex colours per triangle
     };
     // Sky radiance for a ray at elevation e: horizon + |sin e|·(zenith − horizon); below the horizon, with nadir
     // instead of zenith.
@@ -47,11 +48,11 @@ private:
 
     Surfaces surfaces_;
     Sky sky_;
-    std::vector<bool> rayByRay_;  // index: geometry id; true: each ray is shaded separately
+    std::vector<bool> rayByRay_;  // by geometry id; true: each ray is shaded separately
     bool anyRayByRay_ = false;
 };
 
-// Sums over samples for each pixel of a packet, in double.
+// Colours summed over the samples for each pixel of a packet, in double.
 struct alignas(64) PacketSum {
     std::array<Lanes<double>, 4> channels;
 };

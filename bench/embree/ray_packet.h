@@ -1,6 +1,7 @@
 #pragma once
-// Packets of rays for 4 × 4 neighbouring pixels. Each quantity is an array of 16 lanes, so that compilers vectorise
-// loops over the lanes. Embree accepts packets of 16 rays on every machine and splits them if its vectors are narrower.
+// Defines packets of rays for 4 × 4 neighbouring pixels. Each quantity is an array of 16 lanes, so that compilers
+// vectorise loops over the lanes. Embree accepts packets of 16 rays on every machine and splits them if its vectors are
+// narrower.
 
 #include <embree3/rtcore.h>
 
@@ -8,7 +9,7 @@
 #include <cstdint>
 
 // Also compiles the function for AVX2; that version is selected at load time if the machine has AVX2. Called functions
-// profit only if they are inlined. Disabled with sanitizers, which are loaded only after the selection.
+// profit only if they are inlined. Disabled with sanitizers, because the selection runs before they are loaded.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define DEFOCUS_VECTOR_CLONES __attribute__((target_clones("arch=haswell", "default")))
 #else
@@ -18,7 +19,7 @@
 
 namespace defocus::engine {
 
-inline constexpr int packetSide = 4;  // px
+inline constexpr int packetSide = 4;  // width and height of a packet, px
 inline constexpr int packetSize = packetSide * packetSide;
 
 // One value per pixel of a packet: lane i is pixel (i % 4, i / 4), right and down.
@@ -31,7 +32,7 @@ struct alignas(64) Lanes {
 };
 
 using FloatLanes = Lanes<float>;
-using LaneMask = Lanes<int>;  // −1: lane in use, 0: not in use
+using LaneMask = Lanes<int>;  // −1 for lanes in use, 0 for unused lanes
 
 // Sample points of all lanes: in the pixel ([0, 1)² px, right and down) and on the lens (unit disk).
 struct PacketPoints {

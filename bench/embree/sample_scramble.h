@@ -1,6 +1,7 @@
 #pragma once
-// Integer operations for the scrambled points of lens_rays.h and packet_samples.h. Many streams share a Sobol' point;
-// each stream applies its own Owen scramble to the point, in a few 32-bit operations.
+// Scrambles the Sobol' points of lens_rays.h and packet_samples.h with integer operations. All pixels share a Sobol'
+// point. Each stream (a pixel, or all pixels together) applies its own Owen scramble to the point, in a few 32-bit
+// operations.
 //
 //   Sobol' 1967; Kollig and Keller 2002, Efficient Multidimensional Sampling; Laine and Karras 2011, Stratified
 //   Sampling for Stochastic Transparency; Burley 2020, Practical Hash-based Owen Scrambling.
@@ -28,7 +29,7 @@ DEFOCUS_ALWAYS_INLINE std::uint32_t reversedBits(std::uint32_t x) {
 
 // Owen scrambling: flips each bit of a fraction depending on a hash of its more significant bits (Laine and Karras
 // 2011). Multiplication propagates bits upwards only, so `reversed` has the fraction's bits in reverse order. Returns
-// the fraction.
+// the scrambled fraction with its bits in normal order.
 DEFOCUS_ALWAYS_INLINE std::uint32_t owenScrambled(std::uint32_t reversed, std::uint32_t seed) {
     std::uint32_t x = reversed + seed;
     x ^= x * 0x6c50b47cu;
@@ -38,12 +39,13 @@ DEFOCUS_ALWAYS_INLINE std::uint32_t owenScrambled(std::uint32_t reversed, std::u
     return reversedBits(x);
 }
 
-// Returns point `index` of a pair's sequence before scrambling, in one of 16 orders. Stream s uses order s % 16, so
-// that the pixels of a packet have different orders and uncorrelated errors. All packets share the points of a sample.
+// Returns unscrambled point `index` for the dimensions `pair`. The points can be in one of 16 orders. Stream s uses
+// order s % 16, so that the 16 pixels of a packet have different orders and uncorrelated errors. The points are the
+// same for all packets.
 ReversedPoint unscrambledPoint(std::uint32_t index, std::uint32_t order, SamplePair pair, std::uint32_t seed);
 inline constexpr std::uint32_t orderCount = packetSize;
 
-// Returns the scrambling seeds of a stream for both dimensions of a pair.
+// Returns the seeds with which a stream scrambles the two dimensions of `pair`.
 ReversedPoint scrambleSeeds(std::uint32_t stream, SamplePair pair, std::uint32_t seed);
 
 }  // namespace defocus::engine

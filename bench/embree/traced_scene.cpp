@@ -12,7 +12,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Embree filter: rejects hits on the back of single-sided surfaces. Embree's geometric normal is (p1 − p0) × (p2 − p0).
+// Filter function for Embree that rejects hits on the back of single-sided surfaces. Embree's geometric normal is (p1 −
+// p0) × (p2 − p0).
 void cullBackFaces(const RTCFilterFunctionNArguments* arguments) {
     const auto& geometry = *static_cast<const TracedGeometry*>(arguments->geometryUserPtr);
     if (geometry.material->doubleSided) return;
@@ -26,7 +27,7 @@ void cullBackFaces(const RTCFilterFunctionNArguments* arguments) {
     }
 }
 
-// Sets `back` to the lanes of `mask` that hit the back of a single-sided surface. Returns whether there are any.
+// Sets `back` to the lanes of `mask` that hit the back of a single-sided surface. Returns whether any lane does.
 DEFOCUS_VECTOR_CLONES bool findBackFaces(const float* culledFacing, std::uint32_t miss, const LaneMask& mask,
                                          const RTCRayHit16& packet, LaneMask& back) {
     int any = 0;

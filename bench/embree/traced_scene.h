@@ -1,5 +1,5 @@
 #pragma once
-// A posed scene as an Embree bounding-volume hierarchy in camera space, built from the loaded meshes, not from the
+// Builds an Embree bounding-volume hierarchy of a posed scene in camera space, from the loaded meshes instead of the
 // pyramids. Transforms are composed in double and passed to Embree relative to the camera.
 //
 // Back faces of single-sided materials are culled; mirroring transforms reverse the winding, as glTF requires. Packets
@@ -23,18 +23,18 @@ namespace defocus::engine {
 // A primitive of an object, as one Embree geometry.
 struct TracedGeometry {
     const Mesh* mesh = nullptr;
-    const std::vector<glm::vec3>* normals = nullptr;  // normals of the mesh, or posed normals
+    const std::vector<glm::vec3>* normals = nullptr;  // normals of the mesh, or posed normals if the object deforms
     const Primitive* primitive = nullptr;
     const Material* material = nullptr;
-    glm::mat3 worldNormalFromObject{1.0f};  // transforms normals, without normalising
-    glm::mat3 worldFromCamera{1.0f};        // transforms directions
+    glm::mat3 worldNormalFromObject{1.0f};  // transforms normals to world space, without normalising
+    glm::mat3 worldFromCamera{1.0f};        // transforms directions to world space
     glm::dvec3 camera{0.0};                 // position of the camera in world space, m
     float facing = 1;                       // −1 if the transform mirrors and thus reverses the winding, else 1
 };
 
 struct TraceOptions {
-    bool watertight = true;  // no ray passes between adjacent triangles; slightly slower
-    bool coherent = true;    // rays of a packet have similar directions
+    bool watertight = true;  // true: no ray passes between adjacent triangles; slightly slower
+    bool coherent = true;    // true: the rays of a packet have similar directions
 };
 
 class TracedScene {
@@ -45,7 +45,7 @@ public:
     TracedScene& operator=(const TracedScene&) = delete;
 
     // Finds the nearest hits of camera-space rays with ray parameters from tnear to `farthest`, for the lanes in
-    // `mask`; other lanes are unchanged. Thread-safe.
+    // `mask`; the hits of other lanes stay unchanged. Thread-safe.
     void trace(const LaneMask& mask, float farthest, RTCRayHit16& packet) const;
     // Returns whether a camera-space ray hits anything at ray parameters up to `farthest`. Thread-safe.
     [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction, float farthest) const;

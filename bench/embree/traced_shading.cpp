@@ -1,5 +1,6 @@
-// Sources: Lambert 1760; IEC 61966-2-1 (sRGB decoding); KHR_lights_punctual (1 lux on a white Lambert surface gives 1/π
-// cd/m²); Shirley and Chiu 1997, A Low Distortion Map Between Disk and Square (points on lights).
+// Shades hits of rays. Sources: Lambert 1760; IEC 61966-2-1 (sRGB decoding); KHR_lights_punctual (1 lux on a white
+// Lambert surface gives 1/π cd/m²); Shirley and Chiu 1997, A Low Distortion Map Between Disk and Square (points on
+// lights).
 
 #include "embree/traced_shading.h"
 
@@ -58,7 +59,7 @@ glm::vec3 texel(const TextureImage& image, const Texture& texture, int x, int y)
     return {decoded(rgba[0]), decoded(rgba[1]), decoded(rgba[2])};
 }
 
-// Returns the base colour from texture level 0; texels are decoded before filtering.
+// Returns the texture's base colour from level 0 (full resolution); texels are decoded before filtering.
 glm::vec3 textureColor(const Scene& scene, const TextureUse& use, const glm::vec2& uv) {
     const Texture& texture = scene.textures[static_cast<std::size_t>(use.texture)];
     if (texture.image < 0) return glm::vec3(1);
@@ -121,7 +122,8 @@ glm::vec2 onDisk(const glm::vec2& place) {
     return {ring * std::cos(angle), ring * std::sin(angle)};
 }
 
-// Light that arrives at a point if nothing occludes it: illuminance in lux on a surface perpendicular to the light.
+// Light that arrives at a point if nothing is in between: the illuminance in lux on a surface perpendicular to the
+// light.
 struct Incoming {
     glm::vec3 illuminance{0.0f};
     glm::vec3 toMiddle{0.0f};  // unit vector to the light's centre
@@ -154,7 +156,7 @@ Incoming incomingAt(const PlacedLight& placed, const glm::dvec3& place) {
 // point.
 bool hidden(const PlacedLight& placed, const Incoming& incoming, const TracedGeometry& geometry, const SurfaceHit& hit,
             const ShadowRays& shadows) {
-    // Axes of the light's disk, equal to those that the plan uses for its light points.
+    // Axes of the light's disk, equal to the axes for which the plan computes points on lights.
     const glm::vec3 front = incoming.toMiddle;
     const glm::vec3 up = std::abs(front.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
     const glm::vec3 right = glm::normalize(glm::cross(up, front));

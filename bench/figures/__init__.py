@@ -1,1 +1,1 @@
-"""Figures of documents and reports: tables, plots and pictures from results of the benches and from the program."""
+"""Makes the tables, plots and pictures of documents and reports from results of the benches and from the program."""

@@ -1,4 +1,4 @@
-"""Command line of scripts/figures."""
+"""Runs the command line of scripts/figures."""
 
 import argparse
 import importlib

@@ -1,4 +1,4 @@
-"""Tables of levels, correctness and parts of a frame. Each function in TABLES returns a table as Markdown."""
+"""Makes the tables on levels of detail, correctness and the parts of a frame. Functions in TABLES return Markdown."""
 
 import json
 import re
@@ -14,7 +14,7 @@ def span(values, digits):
 
 
 def by_size_only(bench_has):
-    """Returns the sentence under a table whose run chose levels by size. bench_has: words such as "This bench has"."""
+    """Returns the sentence under a table of levels chosen by size only. bench_has: words such as "This bench has"."""
     return (f"\nThe run chose levels by size (`--lod-metric size`). {bench_has} no option for it, so only the commit of the run "
             "repeats the figures.\n")
 
@@ -31,7 +31,7 @@ def scaling(with_parts=True):
     return run_table("llvmpipe-scaling", header, rows) + by_size_only("This bench has")
 
 
-# ---- pyramids -------------------------------------------------------------------------------------------------------
+# ---- tables on pyramids ---------------------------------------------------------------------------------------------
 
 
 def ending_in_numbers(lines, count):
@@ -49,7 +49,7 @@ def gain(gains):
 
 
 def distance(rows):
-    """Returns a text on the levels' distance to the mesh, from the rows of all meshes and the row "all"."""
+    """Returns a sentence on the distance of levels from the mesh, from the rows of all meshes and the row "all"."""
     rows = dict(rows)
     every = rows.pop("all")
     worst = max(rows, key=lambda name: rows[name][3])
@@ -117,7 +117,7 @@ def pyramids(summary=False):
         "llvmpipe-pyramids.txt")
 
 
-# ---- correctness ----------------------------------------------------------------------------------------------------
+# ---- tables on correctness ------------------------------------------------------------------------------------------
 
 
 def scenes_of(name):
@@ -178,7 +178,7 @@ def honesty(every_setting=True):
                      "a point of light; one value of the lens, the image or the sampling changes at a time")
 
 
-# ---- parts ----------------------------------------------------------------------------------------------------------
+# ---- tables on parts of a frame -------------------------------------------------------------------------------------
 
 
 def sequences():
@@ -217,7 +217,7 @@ def command_in(name, scene):
 
 
 def few_images():
-    """Returns the table of errors of methods that draw few images: as published, by default and with best settings."""
+    """Returns the table of errors of methods that draw few images, with published, default and best settings."""
     name = "llvmpipe-circular"
     forms = {"published": "published", "best": "best", None: "default"}
     rows = []
@@ -229,7 +229,7 @@ def few_images():
 
 
 def layers():
-    """Returns the table of times and errors of `layered` and accumulation for each number of lens samples."""
+    """Returns the table of times and errors of the methods `layered` and accumulation, by number of lens samples."""
     methods = ("accumulation, lod=off", "layered, lod=off")
     scene = method_rows("llvmpipe-layered")["fish school"]
     counts = sorted({count for _, count in scene})

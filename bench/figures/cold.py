@@ -24,7 +24,7 @@ def medians(runs):
 
 
 def row_of(name, times):
-    """Returns a line of the table. times: {form: Times}."""
+    """Returns a line of the table. times: {form of the command: Times}."""
     return f"{name:32}" + "".join(f"{of.wall:16.2f} s{of.processor:10.2f} s" for of in times.values())
 
 
@@ -33,7 +33,7 @@ def header():
 
 
 def first_picture(program, scene, options):
-    """Renders with empty caches. Returns the times."""
+    """Renders a scene once with empty caches, and returns the times of the run."""
     with tempfile.TemporaryDirectory() as name:
         words = [program, "render", scene, *options, "--quiet", "-o", pathlib.Path(name) / "image.png"]
         return timed(words, f"the picture of {pathlib.Path(scene).name}", name)

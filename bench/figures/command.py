@@ -1,4 +1,4 @@
-"""Shared parts of the commands: repository root, option parsers, running programs."""
+"""Helps all commands of this folder: finds the repository root, parses options, runs programs."""
 
 import argparse
 import pathlib
@@ -15,7 +15,7 @@ def parser_of(name, text):
 
 
 def path(text):
-    """Returns the path as an absolute one, because programs run in the repository root."""
+    """Returns the absolute path, because programs run in the repository root instead of the user's folder."""
     return pathlib.Path(text).resolve()
 
 
@@ -31,7 +31,7 @@ def add_program(parser):
 
 
 def run(*words, cwd=ROOT):
-    """Runs a program in a folder, by default the repository root, and returns its output. If it fails, exits with its error message."""
+    """Runs a program in a folder (default: repository root). Returns its output, or exits with its error message."""
     done = subprocess.run([str(word) for word in words], capture_output=True, text=True, cwd=cwd)
     if done.returncode != 0:
         sys.exit(done.stderr.strip())

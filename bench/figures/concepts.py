@@ -21,7 +21,7 @@ FOCUS = 2.0  # focus distance, m
 
 
 class Drawing:
-    """An SVG figure; width and height are in pixels."""
+    """Draws shapes and texts into an SVG figure; its width and height are in pixels."""
 
     def __init__(self, width, height, title):
         self.head = (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" '
@@ -131,7 +131,7 @@ def draw_circle_of_confusion():
 
 
 def triangles_of(data):
-    """Returns the triangles of a GLB file with a single buffer, each as three positions."""
+    """Returns the triangles of a GLB file with a single buffer, each as its three vertex positions."""
     length = struct.unpack_from("<I", data, 12)[0]
     document, binary = json.loads(data[20:20 + length]), data[28 + length:]
 
@@ -198,7 +198,7 @@ def draw_sample_split():
 
 
 def halved(points, count):
-    """Divides points into equal groups by repeated halving across the longer side. count: groups, a power of 2."""
+    """Divides points into equal groups by repeated halving across the longer side. count: how many groups, 2^n."""
     if count == 1:
         return [points]
     spans = [max(point[axis] for point in points) - min(point[axis] for point in points) for axis in (0, 1)]
@@ -208,7 +208,7 @@ def halved(points, count):
 
 
 def draw_lens_cells():
-    """Draws 16 lens points (left), and 16 lens cells of 32 points each with their means (right)."""
+    """Draws 16 lens points (left), and 16 lens cells with 32 points each, marked with the points' means (right)."""
     drawing = Drawing(720, 300, "Sixteen lens points, and sixteen lens cells with their means")
     radius = 125
     left, right = (180, 140), (540, 140)

@@ -8,8 +8,8 @@ PAPER = (250, 250, 250)
 
 
 def contact_sheet(titles, names, pictures_of, columns=2):
-    """Returns the sheet. titles: one per picture of a scene; pictures_of(index): pictures of the scene names[index];
-    columns: number of scenes side by side."""
+    """Returns the contact sheet. titles: one per picture of a scene; pictures_of(index): pictures of the scene
+    names[index]; columns: number of scenes side by side."""
     rows = -(-len(names) // columns)
     block = (WIDTH + GAP) * len(titles) + 3 * GAP
     image = Image.new("RGB", (columns * block - 2 * GAP, rows * (HEIGHT + LINE + GAP) + LINE), PAPER)

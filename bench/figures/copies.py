@@ -4,7 +4,7 @@
 
 The copies share the scene's meshes and files, whose paths are relative to the new file. The binary part of a .glb file goes to
 a .bin file beside the new file. The copies' depths increase from 2 to 12 times the scene's size; sideways they fill the view of
-the camera (50 mm f/0.95). The focus is on the fourth copy.
+the camera (50 mm f/0.95). The focal plane is at the fourth copy.
 Animations and cameras of the scene are left out.
 """
 

@@ -1,4 +1,4 @@
-"""Curves in bench/results/lens: the circle of confusion C over depth, for each control of the lens."""
+"""Draws the curves in bench/results/lens: the circle of confusion C over depth, for each control of the lens."""
 
 import json
 
@@ -18,18 +18,18 @@ CURVES = [
     ("focus range 0.7 m to 1.8 m", "tab:green", "-", RANGE),
     ("the same, --focus-range-refocuses", "tab:green", "--", [*RANGE, "--focus-range-refocuses"]),
 ]
-DEPTHS = [0.2 + 0.02 * step for step in range(241)]  # m
+DEPTHS = [0.2 + 0.02 * step for step in range(241)]  # plotted depths, m
 
 
 def blurs(program, options):
-    """Returns the signed blur (px) at each of DEPTHS, and the width of the image (px)."""
+    """Returns the signed diameters of the blur (px) at DEPTHS, and the width of the image (px)."""
     report = json.loads(run(program, "info", "--camera", "meshes/chess.glb", "--json", *LENS, *options, "--depths",
                             ",".join(f"{depth:.2f}" for depth in DEPTHS)))
     return [row["pixels"] for row in report["blur"]], report["width"]
 
 
 def draw_curves(program, file):
-    """Plots over depth w. Left: C in clip space, w · c / W for a blur of c px in an image W px wide. Right: c.
+    """Plots over depth w. Left: C in clip space, which is w · c / W for a blur of c px in an image W px wide. Right: c.
 
     C has the opposite sign in Munkberg, Toth and Akenine-Möller 2012.
     """

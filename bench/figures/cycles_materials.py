@@ -35,7 +35,7 @@ MADE = {}  # {name of a material: (colour or image, normal map or None, metallic
 
 
 class Graph:
-    """A node graph that is built from its inputs to its output."""
+    """Builds a node graph in Blender, from its inputs to its output."""
 
     def __init__(self, surface):
         self.tree = surface.node_tree
@@ -73,7 +73,7 @@ class Graph:
 
 
 def material(name, base, normal=None, metallic=0, roughness=0.5):
-    """Returns a new material with the exporter's graph. base: colour, or an array of sRGB colours. normal: array."""
+    """Returns a new material with the exporter's graph. base: colour, or array of sRGB colours. normal: array."""
     surface = bpy.data.materials.new(name)
     surface.use_nodes = True
     textured = isinstance(base, numpy.ndarray)
@@ -88,7 +88,7 @@ def material(name, base, normal=None, metallic=0, roughness=0.5):
 
 
 def prepare_for_cycles(name, light):
-    """Replaces the graph of a material by glTF's equations for one light."""
+    """Replaces the node graph of a material by one that evaluates glTF's equations for one light."""
     base, bent, metallic, roughness = MADE[name]
     graph = Graph(bpy.data.materials[name])
     math, vector = graph.math, graph.vector

@@ -35,7 +35,7 @@ def prepared_scene(width, height, samples):
 
 
 def read_exr(file):
-    """Returns the linear colours as height × width × 3; row 0 is the bottom row."""
+    """Returns the linear colours of an image as a height × width × 3 array; row 0 is the bottom row."""
     image = bpy.data.images.load(str(file))
     pixels = numpy.empty(image.size[0] * image.size[1] * 4, numpy.float32)
     image.pixels.foreach_get(pixels)
@@ -50,7 +50,7 @@ def encoded(linear):
 
 
 def render_cycles(scene, base, seed, shadows):
-    """Returns the sum of one image per light."""
+    """Renders an image for each light with Cycles, and returns the sum of these images."""
     lights = [thing for thing in scene.objects if thing.type == "LIGHT"]
     total = 0
     for index, light in enumerate(lights):
@@ -67,7 +67,7 @@ def render_cycles(scene, base, seed, shadows):
 
 
 def render_defocus(program, scene, base, samples, shadows):
-    """Returns the image and the name of the OpenGL device."""
+    """Renders with defocus. Returns the image and the name of the OpenGL device."""
     lens = scene.camera.data.dof
     words = [program, "render", f"{base}.glb", "-o", f"{base}.exr", "--quiet", "--stats", f"{base}.json", "--samples", samples,
              "--size", f"{scene.render.resolution_x}x{scene.render.resolution_y}", "--lod", "off", "--units", "m",

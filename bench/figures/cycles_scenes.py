@@ -50,7 +50,7 @@ def normals(waves, slope, seed, size=256):
 
 
 def finished(surface, repeat=1.0, smooth=False):
-    """Gives the newest object its material, and repeats its texture."""
+    """Gives the object that was added last its material, and repeats the texture."""
     thing = bpy.context.object
     thing.data.materials.append(surface)
     thing.cycles.shadow_terminator_geometry_offset = 0
@@ -62,7 +62,7 @@ def finished(surface, repeat=1.0, smooth=False):
 
 
 def plane(surface, size, place, turned=(0, 0, 0), repeat=1.0):
-    """Adds a plane. turned: Euler angles in degrees."""
+    """Adds a plane. turned: rotation as Euler angles in degrees."""
     bpy.ops.mesh.primitive_plane_add(size=size, location=place, rotation=[math.radians(angle) for angle in turned])
     return finished(surface, repeat)
 
@@ -84,7 +84,7 @@ def wire(surface, radius, place, length, turned):
 
 
 def sun(strength, azimuth, elevation, colour=(1, 1, 1)):
-    """Adds a sun. strength: irradiance in W/m². azimuth: degrees from the direction to the camera, to the right."""
+    """Adds a sun. strength: irradiance in W/m². azimuth: degrees to the right of the direction to the camera."""
     bpy.ops.object.light_add(type="SUN", rotation=(math.radians(90 - elevation), 0, math.radians(azimuth)))
     light = bpy.context.object.data
     light.energy, light.color, light.angle = strength, colour, 0
@@ -134,7 +134,7 @@ def textured_spheres():
 
 
 def metal_spheres():
-    """Smooth to rough metal: perceptual roughness 0.25 to 0.8."""
+    """Metal spheres, from smooth to rough: perceptual roughness 0.25 to 0.8."""
     camera(0.2, 1.0, 1.0, 10)
     for i in range(8):
         surface = material(f"metal {i}", (GOLD, STEEL, COPPER)[i % 3], metallic=1, roughness=0.25 + 0.55 * i / 7)
@@ -154,7 +154,7 @@ def metal_plate():
 
 
 def leather():
-    """A normal-mapped dielectric."""
+    """A dielectric surface with a normal map, like leather."""
     camera(0.45, 0.95, 1.0, 28)
     plane(material("leather", blotches(RED, DARK, 5), normal=normals(16, 0.2, 6), roughness=0.5), 1.6, (0, 0.95, 0), repeat=3)
     sun(2.5, 150, 40)
@@ -162,7 +162,7 @@ def leather():
 
 
 def boxes():
-    """160 small boxes at many depths: every third of metal with a normal map, the others textured dielectrics."""
+    """160 small boxes at many depths: every third is metal with a normal map, the others are textured dielectrics."""
     camera(0, 1.1, 0.95, 0)
     surfaces = [material("metal box", blotches(COPPER, STEEL, 7), normal=normals(4, 0.15, 8), metallic=1, roughness=0.5),
                 material("checkered box", checker(WHITE, BLUE, 24), roughness=0.6),

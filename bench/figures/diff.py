@@ -18,7 +18,7 @@ from collections import Counter, namedtuple
 from figures.command import parser_of, path
 from figures.files import read_csv, read_json
 
-MIN_RUNS = 3  # fewer runs give no verdict on times
+MIN_RUNS = 3  # results with fewer runs get no verdict on times
 TOLERANCE = 0.01  # min change of an error, relative to the larger of both errors
 SSIM_ROUNDING = 1e-6  # CSV files contain six digits of SSIM
 # Columns that identify a row, and columns that are errors.
@@ -31,7 +31,7 @@ Results = namedtuple("Results", "measured_on subject rows")
 Change = namedtuple("Change", "old new verdict beyond_limit", defaults=(False,))
 
 
-# ---- reading --------------------------------------------------------------------------------------------------------
+# ---- reading of results ---------------------------------------------------------------------------------------------
 
 
 def numeric(value):
@@ -72,7 +72,7 @@ def row_of(cells):
 
 
 def subject_of(document):
-    """Returns the document's properties that must be equal in comparable results, by name."""
+    """Returns {name: value} of the document's properties that must be equal in comparable results."""
     subject = {name: document[name] for name in ("scene", "camera", "device", "driver", "frames", "pathFrames") if name in document}
     if "width" in document:
         subject["size"] = f"{document['width']} x {document['height']} px"
@@ -84,7 +84,7 @@ def subject_of(document):
 
 
 def parse(document):
-    """Returns the Results of a JSON document or of a list of CSV rows."""
+    """Converts a JSON document or a list of CSV rows to Results."""
     rows, measured_on, subject = document, "CSV does not name scene, size, lens and machine; they are taken to be equal", {}
     if isinstance(document, dict):
         rows = [{"runs": document.get("runs")} | row for name in ("rows", "cases", "lensHonesty") for row in document.get(name, [])
@@ -105,7 +105,7 @@ def read(file):
         sys.exit(f"{file}: {fault}")
 
 
-# ---- verdicts -------------------------------------------------------------------------------------------------------
+# ---- verdicts on rows -----------------------------------------------------------------------------------------------
 
 
 def unlike_subjects(old, new):
@@ -129,7 +129,7 @@ def time_change(old, new, unlike):
 
 
 def distance(column, value):
-    """Converts an error metric to one that is 0 for equal images."""
+    """Converts an error metric to one that is 0 for equal images: SSIM to 1 - SSIM, PSNR to RMSE."""
     if "psnr" in column.lower():
         return 10 ** (-value / 20)
     return 1 - value if column.startswith("ssim") else value
@@ -161,7 +161,7 @@ def compare(old, new):
                     for row, other in pairs]
 
 
-# ---- text -----------------------------------------------------------------------------------------------------------
+# ---- text of the comparison -----------------------------------------------------------------------------------------
 
 
 def ratio(new, old):
@@ -175,7 +175,7 @@ def time_text(time):
 
 
 def errors_text(errors):
-    """Returns a text with the errors that changed or exceeded their limits."""
+    """Returns a text that lists the errors that changed or exceed their limits."""
     texts = [f"{name} {error.old:.4g} to {error.new:.4g} {error.verdict}" + (", BEYOND ITS LIMIT" if error.beyond_limit else "")
              for name, error in errors.items() if error.verdict != "equal" or error.beyond_limit]
     return "  ".join(texts) or ("equal" if errors else "")

@@ -28,9 +28,9 @@ from figures.markdown import table
 from figures.results import run_of
 from figures.timed import timed
 
-# Commit whose program is compared with the current one on files with many parts.
+# Commit of an old program that is compared with the current program on files with many parts.
 FIRST = "f7ddc1ab"
-PAIRS = 3  # runs of each version, in alternation
+PAIRS = 3  # number of runs of each program; the two programs alternate
 # Files with many parts: name and number of the parts, and the render time in s of the first measurement, on a busier
 # machine.
 MANY = [("roots", 300_000, 41), ("nodes in a chain", 100_000, 17), ("materials", 65_000, 7.6), ("meshes", 65_000, 12)]
@@ -47,13 +47,13 @@ def write_glb(path, document, data):
 
 
 def place(number, count):
-    """Returns the position of part `number` in a square grid of `count` parts, two units apart."""
+    """Returns the position of part `number` of `count` parts of a scene, in a square grid with a spacing of 2 units."""
     side = int(count**0.5) + 1
     return [2 * (number % side) - side, 2 * (number // side) - side, 0]
 
 
 def many(kind, count):
-    """Returns the document and the data of a glTF file with `count` parts of this kind, each with one triangle."""
+    """Returns the document and the data of a glTF file with `count` parts of this kind, such as meshes."""
     data = TRIANGLE
     accessor = {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}
     document = {"asset": {"version": "2.0"}, "scene": 0, "accessors": [accessor]}
@@ -88,7 +88,7 @@ def cost(program, scene, picture):
 
 
 def costs(program, folder, arguments):
-    """Renders each file of many parts. Returns the lines of the page, and True, because no time is an error."""
+    """Renders each file of many parts. Returns the lines of the page, and True, because no time is a failure."""
     rows = []
     for kind, count, first in MANY:
         scene = folder / "many.glb"
@@ -132,7 +132,7 @@ def write_shot(folder, frames):
 
 
 def long_film(program, folder, arguments):
-    """Captures a long film. Returns the lines of the page, and whether its memory stays within 1 %."""
+    """Captures a long film. Returns the lines of the page, and whether the program's memory stays within 1 %."""
     write_shot(folder, arguments.frames)
     child = subprocess.Popen([program, "capture", "shot.json", "--quiet", "-o", "film/####.exr"], cwd=folder,
                              env=dict(os.environ, LP_NUM_THREADS="0"))
@@ -161,7 +161,7 @@ def long_film(program, folder, arguments):
 
 
 def kills(program, folder, arguments):
-    """Kills captures at random times and resumes them. Returns the lines of the page, and whether no frame differs."""
+    """Kills captures at random times and resumes them. Returns the page's lines, and whether all frames are equal."""
     frames, chance = 60, random.Random(1)
     write_shot(folder, frames)
     environment = dict(os.environ, SOURCE_DATE_EPOCH="0")  # omits run times from the metadata
@@ -202,7 +202,7 @@ def stability(*_):
 
 
 def fuzzing(_, __, arguments):
-    """Returns the table of scripts/fuzz, and whether it found nothing."""
+    """Returns the table that scripts/fuzz printed, and whether no input failed."""
     text = arguments.fuzz.read_text()
     rows = re.findall(r"^(\w+) +(\d+) runs, +(\d+) edges, +(\d+) features covered(.*)$", text, re.MULTILINE)
     run = re.search(r"^Fuzzed .*$", text, re.MULTILINE)
@@ -218,14 +218,14 @@ PARTS = [("Extreme cases", stability), ("A long film", long_film), ("Kills", kil
 
 
 def made(program):
-    """Returns the sentence that says when and with which version the program ran."""
+    """Returns the sentence that states the date of the run and the version of the program."""
     driver = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout.split("\n")[0]
     commit = subprocess.run(["git", "rev-parse", "--short=12", "HEAD"], capture_output=True, text=True, cwd=ROOT, check=True).stdout.strip()
     return f"Made on {datetime.date.today()} at commit {commit} ({driver})."
 
 
 def replaced(page, title, lines):
-    """Returns the page with other lines in the section of this title."""
+    """Returns the page with the section of this title replaced by `lines`."""
     begin = page.index(f"## {title}\n")
     end = page.find("\n## ", begin)
     return page[:begin] + "\n".join([f"## {title}", "", *lines, ""]) + (page[end:] if end >= 0 else "")

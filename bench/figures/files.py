@@ -12,7 +12,7 @@ def read_json(path):
 
 
 def read_csv(path):
-    """Returns each row as a dictionary of texts by column."""
+    """Returns the rows of a CSV file, each as a dictionary {column: text}."""
     with open(path, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
 

@@ -6,7 +6,7 @@ from figures.command import run
 
 
 class Frames:
-    """Images in a folder. subject: the scene and the options that all images have."""
+    """Renders images to a folder. subject: the scene and the options that all images have."""
 
     def __init__(self, program, folder, *subject):
         self.program, self.folder, self.subject = program, folder, subject
@@ -18,5 +18,5 @@ class Frames:
         return json.loads(stats.read_text())
 
     def difference(self, reference, file):
-        """Returns the metrics of `defocus compare`, such as "rmse" and "flip"."""
+        """Compares a file with the reference. Returns the metrics of `defocus compare`, such as "rmse" and "flip"."""
         return json.loads(run(self.program, "compare", self.folder / reference, self.folder / file, "--json"))

@@ -20,7 +20,7 @@ from figures.command import add_program, parser_of
 
 
 def state_of(path):
-    """Returns the state that the window wrote with --stats; empty before its first frame."""
+    """Returns the state that the window writes to a file with --stats; empty before the window's first frame."""
     try:
         return json.loads(path.read_text())
     except (OSError, ValueError):

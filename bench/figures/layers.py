@@ -24,7 +24,7 @@ WIDTHS = (9, 9, 9, len(TOGETHER) + 3, 11, 10)  # widths of the columns, characte
 
 
 def render(command, folder, layers):
-    """Renders with these layers, none if empty. Returns the processor time in seconds."""
+    """Renders with these data layers (a text; empty: none). Returns the processor time in seconds."""
     words = [*command, "-o", folder / "image.exr", *(("--exr-layers", layers) if layers else ())]
     return timed(words, f"a picture with layers '{layers}'", folder).processor
 
@@ -44,7 +44,7 @@ def header():
 
 
 def measure(command, runs, folder):
-    """Returns the times of each round."""
+    """Renders all rounds. Returns the processor times of each round."""
     for layers in ("", *LAYERS):
         render(command, folder, layers)
     return [{layers: render(command, folder, layers) for layers in ("", *LAYERS)} for _ in range(runs)]

@@ -68,7 +68,7 @@ def render(program, file, scene, options, scratch):
 
 
 def trace(bench, page, scratch):
-    """Renders Figure 9 and returns the page with the new PSNR."""
+    """Renders Figure 9 with the ray tracer's bench, and returns the page with the new PSNR."""
     words = shlex.split(re.search(r"^    defocus_truth_bench (.*)$", page, re.M)[1])
     measured = json.loads(run(bench, *(scratch if word == "FOLDER" else word for word in words)))
     for image in ("accumulation", "embree", "difference"):

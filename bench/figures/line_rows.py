@@ -1,4 +1,4 @@
-"""The runs of line samples and points on meshes/teapots.py, and the tables of bench/results/line-samples.md."""
+"""Defines the runs of line samples and points on meshes/teapots.py, and makes the tables of line-samples.md."""
 
 import math
 
@@ -13,7 +13,7 @@ NAMES = {EXACT: "lines", PUBLISHED: "lines, as published", POINTS: "points"}
 COUNTS = {EXACT: (4, 16), PUBLISHED: (4, 16), POINTS: (16, 64, 256)}
 COMMON = ["--lod", "off", "--focus-breathing", "--background", "0.25,0.28,0.33", "--reference-samples", "1600", "--runs", "3",
           "--seeds", "1"]
-# Details that are shown beside the reference: (method and settings, number of samples).
+# Images whose details are shown beside the reference: (method and settings, number of samples).
 DETAILS = [(EXACT, 4), (EXACT, 16), (PUBLISHED, 16), (POINTS, 64), (POINTS, 256)]
 
 
@@ -32,7 +32,7 @@ def run_name(blur, method):
 
 
 def row_of(blur, method, samples):
-    """Returns the row of a method with a number of lines or points."""
+    """Returns the row of a method with this number of lines or points, at a scale of the blur."""
     (row,) = [row for row in run_of(run_name(blur, method))["rows"]
               if (row["method"], row["form"]) == method and row["samples"] == samples]
     return row
@@ -47,7 +47,7 @@ def milliseconds(row):
 
 
 def equal_time_points():
-    """Returns the number of points whose time is nearest to the time of 16 lines."""
+    """Returns the number of points whose render time is nearest to that of 16 lines."""
     lines = milliseconds(row_of(1, EXACT, 16))
     return min(COUNTS[POINTS], key=lambda count: abs(math.log(milliseconds(row_of(1, POINTS, count)) / lines)))
 

@@ -25,7 +25,7 @@ sys.path.insert(0, str(ROOT / "meshes"))
 import teapots  # noqa: E402
 
 FOLDER = RESULTS / "lines"
-MAGNIFIED = 4  # size of a detail's pixels on the sheet
+MAGNIFIED = 4  # width in px of a detail's pixels on the sheet
 PLACES = {"blurred edges": (38, 76), "in focus": (124, 68), "lights": (16, 0)}  # upper left corners of the details, px
 
 
@@ -40,7 +40,7 @@ def measure(program, folder):
 
 
 class Pictures:
-    """Images of the runs in a folder."""
+    """Reads the images of the runs in a folder."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -80,7 +80,7 @@ def draw_views(pictures, columns, texts, file):
 
 
 def draw_details(pictures):
-    """Draws the details, and writes their errors."""
+    """Draws enlarged details of the pictures, and writes the errors of these details."""
     texts, errors = [text_of(*column) for column in DETAILS], {}
 
     def row(index):

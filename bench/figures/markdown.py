@@ -1,4 +1,4 @@
-"""Markdown for the documents: tables, and the sentence that describes the run behind a table."""
+"""Makes Markdown for the documents: tables, and the sentence that describes the run behind a table."""
 
 from figures.results import command_of, run_of
 

@@ -21,12 +21,12 @@ OPTIONS = ["--no-dof", "--samples", "64", "--size", "512x384", "--environment", 
 
 
 def fitted(image):
-    """Returns the image scaled to fit into a picture of the sheet."""
+    """Returns the image, scaled to the size of a picture on the contact sheet."""
     return ImageOps.pad(image.convert("RGB"), (WIDTH, HEIGHT), Image.LANCZOS, PAPER)
 
 
 def pictures(program, models, scene, folder):
-    """Returns the picture of the program and that of the model's authors."""
+    """Returns the picture that the program renders, and the picture by the model's authors."""
     drawn = pathlib.Path(folder) / "picture.png"
     run(program, "render", models / f"{scene}.glb", "-o", drawn, *OPTIONS)
     theirs = next(models / f"{scene}{end}" for end in (".jpg", ".png") if (models / f"{scene}{end}").exists())

@@ -46,7 +46,7 @@ SCENES = {"school": [], "helmets": ["helmets.gltf"], "school-f11": ["--fstop", "
 
 
 class Point(NamedTuple):
-    """Errors and times in s of an image."""
+    """Errors of an image, and the times in s to render it."""
     cpu: float
     wall: float
     rmse: float
@@ -60,7 +60,7 @@ class Time(NamedTuple):
 
 
 def time_to(points, metric, target):
-    """Returns the interpolated Time at which the error falls to the target; None if it does not. points: by number of samples."""
+    """Returns the interpolated Time at which the error reaches the target, or None. points: by number of samples."""
     before = None
     for point in points:
         error = getattr(point, metric)
@@ -91,7 +91,7 @@ def cell(time):
 
 
 def winner(times):
-    """Returns the fastest renderer of a column, and its speed-up over embree-shared. times: {name: Time or None}."""
+    """Returns the renderer with the smallest time, and its speed-up over embree-shared. times: {name: Time or None}."""
     reached = {name: time for name, time in times.items() if time}
     if not reached:
         return "none"
@@ -140,7 +140,7 @@ def rendered_with_eevee(program, settings):
 
 
 def measure(arguments, name, folder):
-    """Returns the lines of a scene and the facts about its file."""
+    """Measures a scene. Returns its lines of the table, and the facts about its file."""
     words = [folder / word if word == "helmets.gltf" else word for word in SCENES[name]]
     if name == "helmets":
         write_copies(arguments.defocus, arguments.models / "FlightHelmet/FlightHelmet.gltf", 20, words[0])
@@ -203,5 +203,5 @@ def main(words):
             print(lines[0])
         lines += more
         print(*more, sep="\n", flush=True)
-        if arguments.output:  # after each scene, so that a killed run keeps its tables
+        if arguments.output:  # write after each scene, so that a killed run keeps its tables
             write_file(arguments.output, "\n".join(lines).rstrip() + "\n")

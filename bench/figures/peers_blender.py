@@ -17,7 +17,10 @@ REFERENCE_SEED = 1_000_000
 
 
 def emit_base_colour(material):
-    """Makes the surface emit vertex colour times factor. Cycles does not sample it as a light, because light does not bounce."""
+    """Makes the surface emit its base colour, vertex colour times factor.
+
+    Cycles does not sample the surface as a light, because light does not bounce.
+    """
     factor = next((socket.default_value[:] for node in material.node_tree.nodes if node.type == "MIX"
                    for socket in node.inputs if socket.type == "RGBA" and not socket.is_linked), (1, 1, 1))
     add, link = material.node_tree.nodes.new, material.node_tree.links.new
@@ -69,7 +72,7 @@ def times():
 
 
 def render(scene, samples, seed, file):
-    """Returns the wall-clock and the CPU time."""
+    """Renders an image. Returns the wall-clock time and the CPU time."""
     scene.cycles.samples = scene.eevee.taa_render_samples = samples
     scene.cycles.seed = seed
     begin = times()

@@ -25,7 +25,7 @@ FRAMES = 96
 
 class Scene(NamedTuple):
     name: str
-    subject: tuple  # options of the scene, and its path
+    subject: tuple  # options for the scene, and its path
     size: str
     focus: str  # focus distance of the lens images, m
     near: str  # near end of the focus range, m
@@ -95,6 +95,6 @@ def main(words):
             print_errors(program, scene, pathlib.Path(folder))
     print(f"\n{'scene':>8}{'size':>9}{'capture':>10}{'--refocus':>11}{'ratio':>7}{'rendered':>10}{'refocused':>11}\n"
           f"{'':>8}{'px':>9}{'s':>10}{'s':>11}{'':>7}{'s/frame':>10}{'s/frame':>11}")
-    for scene in SCENES[:3]:  # without the chess board, which moves
+    for scene in SCENES[:3]:  # not the chess board, which is animated
         with tempfile.TemporaryDirectory() as folder:
             print_film(program, scene, pathlib.Path(folder))

@@ -44,7 +44,7 @@ def contents(html):
 
 
 def headline(results):
-    """Returns the main result as a sentence; empty if there is none."""
+    """Returns a sentence on the main result; an empty text if there is none."""
     if "speedup" in results and (text := speedup_headline(results["speedup"])):
         return text
     competitors = results.get("results", {}).get("timesToErrors", [])

@@ -1,4 +1,4 @@
-"""HTML for parts of the report: pictures, tables, facts about a run."""
+"""Makes the HTML of parts of the report: pictures, tables, facts about a run."""
 
 import base64
 import io
@@ -124,7 +124,7 @@ def facts(results, more=()):
 
 
 def subject(results):
-    """Returns the table of facts about a convergence bench."""
+    """Returns the HTML table with the facts about a run of bench convergence."""
     lens, reference = results["lens"], results["reference"]
     remaining = reference["remaining"]
     focus = f"{lens['focusDistance']:g} m" if lens["focusDistance"] else "infinity"

@@ -1,4 +1,4 @@
-"""Plots in the sections of the report."""
+"""Draws the plots in the sections of the report."""
 
 from matplotlib.ticker import NullFormatter
 
@@ -51,7 +51,7 @@ def draw_own_error(axes, error):
 
 
 def bars(values, spreads):
-    """Returns the lengths of error bars below and above each value. spreads: (low, high) of each value."""
+    """Returns the lengths of the error bars below and above each value. spreads: a range (low, high) for each value."""
     return [[max(0, value - low) for value, (low, _) in zip(values, spreads)],
             [max(0, high - value) for value, (_, high) in zip(values, spreads)]]
 
@@ -154,7 +154,7 @@ def frame_time_plot(rows):
 def speedup_plot(rows):
     lines = []
     for label, line in speedup_series(rows):
-        if all(row["speedUp"] == 1 for row in line):  # full detail, the reference of the speed-up
+        if all(row["speedUp"] == 1 for row in line):  # skip full detail, to which the speed-up is relative
             continue
         lines.append((label, [(row["samples"], row["speedUp"]) for row in line]))
         for part, name in (("sizeOnly", "size only"), ("blurOnly", "blur only")):
@@ -179,7 +179,7 @@ def draw_modes(axes, points_of, size):
 
 
 def popping_plot(rows, samples):
-    """Plots pop, change and speed of levels frame by frame, with one column per movement."""
+    """Plots pops, changes and the speed of levels for each frame, with one column of plots per movement."""
     kinds = [("stepRmse", "pop, RMSE"), ("changeRmse", "change, RMSE"), ("speed", "levels a frame")]
     movements = list(dict.fromkeys(row["movement"] for row in rows))
     figure, plots = new_plots(len(movements), 0.8, 7.5, len(kinds))

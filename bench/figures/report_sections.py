@@ -1,4 +1,4 @@
-"""Sections of the report, one per bench: functions that return HTML from results, their folder and the report's."""
+"""Makes the sections of the report, one per bench, as HTML from the results, their folder and the report's folder."""
 
 import math
 import sys
@@ -14,7 +14,7 @@ from figures.rows import seeds_text, speedup_headline, spread_text, time_text, t
 
 
 def note_text(row):
-    """Returns the fault of a row; for a valid row, its Pareto fronts and which errors are below the reference's own."""
+    """Returns a row's fault. For a valid row, returns its Pareto fronts, and its errors below the reference's own."""
     if row["fault"]:
         return f"<b>{escape(row['fault'])}</b>"
     fronts = ["all" if row["front"] else "method" if row["frontOfMethod"] else "", "FLIP" if row["frontByFlip"] else ""]

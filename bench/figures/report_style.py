@@ -1,4 +1,4 @@
-"""CSS and JavaScript of the report page."""
+"""Contains the CSS and the JavaScript of the report page."""
 
 from figures.report_html import CROP_WIDTH
 from figures.report_svg import PALETTE

@@ -1,4 +1,4 @@
-"""Plots of the report: matplotlib axes in the page's colours, as SVG elements with a tooltip for each point."""
+"""Draws plots of the report with matplotlib: SVG elements in the page's colours with a tooltip for each point."""
 
 import html
 import io
@@ -58,7 +58,7 @@ def as_svg(figure, name, description):
 
 
 def new_plots(count, right, height, rows=1):
-    """Returns a figure and its axes by row and column; all axes of a row share the y axis."""
+    """Returns a figure and its plots by row and column; all plots of a row share the y axis."""
     plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "defocus", "font.size": 10})
     figure, plots = plt.subplots(rows, count, figsize=(10, height), sharex="col" if rows > 1 else False, sharey="row",
                                  squeeze=False)
@@ -85,7 +85,7 @@ def logarithmic(axis, text):
 
 
 def spread_apart(heights, step, top):
-    """Moves ascending heights at least `step` apart and to at most `top`: first upwards, then downwards."""
+    """Moves ascending heights until they are at least `step` apart and at most `top`: first upwards, then downwards."""
     spread = []
     for height in heights:
         spread.append(max(height, spread[-1] + step) if spread else height)

@@ -1,4 +1,4 @@
-"""Rows of results: labels, texts for values, comparisons between rows."""
+"""Describes and compares rows of results: labels, texts for values, times at equal error."""
 
 import math
 
@@ -8,7 +8,7 @@ MODES = {  # level mode: (label, index into the palette)
 METRICS = {"error": " by error", "proportional": " by blur over box", "score": " by score"}
 
 
-# ---- texts ----------------------------------------------------------------------------------------------------------
+# ---- texts for rows and values --------------------------------------------------------------------------------------
 
 
 def label_of(row):
@@ -25,7 +25,7 @@ def label_of(row):
 
 
 def drawn_text(row, part=""):
-    """Returns the label of a `bench speedup` row, or of a part of it, such as "jeong2011, fractional levels"."""
+    """Returns the label of a `bench speedup` row, or of a part of the row, such as "jeong2011, fractional levels"."""
     drawn = part or (MODES[row["lod"]][0] if row["method"] == "accumulation" else row["method"])
     return f"{row['preset']}, {drawn}" if row["preset"] else drawn
 
@@ -67,7 +67,7 @@ def below_reference(rmse_below, flip_below):
     return f"{' and '.join(words)} below the reference’s own error" if words else ""
 
 
-# ---- values ---------------------------------------------------------------------------------------------------------
+# ---- values computed from rows --------------------------------------------------------------------------------------
 
 
 def median(row):

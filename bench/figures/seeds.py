@@ -91,7 +91,7 @@ def limited_work():
 
 
 def times_longer():
-    """Returns the ratio of the times of stochastic points and accumulation, as a range over errors that both reach."""
+    """Returns how much longer stochastic points take than accumulation, as a range over the errors that both reach."""
     by_name = {method["name"]: [time["milliseconds"] for time in method["times"]]
                for method in run_of("llvmpipe-methods-lens-space")["timesToErrors"]}
     pairs = zip(by_name["stochastic at full detail"], by_name["accumulation at full detail"])
@@ -192,7 +192,7 @@ def scheuermann():
 
 
 def kernel_errors():
-    """Returns (error, lowest value) of the kernels with one and two components: ours, and Niemitalo's."""
+    """Returns (error, lowest value) of our kernels with one and two components, and of Niemitalo's kernels."""
     rows = {}
     wanted = False
     for line in lines_of("llvmpipe-post-process"):
@@ -269,7 +269,7 @@ def garcia():
 
 
 def buckets():
-    """Returns the table of FLIP by number of transparency buckets."""
+    """Returns the table of the error (FLIP) by the number of buckets for transparency."""
     names = {"artefact-panes.gltf": "panes", "AlphaBlendModeTest.glb": "test of alpha modes", "FlightHelmet.gltf": "helmet with goggles",
              "GlassVaseFlowers.glb": "flowers in a vase"}
     counts = ["circular, transparency-buckets=0", "circular, standard", "circular, transparency-buckets=2"]
@@ -354,7 +354,7 @@ def lee():
     ]
 
 
-# ---- checks ---------------------------------------------------------------------------------------------------------
+# ---- checks of tests and links --------------------------------------------------------------------------------------
 
 
 @functools.cache

@@ -1,4 +1,4 @@
-"""Tables of speed, error and popping. Each function in TABLES returns a table as Markdown."""
+"""Makes the tables of speed, error and popping. Each function in TABLES returns a table as Markdown."""
 
 import re
 import textwrap
@@ -43,7 +43,7 @@ def speed_table(name):
 
 
 def measured():
-    """Returns the table of levels by measured error."""
+    """Returns the table of speed-ups and errors of levels that are chosen by measured error."""
     rows = []
     for count, modes in samples_sweep(OWN):
         full, levels = modes["off"], modes["fractional"]
@@ -56,7 +56,7 @@ def measured():
 
 
 def levels():
-    """Returns the table of times and errors of levels by measured error on two machines, size and blur combined."""
+    """Returns the table of times and errors, on two machines, of levels chosen by measured error from size and blur."""
     def own_times(modes):
         return [*(f"{seconds(modes[mode]):.2f}" for mode in ("off", "fractional")), f"{modes['fractional']['speedUp']:.1f}"]
 
@@ -127,7 +127,7 @@ def demo():
 
 
 def seeds():
-    """Returns the table of differences caused by other lens samples, beside those caused by levels."""
+    """Returns the table of differences that other lens samples cause, beside the differences that levels cause."""
     names = {"seed": "full detail, other lens samples (`--seed 1`)", "levels": "levels, same lens samples"}
     rows = []
     for line in lines_of("llvmpipe-seeds"):

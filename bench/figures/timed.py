@@ -11,7 +11,7 @@ from figures.files import read_json
 
 
 class Times(NamedTuple):
-    """Times of one run, in seconds, and its memory."""
+    """Times of one run, in seconds, and the memory that it used."""
     wall: float
     processor: float  # CPU time of the program, summed over all cores
     memory: float = 0  # peak memory, MiB

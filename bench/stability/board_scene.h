@@ -1,5 +1,5 @@
 #pragma once
-// Builds scenes whose images have a closed form: upright unlit boards in front of a uniform background.
+// Builds scenes whose exact images can be computed: upright unlit boards in front of a uniform background.
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -12,10 +12,10 @@
 namespace defocus::engine {
 
 struct Board {
-    double depth = 2;        // m
+    double depth = 2;        // depth of the board, m
     glm::dvec2 centre{0};    // centre in m, in the plane at `depth`
-    glm::dvec2 halfSize{1};  // m
-    glm::vec3 radiance{1};   // linear RGB
+    glm::dvec2 halfSize{1};  // half the width and height, m
+    glm::vec3 radiance{1};   // radiance in linear RGB
 };
 
 // Returns the view of a camera at the origin with a 50 mm f/1 lens and a 36 mm sensor, focused at 2 m.
@@ -27,20 +27,20 @@ struct BoardScene {
     std::shared_ptr<Scene> scene = std::make_shared<Scene>();  // the scene that `world` refers to
     World world;
     View view;
-    RenderSettings settings;  // full detail, no culling
+    RenderSettings settings;  // settings for full detail without culling
 };
 
-// Renders the scene. `method`: in the format of parseMethodUse.
+// Renders the scene with a method. `method`: name and settings in the format of parseMethodUse.
 Image rendered(const BoardScene& boards, const std::string& method = "accumulation",
                const RendererOptions& options = {});
 
-// Returns a square board that is `pixels` px wide. `offset` is the position of its centre relative to the image's
-// centre, px (right, up).
+// Returns a square board that appears `pixels` px wide in the image. `offset` is the position of its centre relative to
+// the image's centre, px (right, up).
 Board squareAt(const View& view, double depth, double pixels, const glm::vec3& radiance,
                const glm::dvec2& offset = glm::dvec2(0));
 
-// Returns three boards: in front of the focus at depth `nearest`, in focus at 2 m, and behind the focus at depth
-// `farthest`.
+// Returns three boards: in front of the focal plane at depth `nearest`, in focus at 2 m, and behind the focal plane at
+// depth `farthest`.
 std::vector<Board> threeBoards(const View& view, double nearest, double farthest);
 
 // Returns the max difference of linear values over all pixels and channels; infinity if a value of either image isn't
@@ -51,17 +51,17 @@ double largestError(const Image& a, const Image& b);
 // depth z in m, and W the width of the image in px. Computed in double from the lens alone.
 double blurDiameter(const View& view, double depth);
 
-// Errors of a blurred light made by squareAt, relative to the closed form. The measured diameter is derived from the
-// second moment.
+// Errors of the image of a blurred square light (made by squareAt) relative to the exact image. The measured diameter
+// is that of a uniform disk with the same second moment.
 struct BlurredLight {
-    double diameterError = 0;  // px
+    double diameterError = 0;  // error of the measured blur diameter, px
     double placeError = 0;     // distance of the disk's centre from its exact position, px
 };
 
 // Arguments of squareAt for a light, and the image channel in which the light is measured. Near the light's disk, this
 // channel must contain no other light.
 struct LightPlace {
-    double depth = 6;      // m
+    double depth = 6;      // depth of the light, m
     double pixels = 3;     // width of the light, px
     glm::dvec2 offset{0};  // offset from the image's centre, px (right, up)
     int channel = 0;

@@ -1,5 +1,5 @@
-// Straight edges under extreme blur. The exact profile of such an edge is the area of the blur disk on one side of the
-// edge.
+// Tests straight edges under extreme blur. The exact image of such an edge at a pixel is the fraction of the blur disk
+// on one side of the edge.
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double edgeTurn = 0.5;   // rotation, radians; aligned with neither rows nor columns
-constexpr double edgeOffset = 10;  // distance from the image's centre, px
+constexpr double edgeTurn = 0.5;   // rotation of the edge in radians, aligned with neither rows nor columns
+constexpr double edgeOffset = 10;  // distance of the edge from the image's centre, px
 constexpr std::uint32_t edgeSamples = 4096;
 
 // A half plane whose edge crosses the image, in front of a wall. Both have a uniform colour.
@@ -32,7 +32,7 @@ double diskShare(double distance, double diameter) {
     return 0.5 + (x * std::sqrt(1 - x * x) + std::asin(x)) / std::numbers::pi;
 }
 
-// Returns the max error of a pixel relative to the closed form. The pixel's rays cross the depth of the half plane
+// Returns the max error of a pixel relative to the exact image. The pixel's rays cross the depth of the half plane
 // within one disk; the rays that pass the edge see the wall, so both fractions add up to 1.
 double edgeError(const Edge& edge) {
     const View& view = edge.view;
@@ -67,7 +67,7 @@ Edge macroEdge(double fStop, double depth) {
     return edge;
 }
 
-// Returns an edge at 0.02 m in front of a wall at 2,000 km, with a focus that blurs both.
+// Returns an edge at 0.02 m in front of a wall at 2,000 km, with a focus distance at which both are blurred.
 Edge deepEdge() {
     Edge edge{.view = boardView(), .depth = 0.02, .wall = 2e6};
     edge.view.lens.focusDistance = 0.035;

@@ -1,5 +1,5 @@
-// Lenses at their limits: diameter and position of the blur for extreme apertures, focus distances, fields of view and
-// image sizes.
+// Tests lenses at their limits: diameter and position of the blur for extreme apertures, focus distances, fields of
+// view and image sizes.
 
 #include <fmt/format.h>
 
@@ -25,10 +25,11 @@ struct LensSetting {
     double focusDistance = 2;  // m
     double depth = 6;          // m
     double nearPlane = 0.01;   // m
-    int width = 96;            // width in px; the height is 64 px
+    int width = 96;            // image width in px; the height is 64 px
 };
 
-// Returns the error (px) of a point's blur diameter, measured by the second moment, relative to the formula.
+// Returns the error (px) of the blur diameter of a small light relative to the formula. The diameter is derived from
+// the second moment of the light's image.
 double diameterError(const LensSetting& setting) {
     View view = boardView(setting.width, 64);
     view.lens.fStop = setting.fStop;
@@ -61,7 +62,7 @@ double farFocusError() {
     return largestError(image, rendered(boards));
 }
 
-// Returns the errors of a blurred light near the corner of the image. `fieldOfView`: degrees.
+// Returns the errors of a blurred light near the corner of the image, for a horizontal field of view in degrees.
 BlurredLight lightInField(double fieldOfView) {
     View view = boardView(192, 128);
     view.lens.focalLength = view.lens.horizontalAperture / (2 * std::tan(fieldOfView * std::acos(-1.0) / 360));
@@ -96,8 +97,8 @@ BlurredLight lightsInLargeImage(int width, int height) {
     return largest;
 }
 
-// Returns a function that measures the light on its first call and then returns the same result, so that two rows can
-// share it.
+// Returns a function that measures `light` on its first call and later returns the same result, so that two rows can
+// share one measurement.
 std::function<BlurredLight()> measuredOnce(const std::function<BlurredLight()>& light) {
     return [light, known = std::make_shared<std::optional<BlurredLight>>()] {
         if (!*known) *known = light();

@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double square = 3;  // width of the light, px
+constexpr double square = 3;  // width of the light before the blur, px
 
 struct Case {
     std::string varied;

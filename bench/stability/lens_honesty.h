@@ -1,7 +1,7 @@
 #pragma once
-// Tests whether a method's blur depends on the lens alone. Compares diameter and energy of a blurred point of light
-// with the formula, while one parameter at a time is varied: f-number, focus distance, depth, sensor, lens samples,
-// resolution, or a setting of the method.
+// Tests whether a method's blur depends on the lens alone. Compares the diameter and the total radiance (energy) of a
+// blurred point of light with the lens equation, while one parameter at a time is varied: f-number, focus distance,
+// depth, sensor, lens samples, resolution, or a setting of the method.
 
 #include <functional>
 #include <string>
@@ -11,24 +11,24 @@
 
 namespace defocus::engine {
 
-// A method follows the lens equation if the blur disk of a point of light has at most these errors.
-inline constexpr double honestDiameter = 0.5;  // max error of the diameter, px
-// Error of the energy, relative to the energy of the light without blur. Noise alone gives 0.02 for methods with 256
-// independent samples per pixel.
+// Max errors with which the blur disk of a small light counts as following the lens equation.
+inline constexpr double honestDiameter = 0.5;  // max error of the disk's diameter, px
+// Max error of the disk's total radiance (energy), relative to that of the light without blur. Noise alone gives 0.02
+// for methods with 256 independent samples per pixel.
 inline constexpr double honestEnergy = 0.05;
 
 struct HonestyRow {
-    std::string method;        // name and settings, in the format of parseMethodUse
+    std::string method;        // name of the method and its settings, in the format of parseMethodUse
     std::string varied;        // varied parameter, such as "f/2.8"
-    double expected = 0;       // diameter by the formula, px
-    double measured = 0;       // diameter by the second moment, px
-    double energy = 0;         // relative to the energy of the sharp light
+    double expected = 0;       // blur diameter by the lens equation, px
+    double measured = 0;       // blur diameter derived from the image's second moment, px
+    double energy = 0;         // sum of the light's radiance, relative to the light without blur
     std::string leftOut = {};  // why the driver cannot draw the method; empty if it can
     [[nodiscard]] bool followsLens() const;
 };
 
-// Returns every method of the table with its defaults, each followed by its variants. A variant changes one setting to
-// another of its choices, or to its max value.
+// Returns every method of the program's table with its default settings, each followed by variants of these settings. A
+// variant changes one setting to another of its choices, or to its max value.
 std::vector<std::string> honestyMethods();
 
 // Measures all rows of each method. The light is a square of 3 px, in front of a black wall at nearly the same depth.

@@ -1,4 +1,4 @@
-// Meshes that are difficult to simplify: flat, huge, tiny, sliver and degenerate grids.
+// Tests levels of meshes that are difficult to simplify: flat, huge, tiny, sliver and degenerate grids.
 
 #include <fmt/format.h>
 
@@ -56,7 +56,7 @@ double flatError(const Mesh& mesh, double area, double side) {
     return largest;
 }
 
-// Returns a grid with additional degenerate triangles: with repeated indices, or with collinear corners.
+// Returns a grid with additional degenerate triangles: some repeat an index, others have collinear corners.
 Mesh besetGrid() {
     Mesh mesh = gridMesh(24, 1, 1);
     auto& indices = mesh.primitives[0].indices;

@@ -1,4 +1,4 @@
-// Motion that a single straight segment between shutter opening and closing cannot represent.
+// Tests motion that a single straight segment between shutter opening and closing cannot represent.
 
 #include <cmath>
 #include <functional>
@@ -15,14 +15,14 @@ namespace {
 
 constexpr std::uint32_t movingSamples = 1024;
 constexpr double halfSide = 8;  // half the side of the white square, px
-constexpr double way = 40;      // length of the square's path, px
+constexpr double way = 40;      // length of the square's path in the image, px
 constexpr double squareDepth = 4;
 
-// Returns the square's matrix at `time` in [0, 1] of the exposure. `middle` is the square's matrix at the image's
-// centre.
+// Returns the matrix of a square at `time` in [0, 1] of the exposure. `middle` is the matrix that puts the square at
+// the image's centre.
 using Path = std::function<glm::dmat4(const glm::dmat4& middle, double time)>;
 
-Image movedSquare(const Path& path, int segments) {  // segments = 0: one pose per sample
+Image movedSquare(const Path& path, int segments) {  // 0 segments: one pose per sample
     View view = boardView(128, 64);
     view.lens.dofEnabled = false;
     BoardScene square(view, {squareAt(view, squareDepth, 2 * halfSide, glm::vec3(1))});
@@ -40,7 +40,7 @@ Image movedSquare(const Path& path, int segments) {  // segments = 0: one pose p
     return rendered(square);
 }
 
-// Returns a path on which the square moves back and forth `turns` times at constant speed.
+// Returns a path on which a square moves back and forth `turns` times at constant speed.
 Path toAndFro(int turns) {
     return [turns](const glm::dmat4& middle, double time) {
         const double phase = time * turns - std::floor(time * turns);
@@ -85,7 +85,7 @@ double spinError() {
     return std::sqrt(sum / (static_cast<double>(image.width) * image.height));
 }
 
-// Returns the number of values outside [0, 1] in the image of a square that moves through the camera and back.
+// Returns how many values of the image lie outside [0, 1] if a square moves through the camera and back.
 double throughCameraError() {
     const Image image = movedSquare(
         [](const glm::dmat4& middle, double time) {

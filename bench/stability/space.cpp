@@ -1,4 +1,4 @@
-// Scenes with extreme dimensions: scales, distances, depth ratios and surfaces that cross the camera plane.
+// Tests scenes with extreme dimensions: scales, distances, depth ratios and surfaces that cross the camera plane.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the RMSE between a scene and the same scene scaled by `scale`, including the aperture.
+// Returns the RMSE between the image of a scene and the image of the same scene and lens, both scaled by `scale`.
 double scaleError(double scale) {
     const View view = boardView();
     BoardScene boards(view, threeBoards(view, 1.2, 5), glm::vec3(0.4f));
@@ -48,7 +48,7 @@ double ownDistanceError(double distance) {
     BoardScene near(view, {squareAt(view, 2, 9, glm::vec3(1), {31.3, 17.7})});
     BoardScene far(view, {squareAt(view, 2, 9, glm::vec3(1), {31.3, 17.7})});
     glm::dmat4& worldFromObject = far.world.pose.objects[0].worldFromObject;
-    // In mesh units; integer offsets up to 2²³ are exact in floats.
+    // Position in mesh units. Integer offsets up to 2²³ are exact in floats.
     const glm::vec3 offset(
         glm::round(glm::vec3(distance / worldFromObject[0].x, -0.5 * distance / worldFromObject[1].y, 0)));
     for (glm::vec3& position : far.scene->meshes[0].vertices.positions) position += offset;
@@ -67,7 +67,7 @@ double ownDistanceError(double distance) {
     return largest;
 }
 
-// Returns the max difference between the image of a floor that begins behind the camera and one that begins at the near
+// Returns the max difference between the images of two floors: one begins behind the camera, the other at the near
 // plane.
 double cameraPlaneError() {
     const View view = boardView();

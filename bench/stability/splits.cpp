@@ -17,9 +17,9 @@ namespace {
 
 constexpr double nudge = 1e-6;                 // tiny change of λ
 constexpr double oneSample = 1 + 1e-4;         // max change: one sample, plus rounding of 32-bit layers
-constexpr std::uint32_t renderedSamples = 60;  // not a multiple of the size of a batch of samples
+constexpr std::uint32_t renderedSamples = 60;  // not a multiple of the number of samples drawn together
 
-// Returns the number of samples whose level changes when the level of detail λ crosses the integer `level`.
+// Returns the number of samples that change their level when the fractional level λ crosses the integer `level`.
 double splitError(double level, std::uint32_t samples) {
     const auto levelsOf = [&](double lambda) {
         const SampleSplit split = splitSamples(lambda, samples, LodMode::fractional);
@@ -34,7 +34,7 @@ double splitError(double level, std::uint32_t samples) {
     return moved;
 }
 
-// ---- a ball ---------------------------------------------------------------------------------------------------------
+// ---- the rendered scene: a ball -------------------------------------------------------------------------------------
 
 // Returns a unit sphere made of rings of quads. Its levels have different silhouettes.
 Mesh ballMesh() {
@@ -60,7 +60,7 @@ Mesh ballMesh() {
     return mesh;
 }
 
-// A white ball on black. A lens sample draws each pixel without antialiasing, as 0 or 1.
+// A scene with a white ball on black. Within a lens sample, each pixel is not antialiased: it is 0 or 1.
 struct Ball : BoardScene {
     Ball() : BoardScene(boardView(), {{5, {0, 0}, {1, 1}, glm::vec3(1)}}) {
         scene->meshes[0] = ballMesh();
@@ -85,8 +85,8 @@ Image imageAt(Ball& ball, double lambda, LodMode mode) {
                     {.layerFormat = LayerFormat::rgba32f, .wave = 8, .shaderFolder = {}, .settings = {}});
 }
 
-// Returns the max change of a pixel between two values of λ, in units of 1/N for N samples: one sample changes a pixel
-// by at most 1.
+// Returns the max change of a pixel when λ changes from `from` to `to`, in units of 1/N for N samples. One sample
+// changes a pixel by at most 1 unit.
 double movedSamples(double from, double to, LodMode mode) {
     Ball ball;
     const Image before = imageAt(ball, from, mode);
@@ -109,7 +109,7 @@ void addSplitCases(std::vector<StabilityCase>& cases) {
     };
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous}) {
         const char* name = lodModeName(mode);
-        // λ at which the 21st sample changes to the coarser level (fractional) or begins to change (continuous).
+        // λ at which the 21st sample switches to the coarser level (fractional) or begins to switch (continuous).
         const double boundary = 1 + (mode == LodMode::fractional ? 20.5 : 20) / renderedSamples;
         for (const double level : {1.0, 2.0})
             add(fmt::format("rendered: level {:g} by ±1e-6, {}", level, name), oneSample, level - nudge, level + nudge,

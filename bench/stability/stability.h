@@ -14,10 +14,10 @@ namespace defocus::engine {
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct StabilityCase {
-    std::string area;       // "sums", "lens", "motion", "space", "values", "levels", "traced"
-    std::string name;       // short description of the difficulty
+    std::string area;       // tested area: "sums", "lens", "motion", "space", "values", "levels", "traced"
+    std::string name;       // short description of what makes the case difficult
     std::string measured;   // name and unit of the measured error
-    std::string reference;  // reference of the comparison, such as "closed form" or "double sum"
+    std::string reference;  // exact or comparison value, such as "closed form" or "double sum"
     double limit = 0;       // max error that passes; infinity: for comparison only
     std::function<double()> error;
     std::string method = {};  // method that renders the reference; empty: none
@@ -26,16 +26,16 @@ struct StabilityCase {
 struct StabilityRow {
     StabilityCase subject;
     double error = 0;
-    bool leftOut = false;  // true if this program lacks the method of the reference
-    [[nodiscard]] bool failed() const { return !leftOut && !(error <= subject.limit); }  // an error of NaN fails
+    bool leftOut = false;  // true: this program lacks the method of the reference
+    [[nodiscard]] bool failed() const { return !leftOut && !(error <= subject.limit); }  // a NaN error fails
 };
 
-// Returns all cases. StabilityCase::error needs a current GL context.
+// Returns all cases. Measuring a case (StabilityCase::error) needs a current GL context.
 std::vector<StabilityCase> stabilityCases();
 
 void measureStability(const std::function<void(const StabilityRow&)>& visit, const Progress& progress = {});
 
-// Each function adds the cases of one file to stabilityCases().
+// Each function below adds the cases of one source file to stabilityCases().
 void addSumCases(std::vector<StabilityCase>& cases);
 void addLensCases(std::vector<StabilityCase>& cases);
 void addEdgeCases(std::vector<StabilityCase>& cases);

@@ -1,4 +1,4 @@
-// Sums of many samples, and the rounding of layers.
+// Tests the accuracy of sums over many samples, and the rounding of the renderer's layer formats.
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double sumLimit = 1e-6;              // max error relative to the sum of the same layers in double
+constexpr double sumLimit = 1e-6;              // max error relative to the same layers summed in double
 constexpr double halfLimit = 0x1p-11 * 1.001;  // max relative rounding error of a half float
 constexpr double comparison = std::numeric_limits<double>::infinity();
 
@@ -38,14 +38,14 @@ double largestRelativeError(const Image& image, const glm::dvec3& reference) {
     return largest;
 }
 
-// Returns the relative error of the renderer's sum. 32-bit layers store the radiance exactly, so the error is from
-// summation only.
+// Returns the relative error of the renderer's sum of equal values. 32-bit layers store the value exactly, so the error
+// comes only from summation.
 double constantError(float value, std::uint32_t samples) {
     return largestRelativeError(wall(glm::vec3(value), samples, exactLayers), glm::dvec3(value));
 }
 
-// Returns the relative error of a plain sum in floats, without compensation. Batches of `wave` samples are summed
-// first.
+// Returns the relative error of a plain float sum, without compensation of rounding errors. Batches of `wave` samples
+// are summed first.
 double plainError(float value, std::uint32_t samples, std::uint32_t wave) {
     float sum = 0;
     for (std::uint32_t i = 0; i < samples; i += wave) {
@@ -57,7 +57,7 @@ double plainError(float value, std::uint32_t samples, std::uint32_t wave) {
 }
 
 // Returns the max relative error for a light of 10,000 that is blurred over a background of 0.0001. The reference is
-// the sum in double of the samples, each drawn alone.
+// the sum in double of the samples, each drawn separately.
 double mixedError() {
     constexpr std::uint32_t samples = 300;
     View view = boardView(24, 16);

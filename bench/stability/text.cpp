@@ -21,7 +21,7 @@ std::string verdict(const StabilityRow& row) {
     return row.failed() ? "FAILED" : "ok";
 }
 
-// Pads UTF-8 text to `width` code points.
+// Pads UTF-8 text with spaces to `width` code points.
 std::string padded(const std::string& text, std::size_t width) {
     const auto characters = static_cast<std::size_t>(
         std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));

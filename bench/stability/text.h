@@ -10,8 +10,8 @@
 
 namespace defocus::engine {
 
-// Returns the line of a row. A heading precedes it if area, error or reference differ from those of `before`, the
-// previous row; null: first row.
+// Returns the line of a row. If area, error or reference differ from those of the previous row `before`, a heading
+// precedes the line. `before` is null for the first row.
 std::string stabilityLine(const StabilityRow& row, const StabilityRow* before);
 std::string honestyHeader();
 std::string honestyLine(const HonestyRow& row);

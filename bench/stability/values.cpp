@@ -1,4 +1,4 @@
-// NaN in materials and environment maps, which must not affect pixels outside the NaN's own blur.
+// Tests that NaN in materials and environment maps affects only the pixels inside the NaN's own blur.
 
 #include <fmt/format.h>
 
@@ -40,9 +40,10 @@ double materialError() {
 
 // ---- a texel of an environment map ----------------------------------------------------------------------------------
 
-constexpr int mapWidth = 256;  // texels
+constexpr int mapWidth = 256;  // width of the environment map, texels
 
-// Returns an environment map of uniform radiance 0.5. If x ≥ 0, the texel in column `x` at the horizon is NaN.
+// Returns an environment map with the radiance 0.5 everywhere. If x ≥ 0, the texel in column `x` at the horizon is NaN
+// instead.
 Environment surroundings(int x) {
     const auto map = std::make_shared<Image>(mapWidth, mapWidth / 2, 3);
     std::fill(map->pixels.begin(), map->pixels.end(), 0.5f);
@@ -53,12 +54,12 @@ Environment surroundings(int x) {
 // Returns the number of wrong pixels of a blurred sky with a NaN texel: outside [0, 0.5], or changed outside the
 // texel's blur.
 double skyTexelError(LayerFormat format) {
-    constexpr double blur = 12;  // diameter, px
+    constexpr double blur = 12;  // diameter of the blur, px
     View view = boardView();
     setBlur(view, infinite, blur);
     const double texel =
         2 * std::acos(-1.0) / mapWidth * view.width * view.lens.focalLength / view.lens.horizontalAperture;
-    // The texel is to the right of and below the image's centre; filtering spreads it over its neighbours.
+    // The texel lies to the right of and below the image's centre. Texture filtering spreads it over its neighbours.
     const double reach = 0.5 * blur + texel + 1;
     const auto picture = [&](int x) {
         BoardScene sky(view, {});

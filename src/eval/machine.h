@@ -7,10 +7,10 @@
 namespace defocus::engine {
 
 struct Machine {
-    std::string processor;  // such as "AMD EPYC …"; empty if unknown
-    unsigned threads = 0;   // hardware threads
+    std::string processor;  // name of the processor, such as "AMD EPYC …"; empty if unknown
+    unsigned threads = 0;   // number of hardware threads
     std::uint64_t memoryBytes = 0;
-    std::string system;  // such as "Linux 6.1.0 x86_64"
+    std::string system;  // operating system, such as "Linux 6.1.0 x86_64"
 };
 
 Machine thisMachine();

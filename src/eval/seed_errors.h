@@ -1,6 +1,6 @@
 #pragma once
-// Errors of images that differ only in the seed of their lens samples. The range of these errors shows the random part
-// of the error.
+// Summarises errors of images that differ only in the seed of their lens samples. The range of these errors shows the
+// random part of the error.
 
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
@@ -9,7 +9,7 @@
 
 namespace defocus::engine {
 
-// Error of one seed's image relative to the common reference, computed from display-encoded values.
+// Error of the image of one seed relative to the reference that all seeds share, computed from display-encoded values.
 struct SeedError {
     double rmse = 0;
     double flip = 0;

@@ -1,5 +1,5 @@
-// Source: Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field Rendering (level selection from blur and projected
-// size).
+// Plans a frame. Source: Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field Rendering (selection of levels from
+// blur and projected size).
 
 #include "plan/frame_plan.h"
 
@@ -67,7 +67,7 @@ bool hasTextures(const Scene& scene, const Mesh& mesh) {
     });
 }
 
-// Returns a plan of the object with pose, bounding box, depths and blur, but without levels.
+// Returns a plan of the object with its pose, bounding box, depths and blur, but without chosen levels.
 ObjectPlan placedObject(const World& world, const FramePlan& plan, std::size_t index, const glm::dmat4& viewFromWorld) {
     const Object& object = world.pose.objects[index];
     ObjectPlan result;
@@ -110,7 +110,7 @@ double selectedLevel(const Pyramid& pyramid, const ObjectPlan& object, const Fra
     LevelQuery query;
     const double centre = -object.viewBox.centre().z;
     const double depth = plan.settings.metric == LodMetric::score ? centre : object.nearestDepth;
-    // Image size in px of 1 m at a depth of 1 m.
+    // Projected size in px of a length of 1 m at a depth of 1 m.
     const double pixelsAtUnitDepth = plan.view.width / (2 * plan.tanHalfHorizontal);
     query.pixelsPerUnit = largestScale(object.pose) * pixelsAtUnitDepth / depth;
     const glm::dvec3 box = object.viewBox.size();
@@ -140,7 +140,7 @@ void chooseLevels(ObjectPlan& object, const Pyramid& pyramid, const FramePlan& p
     object.fine = draw(split.level, split.coarseCount, sampleCount - split.coarseCount);
 }
 
-// Chooses whether the triangles of the drawn levels are divided, so that the circle of confusion is linear inside each
+// Chooses how the triangles of the drawn levels are divided, so that the circle of confusion is linear inside each
 // triangle.
 void chooseRefinement(ObjectPlan& object, const World& world, const FramePlan& plan) {
     if (!plan.usesCocControls) return;
@@ -163,7 +163,7 @@ void chooseRefinement(ObjectPlan& object, const World& world, const FramePlan& p
     if (object.cocDeviation.curved > plan.settings.cocTolerance) object.refinement = Refinement::subdivide;
 }
 
-// Approximate max number of small triangles per lens sample into which all objects are divided.
+// Approximate max number of small triangles that all objects together are divided into, per lens sample.
 constexpr double maxSmallTriangles = 4e6;
 
 // Returns the approximate number of small triangles of the object's drawn levels with at most `maxParts` parts per
@@ -199,7 +199,7 @@ void boundDivisions(FramePlan& plan, const World& world) {
     for (ObjectPlan& object : plan.objects) object.maxParts = parts;
 }
 
-// Returns the reason why the object need not be drawn; empty if the object must be drawn.
+// Returns why the object need not be drawn; empty if the object must be drawn.
 std::string reasonToLeaveOut(const World& world, const FramePlan& plan, const ObjectPlan& object) {
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
     if (pyramid.levels.front().triangleCount == 0) return "it has no triangles";
@@ -207,7 +207,7 @@ std::string reasonToLeaveOut(const World& world, const FramePlan& plan, const Ob
     return "";
 }
 
-// Moves values[order[i]] to values[i] in place, along the cycles of the permutation.
+// Reorders the values in place, so that values[order[i]] moves to values[i]. Follows the cycles of the permutation.
 void arrange(std::vector<ObjectPlan>& values, std::vector<std::size_t> order) {
     for (std::size_t begin = 0; begin < order.size(); ++begin) {
         if (order[begin] == begin) continue;
@@ -224,8 +224,8 @@ void arrange(std::vector<ObjectPlan>& values, std::vector<std::size_t> order) {
 }
 
 // Adds the potentially visible objects to the plan, nearest first, so that near objects occlude farther objects early.
-// Returns the other objects if RenderSettings::keepAll is set. If `all` isn't null, it receives all objects in the
-// order of the pose.
+// Returns the invisible objects if RenderSettings::keepAll is set, else none. If `all` isn't null, it receives all
+// objects in the order of the pose.
 std::vector<ObjectPlan> placeObjects(FramePlan& plan, const World& world, std::vector<ObjectPlan>* all) {
     const glm::dmat4 viewFromWorld = glm::inverse(plan.view.worldFromCamera);
     std::vector<ObjectPlan>& objects = plan.objects;
@@ -257,7 +257,8 @@ std::vector<ObjectPlan> placeObjects(FramePlan& plan, const World& world, std::v
     return unseen;
 }
 
-// Returns the largest CoC in px of all drawn objects. A visible background counts if its colour varies.
+// Returns the largest CoC in px of all drawn objects. The background counts as an object if it is visible and its
+// colour varies.
 double largestBlur(const FramePlan& plan, const World& world) {
     double largest = 0;
     for (const ObjectPlan& object : plan.objects) largest = std::max(largest, object.coc.largest);
@@ -267,7 +268,7 @@ double largestBlur(const FramePlan& plan, const World& world) {
     return largest;
 }
 
-// Switches to a pinhole if no blur is visible.
+// Replaces the lens by a pinhole if no blur is visible.
 void leaveOutLens(FramePlan& plan, const World& world) {
     plan.largestBlur = largestBlur(plan, world);
     plan.usesLens = plan.settings.keepAll || plan.settings.refocus || plan.largestBlur >= minBlur;
@@ -283,8 +284,8 @@ void leaveOutLens(FramePlan& plan, const World& world) {
     }
 }
 
-// Reduces a frame without visible blur to the samples that antialiasing needs. Keeps all samples if motion, shadows or
-// stochastic transparency need them.
+// Reduces the number of samples of a frame without visible blur to those that antialiasing needs. Keeps all samples if
+// motion, shadows or stochastic transparency need them.
 void leaveOutSamples(FramePlan& plan) {
     if (plan.usesLens) return;
     const bool stochastic = std::ranges::any_of(plan.blendOrder, &BlendRun::stochastic);
@@ -309,7 +310,7 @@ bool hasOwnBlur(const FramePlan& plan, const World& world) {
     });
 }
 
-// Returns true if the frame has shadows. By default, only scenes with a ground plane have them.
+// Returns true if the frame's objects cast shadows. By default, they do so only in scenes with a ground plane.
 bool drawsShadows(const World& world, const RenderSettings& settings) {
     return settings.shadows == Shadows::on ||
            (settings.shadows == Shadows::automatic && std::ranges::any_of(world.pose.objects, &Object::ground));
@@ -355,7 +356,7 @@ void addUnseen(FramePlan& plan, const World& world, std::vector<ObjectPlan> unse
         chooseLevels(object, world.pyramids[mesh], plan);
         chooseRefinement(object, world, plan);
         object.maxParts = maxParts;
-        object.coc = {};  // no blur: renderers take the maximum CoC over all objects
+        object.coc = {};  // no blur, because renderers take the maximum CoC over all objects
         const std::vector<Primitive>& primitives = world.scene->meshes[mesh].primitives;
         for (std::uint32_t p = 0; p < primitives.size(); ++p) {
             const Material& material = materialOf(*world.scene, primitives[p]);
@@ -464,7 +465,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     chooseAllLevels();
     chooseBlending(plan, world);
     leaveOutSamples(plan);
-    if (plan.samples.size() < settings.sampleCount) chooseAllLevels();  // divide the remaining samples between levels
+    if (plan.samples.size() < settings.sampleCount) chooseAllLevels();  // choose again for fewer samples
     parallelFor(plan.objects.size(), [&](std::size_t i) {
         ObjectPlan& object = plan.objects[i];
         chooseRefinement(object, world, plan);

@@ -1,6 +1,6 @@
 #pragma once
-// A FramePlan holds all decisions about a frame that precede the first GL call. It is plain data, so it can be printed,
-// tested and compared without a GPU. Renderers only execute it.
+// A FramePlan holds all decisions about a frame that are made before the first OpenGL call. It is plain data, so it can
+// be printed, tested and compared without a GPU. Renderers only execute it.
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
@@ -15,19 +15,19 @@
 
 namespace defocus::engine {
 
-// Time of a lens sample within the exposure.
+// Time of a lens sample within the exposure, between two shutter times.
 struct SampleMoment {
     std::uint32_t moment = 0;
     float fraction = 0;  // interpolation weight of the next shutter time, [0, 1); 0 at the last shutter time
     float time = 0;      // time within the exposure, [0, 1)
 };
 
-// One level of an object and the lens samples that draw it.
+// One level of an object, and the range of lens samples that draw it.
 struct LevelDraw {
     std::uint32_t level = 0;
     std::uint32_t firstSample = 0;  // index into FramePlan::samples
     std::uint32_t sampleCount = 0;
-    // triangles of all primitives, without culled triangles (see ObjectPlan::visible)
+    // number of triangles of all primitives, without culled triangles (see ObjectPlan::visible)
     std::uint32_t triangleCount = 0;
 };
 
@@ -44,10 +44,10 @@ struct VisibleLevel {
 enum class Refinement {
     none,       // triangles are drawn undivided
     split,      // triangles are cut where the slope of C jumps, and at the near plane before the lens shear
-    subdivide,  // triangles are divided into small triangles because C is curved, then split if ObjectPlan::cuts
+    subdivide,  // triangles are divided into small ones because C is curved, then cut as by `split` if ObjectPlan::cuts
 };
 
-inline constexpr std::uint32_t maxEdgeParts = 64;  // OpenGL guarantees at least 64 (GL_MAX_TESS_GEN_LEVEL)
+inline constexpr std::uint32_t maxEdgeParts = 64;  // max parts per edge; OpenGL's tessellator supports at least 64
 
 // Vertex transforms and morph weights of an object at one instant.
 struct ObjectPose {
@@ -61,43 +61,43 @@ struct ObjectPlan {
     int object = -1;  // index into World::pose.objects
     int mesh = -1;
     std::string name;
-    glm::dmat4 viewFromObject{1.0};  // relative to the camera, computed in double precision
+    glm::dmat4 viewFromObject{1.0};  // matrix relative to the camera, computed in double precision
     ObjectPose pose;                 // pose in the middle of the exposure
-    // Poses at the shutter times (see Shutter); empty if the object doesn't move relative to the camera.
+    // Poses at the shutter times (see Shutter in plan/view.h); empty if the object doesn't move relative to the camera.
     std::vector<ObjectPose> motion;
     bool skinned = false;
-    bool deformed = false;      // the skin or morph targets deform the mesh
+    bool deformed = false;      // true: the skin or morph targets deform the mesh
     Bounds viewBox;             // bounding box in view space over the entire exposure
     double nearestDepth = 0;    // nearest depth of the bounding box in m; may be less than View::nearPlane
     double farthestDepth = 0;   // farthest depth of the bounding box in m
-    CocRange coc;               // CoC in px over the bounding box; `smallest` is over all of RenderSettings::refocus
+    CocRange coc;               // CoC in px over the bounding box; `smallest` also covers RenderSettings::refocus
     CocDeviation cocDeviation;  // bounds in px of the error of interpolating the CoC inside the drawn triangles
-    double projectedEdge = 0;   // mean edge length of level 0 at the nearest depth, px
+    double projectedEdge = 0;   // projected mean edge length of level 0 at the nearest depth, px
     double lambda = 0;          // fractional level λ
     LevelDraw coarse;           // samples [0, n) draw level ⌊λ⌋ + 1; no samples if λ is an integer
     LevelDraw fine;             // samples [n, N) draw level ⌊λ⌋
     // With LodMode::continuous, both levels share one sample, and this fraction of its pixels draws `coarse`. 0 if no
     // sample is shared.
     double boundaryShare = 0;
-    std::vector<VisibleLevel> visible;  // levels with culled clusters; other levels are drawn completely
-    double cocScale = 1;                // factor on the object's blur, ≥ 0
+    std::vector<VisibleLevel> visible;  // levels of which some clusters are culled; other levels are drawn completely
+    double cocScale = 1;                // factor on the blur of the entire object, ≥ 0
     OwnBlur own;                        // bounds of the blur modifiers of the object's surfaces
-    bool blurMoves = false;             // vertices have blur modifiers that change during the exposure
+    bool blurMoves = false;             // true: vertices have blur modifiers that change during the exposure
     Refinement refinement = Refinement::none;
     // Max number of parts into which Refinement::subdivide divides an edge.
     std::uint32_t maxParts = maxEdgeParts;
-    bool cuts = false;       // refined triangles may reach the near plane, or the slope of C may jump inside them
-    bool mirrored = false;   // the transform flips the winding of triangles
-    bool blended = false;    // the object has alpha-blended primitives
-    bool transmits = false;  // the object has transmissive primitives
-    bool ground = false;     // the object is the ground plane, which casts no shadow
+    bool cuts = false;       // true: refined triangles may reach the near plane, or the slope of C may jump inside them
+    bool mirrored = false;   // true: the transform flips the winding of triangles
+    bool blended = false;    // true: the object has alpha-blended primitives
+    bool transmits = false;  // true: the object has transmissive primitives
+    bool ground = false;     // true: the object is the ground plane, which casts no shadow
 };
 
-// An alpha-blended or transmissive primitive of an object, or some of its triangles.
+// An alpha-blended or transmissive primitive of an object, or some of its triangles: an entry of the drawing order.
 struct BlendRun {
     std::uint32_t object = 0;     // index into FramePlan::objects
     std::uint32_t primitive = 0;  // index into Mesh::primitives
-    std::uint32_t level = 0;      // level to which `triangles` belong
+    std::uint32_t level = 0;      // level whose triangles are listed in `triangles`
     // Ranges in Pyramid::indices, back to front. Empty: the entire primitive, at all levels that are drawn.
     std::vector<IndexRange> triangles;
     // true: each lens sample draws or drops a blended fragment by its alpha, so that the position in the order doesn't
@@ -107,13 +107,13 @@ struct BlendRun {
 
 // One shadow map of a light, rendered for each lens sample. A point light inside the scene has six maps.
 struct ShadowMap {
-    int light = 0;  // index into World::lights, or `surroundings`
+    int light = 0;  // index into World::lights, or `surroundings` (shadows.h) for the environment
     // Face of a cube around the light: +x, −x, +y, −y, +z, −z. −1 if a single map contains all shadow casters.
     int face = -1;
-    double lightSize = 0;  // directional light: angular diameter in radians; other lights: radius in m
+    double lightSize = 0;  // for a directional light, angular diameter in radians; for other lights, radius in m
 };
 
-// Shadow casters and the lights that cast shadows; see shadows.h.
+// Shadow maps of the lights that cast shadows, and the objects that cast them; see shadows.h.
 struct ShadowPlan {
     std::vector<ShadowMap> maps;      // maps of the same light are adjacent; empty: no shadows
     int size = 0;                     // width and height of each map, px
@@ -136,7 +136,7 @@ struct FramePlan {
     View view;
     std::optional<Tile> tile;  // part of the image to draw; nullopt: the entire image
     RenderSettings settings;
-    LodThresholds thresholds;  // settings.thresholds, completed by defaults that depend on the number of samples
+    LodThresholds thresholds;  // settings.thresholds; unset values get defaults that depend on the number of samples
     double tanHalfHorizontal = 0;
     double apertureDiameter = 0;  // diameter in m; 0 for a pinhole, also if the blur is too small to be visible
     // Upper bound of the CoC in px over the drawn objects and a visible background of varying colour. The bound is
@@ -144,7 +144,7 @@ struct FramePlan {
     // uses a pinhole because the blur is too small to be visible.
     double largestBlur = 0;
     ClipCircleOfConfusion coc;
-    std::vector<LensSample> samples;  // samples to draw, in order
+    std::vector<LensSample> samples;  // samples to draw, in this order
     // `frameSamples` is the number of samples in the completed frame, counted from the start of the sequence.
     // `frameFirst` is the index of the first sample that was planned together with `samples`.
     std::uint32_t frameSamples = 0;
@@ -153,25 +153,25 @@ struct FramePlan {
     // Transforms from view space at each shutter time to view space in the middle of the exposure; empty if the camera
     // doesn't move.
     std::vector<glm::dmat4> middleFromView;
-    std::vector<ObjectPlan> objects;   // front to back, then the unseen objects that settings.keepAll retains
+    std::vector<ObjectPlan> objects;   // front to back, followed by unseen objects if settings.keepAll is set
     std::vector<BlendRun> blendOrder;  // all alpha-blended and transmissive primitives, back to front
     ShadowPlan shadows;
     std::vector<LeftOut> leftOut;
     std::vector<std::vector<bool>> levelsUsed;  // [mesh][level]: true if any object draws the level
     bool usesLens = true;                       // false: no blur reaches half a pixel, so samples only antialias edges
-    bool usesCocControls = false;  // for some object, the circle of confusion C at depth w differs from a + b·w
-    bool usesOwnBlur = false;      // an object or a vertex modifies the lens's blur
+    bool usesCocControls = false;  // true: for some object, the circle of confusion C at depth w differs from a + b·w
+    bool usesOwnBlur = false;      // true: an object or a vertex modifies the lens's blur
     bool usesTextures = false;
-    bool usesBlending = false;   // some object is alpha-blended
-    bool sortsBlending = false;  // some primitive is blended back to front
+    bool usesBlending = false;   // true: some object is alpha-blended
+    bool sortsBlending = false;  // true: some primitive is blended in order from back to front
     bool usesTransmission = false;
-    bool needsAlpha = false;  // the background is transparent, so alpha is also accumulated
-    bool showsMap = false;    // the background is an environment map
+    bool needsAlpha = false;  // true: the background is transparent, so alpha is accumulated, too
+    bool showsMap = false;    // true: the background is an environment map
     // Triangle counts, summed over all samples.
     std::uint64_t trianglesDrawn = 0;
-    std::uint64_t trianglesFacingAway = 0;  // culled from the drawn levels because their clusters face away
-    std::uint64_t trianglesOutside = 0;     // culled from the drawn levels because their clusters lie outside the image
-    std::uint64_t trianglesAtFullDetail = 0;  // triangles in level 0 of the drawn objects, without culling
+    std::uint64_t trianglesFacingAway = 0;    // triangles culled because their clusters face away
+    std::uint64_t trianglesOutside = 0;       // triangles culled because their clusters lie outside the image
+    std::uint64_t trianglesAtFullDetail = 0;  // triangles at level 0 of the drawn objects, without culling
 };
 
 // Number of samples for antialiasing if nothing is blurred.
@@ -179,7 +179,7 @@ inline constexpr std::uint32_t antialiasingSamples = 16;
 // A frame is drawn with a pinhole if all CoC diameters are below this value, unless RenderSettings::keepAll is set.
 inline constexpr double minBlur = 0.5;  // px
 
-// Returns the part of `level` that remains after culling, or null if the level is drawn completely.
+// Returns the unculled part of `level`, or null if the level is drawn completely.
 const VisibleLevel* visibleLevel(const ObjectPlan& object, std::uint32_t level);
 
 // Returns the index of the sample that draws the object's coarse level at some pixels and the fine level at the others.

@@ -12,8 +12,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Formats the level, its triangles and the number of samples that draw it. The object's two levels may share a sample:
-// `shared` is the fraction of that sample's pixels that the other level draws.
+// Formats the level, its number of triangles and the number of samples that draw it. An object's two levels may share a
+// sample: `shared` is the fraction of that sample's pixels that the other level draws.
 std::string drawText(const LevelDraw& draw, double shared) {
     if (draw.sampleCount == 0) return "";
     return fmt::format("{} ({} tri) x {:.4g}", draw.level, draw.triangleCount, draw.sampleCount - shared);
@@ -46,7 +46,7 @@ std::string thresholdsText(const FramePlan& plan) {
     return fmt::format("blur threshold {:.4g}, size threshold {:.4g} px", thresholds.blur, thresholds.size);
 }
 
-// Describes the choice of method "auto".
+// Describes which method "auto" has chosen, and why.
 std::string chosenMethodText(const FramePlan& plan) {
     if (const std::string reason = reasonForAccumulation(plan); !reason.empty())
         return fmt::format("--method auto is accumulation, as {}\n", reason);

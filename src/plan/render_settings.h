@@ -11,11 +11,12 @@
 
 namespace defocus::engine {
 
-// Effects that hide the simplification of a level. Images use both effects; benchmarks can isolate one effect.
+// Effects that make the simplification of a level invisible. Normal rendering selects levels by both effects;
+// benchmarks can isolate one effect.
 enum class LodCause {
     blurAndSize,
-    size,  // only the object's projected size, as with a pinhole
-    blur,  // only the lens's blur, as with infinitely many pixels
+    size,  // projected size of the object only, as with a pinhole
+    blur,  // blur of the lens only, as with infinitely many pixels
 };
 
 struct RenderSettings {
@@ -24,8 +25,8 @@ struct RenderSettings {
     // one texel per position.
     std::uint32_t positions = 1;
     Sequence sequence = Sequence::sobol;
-    std::uint32_t seed = 0;         // selects a different set of sample points
-    std::uint32_t firstSample = 0;  // offset into the sequence; reference images use a different offset
+    std::uint32_t seed = 0;         // selects one of many sets of sample points
+    std::uint32_t firstSample = 0;  // first index in the sequence; reference images use another first index
     LodMode lod = LodMode::fractional;
     LodMetric metric = LodMetric::automatic;
     LodCause lodCause = LodCause::blurAndSize;
@@ -35,19 +36,19 @@ struct RenderSettings {
     Shadows shadows = Shadows::automatic;
     bool multipleScattering = false;  // compensates the energy that rough specular reflection loses
     double cocTolerance = 0.5;        // max error in px of interpolating C inside a triangle, > 0
-    bool keepAll = false;             // disables culling, and keeps the lens even if no blur is visible
+    bool keepAll = false;             // disables culling, and keeps the lens even if nothing is visibly blurred
     // Range of focus distances to which the image can be refocused after rendering. Each object's levels suit the
-    // smallest blur over this range, and the lens samples are kept even if nothing is blurred at the frame's own focus.
-    // Needs a lens with C(w) = a + b·w (circle_of_confusion.h).
+    // smallest blur over this range, and the lens samples are kept even if nothing is blurred at the frame's own focus
+    // distance. Needs a lens with C(w) = a + b·w (circle_of_confusion.h).
     std::optional<FocusRange> refocus = {};
-    std::vector<Layer> layers = {};  // data layers to sum, such as depth and normals
+    std::vector<Layer> layers = {};  // data layers, such as depth and normals, to accumulate beside the image
 };
 
 // Returns the number of positions in a pixel along each axis: 1 or 2.
 int positionsPerAxis(const RenderSettings& settings);
 
-// Returns the number of positions in a pixel that all samples together render. This number determines the antialiasing
-// of edges in focus.
+// Returns the total number of positions in a pixel that all samples render. This number determines the antialiasing of
+// edges in focus.
 std::uint32_t positionCount(const RenderSettings& settings);
 
 // Multiplies the thresholds by `factor`; unset thresholds first get the defaults for frames of `sampleCount` samples.

@@ -1,5 +1,5 @@
 #pragma once
-// A view defines camera, lens and image size for rendering a posed scene.
+// Defines a view: camera, lens and image size for rendering a posed scene.
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
@@ -20,11 +20,11 @@ struct View {
     glm::dmat4 worldFromCamera{1.0};  // rigid transform; the camera looks along its −z axis
     Lens lens;
     double nearPlane = 0.01;  // distance of the near plane in m, > 0
-    int width = 1024;         // px
-    int height = 768;         // px
+    int width = 1024;         // image width, px
+    int height = 768;         // image height, px
     // worldFromCamera at each shutter time (see Shutter); empty if the camera doesn't move.
     std::vector<glm::dmat4> shutterCameras;
-    std::map<std::string, double> methodValues;  // values of the method's settings that a shot animates, by name
+    std::map<std::string, double> methodValues;  // settings of the method that a shot animates, by name
 };
 
 // Returns the view with a margin of `margin` px on each side. The pixels of the original view stay the same.
@@ -32,18 +32,18 @@ View withMargin(View view, int margin);
 
 // Poses of the scene at the shutter times: the times within the exposure at which motion is sampled.
 struct Shutter {
-    std::vector<Pose> poses;  // a pose of World::pose's objects per shutter time; empty if the scene doesn't move
+    std::vector<Pose> poses;  // one pose of World::pose's objects per shutter time; empty if the scene doesn't move
     // false: shutter times are evenly spaced from opening to closing, and vertices move linearly between them.
-    // Munkberg, Toth and Akenine-Möller 2012 use one such segment. true: each lens sample has its own shutter time,
-    // LensSample::time.
+    // Munkberg, Toth and Akenine-Möller 2012 use one such linear segment. true: each lens sample has its own shutter
+    // time, LensSample::time.
     bool perSample = false;
 };
 
-// A scene that is ready to be planned, with a pose, lights and one pyramid per mesh.
+// A scene that is ready for planning: a pose, lights, environment and one pyramid per mesh.
 struct World {
     std::shared_ptr<const Scene> scene;
     Pose pose;        // pose in the middle of the exposure
-    Shutter shutter;  // lights and sky stay fixed at the middle of the exposure
+    Shutter shutter;  // poses during the exposure; lights and sky stay fixed at the middle of the exposure
     std::vector<PlacedLight> lights;
     Environment environment;
     std::vector<Pyramid> pyramids;  // one pyramid per mesh of the scene

@@ -19,7 +19,7 @@ namespace {
 constexpr const char* baselineMethod = "accumulation";
 constexpr std::array alwaysThere = {"embree", "embree-shared"};
 
-// ---- cases ----------------------------------------------------------------------------------------------------------
+// ---- list of cases to measure ---------------------------------------------------------------------------------------
 
 MethodUse standardUse(const Method& method) {
     return {&method, completeSettings(method.name, method.settings, {})};
@@ -30,7 +30,7 @@ std::vector<MethodUse> chosenMethods(const ConvergenceOptions& options) {
     const auto has = [&](const std::string& name) {
         return std::ranges::any_of(uses, [&](const MethodUse& use) { return use.method->name == name; });
     };
-    // All methods except "auto", which only chooses one of the others.
+    // All methods except "auto", which itself only chooses one of the other methods.
     const bool all = uses.empty();
     for (const Method& method : methods())
         if ((all && method.name != automaticMethod) ||
@@ -39,7 +39,7 @@ std::vector<MethodUse> chosenMethods(const ConvergenceOptions& options) {
     return uses;
 }
 
-// Returns whether the method draws levels of detail. Ray tracers trace the loaded meshes only. Post-process methods
+// Returns whether the method can draw levels of detail. Ray tracers trace the loaded meshes only. Post-process methods
 // start from a sharp image, in which no blur hides a coarse level.
 bool drawsLevels(const Method& method) {
     return method.needsGl && method.usesLensSamples;
@@ -118,7 +118,7 @@ std::vector<ConvergenceCase> publishedCases(const Method& method, std::uint32_t 
 }
 
 // Returns the cases to measure for one method: one case if `use` changes any of the method's settings, otherwise one
-// for each requested form (published, best, standard) of the method.
+// for each requested variant of its settings (published, best, standard).
 std::vector<ConvergenceCase> casesOfForms(const MethodUse& use, std::uint32_t samples,
                                           const ConvergenceOptions& options) {
     const Method& method = *use.method;
@@ -133,7 +133,7 @@ std::vector<ConvergenceCase> casesOfForms(const MethodUse& use, std::uint32_t sa
     return cases;
 }
 
-// ---- one frame ------------------------------------------------------------------------------------------------------
+// ---- measurement of one frame ---------------------------------------------------------------------------------------
 
 struct Frame {
     ConvergenceRun run;
@@ -144,7 +144,7 @@ bool allFinite(const Image& image) {
     return std::ranges::all_of(image.pixels, [](float value) { return std::isfinite(value); });
 }
 
-// Returns why the image is invalid; empty if it is valid.
+// Returns what is wrong with the image; empty if the image is valid.
 std::string faultOf(const Image& image, const FramePlan& plan, const RenderStats& stats, const Method& method,
                     std::uint32_t sampleTotal) {
     if (image.width != plan.view.width || image.height != plan.view.height)
@@ -161,7 +161,7 @@ std::string faultOf(const Image& image, const FramePlan& plan, const RenderStats
     return {};
 }
 
-// Returns whether the primitive is lit or not opaque. glTF's default material is lit.
+// Returns true unless the primitive is unlit and opaque. glTF's default material is lit.
 bool needsShading(const Scene& scene, const Primitive& primitive) {
     if (primitive.material < 0) return true;
     const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
@@ -191,7 +191,7 @@ Frame frameOf(const World& world, const View& view, const ConvergenceCase& wante
     RendererOptions own = options;
     own.settings = wanted.use.settings;
 
-    // Set up the renderer and draw an untimed first wave (a batch of lens samples).
+    // Set up the renderer and draw an untimed first batch (wave) of lens samples.
     const Clock::time_point begin = Clock::now();
     const std::unique_ptr<Renderer> renderer = wanted.use.method->make(world, own);
     renderer->start(plan);
@@ -223,7 +223,7 @@ ImageError errorOf(const Difference& difference) {
     return {difference.rmse * difference.rmse, difference.ssim, difference.flip};
 }
 
-// ---- all cases ------------------------------------------------------------------------------------------------------
+// ---- measurement of all cases ---------------------------------------------------------------------------------------
 
 class Measurement {
 public:
@@ -241,8 +241,8 @@ public:
         return std::ranges::any_of(runs_, [&](const ConvergenceRun& r) { return r.run == run && sameCase(r, wanted); });
     }
 
-    // Measures run `number` of a case. Throws Error if the method cannot draw the case. Sets `flipMap` only in the
-    // first run of the case.
+    // Measures one run of a case; `number` is the index of the run. Throws Error if the method cannot draw the case.
+    // Sets `flipMap` only in the first run of the case.
     Frame measure(ConvergenceCase wanted, int number, Image& flipMap) {
         wanted.plan.seed += static_cast<std::uint32_t>(number % seeds_);
         Frame frame = frameOf(wanted.world != nullptr ? *wanted.world : world_, view_, wanted, renderer_);
@@ -257,7 +257,7 @@ public:
     }
 
 private:
-    // Identifies a set of lens samples: number, sequence, seed.
+    // Identifies a set of lens samples by number of samples, sequence and seed.
     using SamplePoints = std::tuple<std::uint32_t, Sequence, std::uint32_t>;
     static SamplePoints pointsOf(const ConvergenceCase& wanted) {
         return {wanted.samples, wanted.plan.sequence, wanted.plan.seed};
@@ -275,7 +275,7 @@ private:
             return;
         }
         if (frame.image.width != view_.width || frame.image.height != view_.height)
-            return;  // wrong image size: report no error value
+            return;  // the image has the wrong size, so report no error value
         CompareOptions options;
         if (std::ranges::none_of(runs_, ofCase)) options.flipMap = &flipMap;
         run.error = errorOf(compareImages(reference_.image, frame.image, options));
@@ -287,7 +287,8 @@ private:
         fullDetail_ = image;
     }
 
-    // Returns the image at full detail with the same lens samples; it is cached until other samples are needed.
+    // Returns the image at full detail with the same lens samples as `wanted`. The image is cached until other samples
+    // are needed.
     const Image& fullDetailFor(const ConvergenceCase& wanted) {
         if (fullDetailPoints_ != pointsOf(wanted)) {
             const ConvergenceCase full =

@@ -2,10 +2,10 @@
 // Measures image error against render time for each method, setting and number of lens samples. The error is the
 // difference from a converged reference image.
 //
-// Equal for all cases: scene, camera, lens, image size, reference, process. Runs alternate between all cases, so a
-// slowdown of the machine affects all of them, and a bench that stops early has measured all cases, with fewer runs of
-// each. Before a frame is timed, its first wave (a batch of lens samples) is drawn once, so that shaders, uploads and
-// driver caches are ready. Threads are not pinned to cores.
+// All cases have the same scene, camera, lens, image size and reference, and are measured in one process. Runs
+// alternate between all cases, so a slowdown of the machine affects all of them. A bench that stops early has measured
+// all cases, with fewer runs of each. Before a frame is timed, its first batch of lens samples (wave) is drawn once, so
+// that shaders, uploads and driver caches are ready. Threads are not pinned to cores.
 //
 // Each finished frame is reported at once as a ConvergenceRun. convergence/rows.h computes medians over these.
 
@@ -24,66 +24,66 @@
 
 namespace defocus::engine {
 
-// Settings for measuring a method that the user names without settings.
+// Variants of a method's settings. They are measured if the user names the method without settings.
 enum class MethodForm {
-    published,  // settings of the method's paper, if there is a paper
-    best,       // settings in Method::best; called `standard` if equal to the defaults
+    published,  // settings of the method's paper; not measured if there is no paper
+    best,       // settings in Method::best; called `standard` if these equal the defaults
     standard,
 };
 const char* methodFormName(MethodForm form);
 
-// A method with the settings of its paper; see frame/settings/presets.h.
+// A method with the settings of its paper, as in a preset; see frame/settings/presets.h.
 struct PublishedForm {
     std::string preset;
     MethodUse use;
     RenderSettings plan = {};        // all settings except the number of samples
-    const World* world = nullptr;    // world with pyramids for these settings; null: the measured world
+    const World* world = nullptr;    // world with pyramids for these settings; null: the world of the bench
     double pyramidMilliseconds = 0;  // build time of the pyramids of `world`
 };
 
 struct ConvergenceOptions {
     std::vector<MethodUse> methods;  // methods to measure; empty: all, with default settings
     std::vector<MethodForm> forms = {MethodForm::published, MethodForm::best,
-                                     MethodForm::standard};  // forms to measure for methods with default settings
-    std::vector<PublishedForm> published;                    // settings of MethodForm::published
-    RenderSettings plan;                                     // settings of every case; the lists below override them
-    std::vector<std::uint32_t> sampleCounts = {8, 16, 32, 64, 128, 256};  // lens samples, for methods that use them
+                                     MethodForm::standard};  // variants for methods that are named without settings
+    std::vector<PublishedForm> published;                    // settings to measure as MethodForm::published
+    RenderSettings plan;                                     // settings of every case; the lists below replace some
+    std::vector<std::uint32_t> sampleCounts = {8, 16, 32, 64, 128, 256};  // for methods that use lens samples
     // Level modes for methods that draw levels of detail. Accumulation at full detail is measured even if LodMode::off
     // is not listed.
     std::vector<LodMode> lods = {LodMode::off, LodMode::fractional};
     std::vector<LodMetric> metrics = {LodMetric::measured};
     std::vector<double> thresholdFactors = {0.5, 1, 2};  // factors that multiply the default level thresholds
-    int runs = 3;                                        // runs of each case, ≥ 1
-    int seeds = 1;             // seeds, ≥ 1; run r uses the plan's seed + r % seeds, so the errors have a spread
-    RendererOptions renderer;  // RendererOptions::settings is ignored
+    int runs = 3;                                        // number of runs of each case, ≥ 1
+    int seeds = 1;             // number of seeds, ≥ 1; run r uses the plan's seed + r % seeds, to show the spread
+    RendererOptions renderer;  // options of all renderers; RendererOptions::settings is ignored
 };
 
 // A case to measure: a method with its settings and a number of lens samples.
 struct ConvergenceCase {
     MethodUse use;
-    std::string form;  // "published", "best", "standard"; empty for other settings
-    // Text of the settings: "lod=fractional metric=size thresholds=2", "components=5", "standard" for the defaults, or
-    // a preset's name.
+    std::string form;  // variant of the settings: "published", "best", "standard"; empty for other settings
+    // Text that describes the settings: "lod=fractional metric=size thresholds=2", "components=5", "standard" for the
+    // defaults, or a preset's name.
     std::string setting;
     std::uint32_t samples = 0;  // requested lens samples; 0 if the method uses none
     RenderSettings plan;
-    const World* world = nullptr;    // world to draw; null: the measured world
+    const World* world = nullptr;    // world to draw; null: the world of the bench
     double pyramidMilliseconds = 0;  // build time of the pyramids of `world`
     [[nodiscard]] bool usesLevels() const { return plan.lod != LodMode::off; }
 };
 
 // Returns the cases, ordered by number of samples. For each number, accumulation at full detail comes first; it is
 // always included, as are the ray tracers "embree" and "embree-shared" if the program has them. Methods without lens
-// samples are in the first group. Post-process methods and ray tracers are measured at full detail only. Cases with
-// published settings ignore the lists of levels.
+// samples are listed once, with the smallest number. Post-process methods and ray tracers are measured at full detail
+// only. Cases with published settings ignore the lists of levels.
 std::vector<ConvergenceCase> convergenceCases(const ConvergenceOptions& options);
 
-// Error of an image, computed from display-encoded values; see metrics.h.
+// Error of an image relative to the reference, computed from display-encoded values; see image/metrics.h.
 struct ImageError {
     double mse = 0;
     double ssim = 1;
     double flip = 0;
-    [[nodiscard]] double psnr() const;  // PSNR in dB; infinity for equal images
+    [[nodiscard]] double psnr() const;  // returns the PSNR in dB; infinity for equal images
 };
 
 // Measurement of one run of a case.
@@ -92,8 +92,8 @@ struct ConvergenceRun {
     std::string form;
     std::string setting;
     std::uint32_t asked = 0;         // requested lens samples; 0 if the method uses none
-    int run = 0;                     // index of the run, from 0
-    std::uint32_t samples = 0;       // lens samples drawn
+    int run = 0;                     // index of the run within its case, from 0
+    std::uint32_t samples = 0;       // number of lens samples drawn
     double pyramidMilliseconds = 0;  // build time of the pyramids, if the case uses levels
     double setupMilliseconds = 0;    // set-up time of the renderer: uploads, shaders, ray-tracing structures
     double milliseconds = 0;         // wall-clock time of the frame
@@ -106,7 +106,7 @@ struct ConvergenceRun {
     std::string fault;               // why the image is invalid; empty if it is valid
 };
 
-// Returns whether `run` belongs to the case `wanted`.
+// Returns whether `run` is a run of the case `wanted`.
 bool sameCase(const ConvergenceRun& run, const ConvergenceCase& wanted);
 
 struct ConvergenceVisitor {
@@ -114,8 +114,8 @@ struct ConvergenceVisitor {
     // a case.
     std::function<void(const ConvergenceRun& run, const Image* image, const Image* flipMap)> run;
     // Called with each skipped case and the reason. Either the method cannot render the scene (for example, a ray
-    // tracer without environment maps), or its image differs from the reference by design (Method::shadesAsLit,
-    // drawsMotion).
+    // tracer that doesn't support environment maps), or its image differs from the reference by design
+    // (Method::shadesAsLit, drawsMotion).
     std::function<void(const ConvergenceCase& wanted, const std::string& reason)> leftOut;
 };
 

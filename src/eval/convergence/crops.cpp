@@ -11,8 +11,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Summed-area table: entry (x, y) is the sum of all values above and to the left. The sum over any rectangle needs only
-// four entries (Crow 1984).
+// Summed-area table: entry (x, y) is the sum of all values to the left of column x and above row y. The sum over any
+// rectangle follows from four entries (Crow 1984).
 class SummedArea {
 public:
     explicit SummedArea(const Image& values)

@@ -1,5 +1,5 @@
 #pragma once
-// Chooses crops of an image: parts with details that are too small to see in the complete image.
+// Chooses crops of an image to show enlarged: parts whose details are too small to see in the complete image.
 
 #include <optional>
 #include <string>
@@ -21,9 +21,9 @@ struct Crop {
 // are equal, returns the first in reading order. The square doesn't overlap `other`. Returns nullopt if no square fits.
 std::optional<Crop> largestSquare(const Image& values, int size, const std::optional<Crop>& other = {});
 
-// Returns two squares whose side is a quarter of the image's shorter side: one where the error of accumulation at full
-// detail with `fewSamples` lens samples is largest, and one where the geometry is most blurred. Needs a current GL
-// context.
+// Returns two square crops, each with a side of a quarter of the image's shorter side: one where the error of
+// accumulation at full detail with `fewSamples` lens samples is largest, and one where the geometry is most blurred.
+// Needs a current GL context.
 std::vector<Crop> tellingCrops(const World& world, const View& view, const ReferenceImage& reference,
                                std::uint32_t fewSamples, const RendererOptions& options);
 

@@ -20,7 +20,7 @@ std::string competitorOf(const ConvergenceRow& row) {
     return row.bias ? row.method + " with levels" : row.method;
 }
 
-// Returns the Pareto front of a competitor's rows, from the fastest to the most accurate.
+// Returns the Pareto front of a competitor's rows (time against error), from the fastest to the most accurate row.
 std::vector<Step> frontOf(std::span<const ConvergenceRow> rows, const std::string& competitor) {
     std::vector<Step> steps;
     std::vector<Trial> trials;

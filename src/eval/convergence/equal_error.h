@@ -12,18 +12,18 @@
 
 namespace defocus::engine {
 
-inline constexpr std::array comparedErrors{0.01, 0.005, 0.0033};  // RMSE of display values in [0, 1]
+inline constexpr std::array comparedErrors{0.01, 0.005, 0.0033};  // compared errors: RMSE of display values in [0, 1]
 
-// A method, whose settings and number of samples are chosen for each error separately. Accumulation counts as two
-// competitors: at full detail and with levels.
+// A method in the comparison. Its settings and its number of samples are chosen for each error separately. Accumulation
+// counts as two competitors: at full detail and with levels.
 struct Competitor {
-    std::string name;  // such as "accumulation with levels" or "embree"
+    std::string name;  // name of the method, such as "accumulation with levels" or "embree"
     struct Time {
         double rmse = 0;
-        std::optional<double> milliseconds;  // time of a frame; nullopt if no row reaches the error
+        std::optional<double> milliseconds;  // time of a frame with this error; nullopt if no row reaches the error
         bool atMost = false;                 // true: upper bound, because the fastest row already has a smaller error
     };
-    std::vector<Time> times;  // times in the order of the requested errors
+    std::vector<Time> times;  // one entry per requested error, in the order of the request
 };
 
 // Returns each competitor's times to reach `errors`, which must be > 0. Times are interpolated on the competitor's

@@ -1,4 +1,4 @@
-// Writes and reads the journal of bench convergence, a CSV line per frame; see convergence/text.h.
+// Writes and reads the journal of bench convergence, which has one CSV line per measured frame; see convergence/text.h.
 
 #include <fmt/format.h>
 
@@ -36,7 +36,8 @@ public:
     explicit FieldReader(std::string_view line) : fields_(fieldsOf(line)), good_(fields_.size() == fieldCount) {}
 
     [[nodiscard]] bool good() const { return good_; }
-    // Returns whether the next field is empty, which means that an optional group of fields is missing.
+    // Returns whether the next field is empty, which means that its optional group of fields (such as an error) is
+    // missing.
     [[nodiscard]] bool missing() const { return good_ && fields_[next_].empty(); }
     void skip(std::size_t count) { next_ += count; }
 

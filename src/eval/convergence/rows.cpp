@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Max relative difference of the MSE between runs of the same case and seed, which should give equal images.
+// Max relative difference of the MSE between runs of the same case and seed. Their images should be equal.
 constexpr double maxDifference = 0.01;
 
 bool sameRow(const ConvergenceRow& row, const ConvergenceRun& run) {
@@ -48,7 +48,7 @@ void addErrors(ConvergenceRow& row, const std::vector<const ConvergenceRun*>& ru
         row.ofSeeds.push_back(run->error);
         if (run->bias) biases.push_back(*run->bias);
     }
-    // With a single seed, copy the error so that it stays bit-identical.
+    // With a single seed, copy the error instead of averaging, so that it stays bit-identical.
     row.error = row.ofSeeds.size() == 1 ? row.ofSeeds.front() : meanOf(row.ofSeeds);
     if (!biases.empty()) row.bias = biases.size() == 1 ? biases.front() : meanOf(biases);
 }

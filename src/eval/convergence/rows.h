@@ -14,10 +14,10 @@ namespace defocus::engine {
 
 struct ConvergenceRow {
     std::string method;
-    std::string form;  // see ConvergenceCase::form
+    std::string form;  // variant of the settings; see ConvergenceCase::form
     std::string setting;
     std::uint32_t asked = 0;    // requested lens samples; 0 if the method uses none
-    std::uint32_t samples = 0;  // lens samples drawn
+    std::uint32_t samples = 0;  // number of lens samples drawn
     int runs = 0;
     Spread milliseconds;              // wall-clock time of a frame
     Spread setupMilliseconds;         // set-up time of the renderer; not part of `milliseconds`
@@ -25,20 +25,20 @@ struct ConvergenceRow {
     double gpuMilliseconds = 0;       // median GPU time, from timer queries
     ImageError error;                 // difference from the reference, mean over the seeds
     std::optional<ImageError> bias;   // difference from full detail, mean over the seeds; nullopt without levels
-    std::vector<ImageError> ofSeeds;  // `error` of each measured seed
+    std::vector<ImageError> ofSeeds;  // error of each measured seed's image
     std::uint64_t triangles = 0;
     std::uint64_t peakBytes = 0;
-    bool front = false;          // whether the row is on the Pareto front (paretoFront) of all rows, by time and MSE
-    bool frontOfMethod = false;  // whether the row is on the Pareto front of its method's rows, by time and MSE
-    bool frontByFlip = false;    // whether the row is on the Pareto front of all rows, by time and FLIP
-    // Whether the error is smaller than the reference's own error, so that its value is only an upper bound.
+    bool front = false;          // true: the row is on the Pareto front (paretoFront) of all rows, by time and MSE
+    bool frontOfMethod = false;  // true: the row is on the Pareto front of its method's rows, by time and MSE
+    bool frontByFlip = false;    // true: the row is on the Pareto front of all rows, by time and FLIP
+    // True if the error is smaller than the reference's own error; the value of the error is then only an upper bound.
     bool mseBelowReference = false;
     bool flipBelowReference = false;
-    std::string fault;  // why the image is invalid; such a row is on no front
+    std::string fault;  // why the image is invalid; empty if valid. Invalid rows are on no front
 };
 
-// Returns one row per case, in the order in which the cases first appear in `runs`. `remaining`: estimate of the
-// reference's own error. `seeds`: as in ConvergenceOptions.
+// Returns one row per case, in the order in which the cases first appear in `runs`. `remaining`: estimate of the error
+// that the reference itself still has. `seeds`: ConvergenceOptions::seeds.
 std::vector<ConvergenceRow> convergenceRows(std::span<const ConvergenceRun> runs, const Difference& remaining = {},
                                             int seeds = 1);
 
@@ -48,7 +48,8 @@ struct Trial {
 };
 
 // Returns for each trial whether it is on the Pareto front. A trial is not on the front if another trial has a cost and
-// an error that are both at most as large, one of them smaller. Equal trials are all on the front or all off it.
+// an error that are both at most as large, one of them smaller. Of several equal trials, either all are on the front or
+// none.
 std::vector<bool> paretoFront(std::span<const Trial> trials);
 
 // Error of a level setting against full detail, at the thresholds for the largest measured number of samples. More lens
@@ -57,11 +58,11 @@ std::vector<bool> paretoFront(std::span<const Trial> trials);
 struct BiasFloor {
     std::string method;
     std::string setting;
-    std::uint32_t samples = 0;  // number of lens samples of this measurement
+    std::uint32_t samples = 0;  // number of lens samples with which this error was measured
     ImageError error;
 };
 
-// Returns one BiasFloor for each setting that draws levels.
+// Returns the error against full detail (BiasFloor) of each setting that draws levels.
 std::vector<BiasFloor> biasFloors(std::span<const ConvergenceRow> rows);
 
 }  // namespace defocus::engine

@@ -25,7 +25,7 @@ std::string nameOf(const ConvergenceRow& row) {
     return isStandard ? row.method + ", " + row.setting : fmt::format("{} ({}), {}", row.method, row.form, row.setting);
 }
 
-// Returns two characters that show which Pareto fronts the row is on.
+// Returns two characters that mark the Pareto fronts on which the row lies.
 std::string frontsOf(const ConvergenceRow& row) {
     return std::string(row.front ? "*" : row.frontOfMethod ? "+" : " ") + (row.frontByFlip ? "f" : " ");
 }

@@ -17,15 +17,15 @@ namespace defocus::engine {
 
 // ---- text tables ----------------------------------------------------------------------------------------------------
 
-std::string convergenceHeader();                         // two lines
-std::string convergenceLine(const ConvergenceRow& row);  // one line
-// Returns sentences about the reference, the rows on the Pareto front, the bias floors (rows.h), and the times to reach
-// equal errors.
+std::string convergenceHeader();                         // returns the table's header, two lines
+std::string convergenceLine(const ConvergenceRow& row);  // returns the table's line for a row
+// Returns sentences about the reference, the rows on the Pareto front, the errors that more samples cannot reduce
+// (BiasFloor), and the times to reach equal errors.
 std::string convergenceSummary(std::span<const ConvergenceRow> rows, const ReferenceImage& reference);
 
-// ---- results --------------------------------------------------------------------------------------------------------
+// ---- conditions and files of the results ----------------------------------------------------------------------------
 
-// Conditions of the measured rows: program, machine, scene, crops to show and skipped cases.
+// Properties that all measured rows share: program, machine, scene, crops to show and skipped cases.
 struct ConvergenceSubject {
     BenchSubject bench;
     std::vector<Crop> crops;
@@ -39,14 +39,14 @@ struct ConvergenceSubject {
 
 // Return the file names of a row's image and of its FLIP map, relative to the results folder.
 std::string imageName(std::string_view method, std::string_view setting, std::uint32_t asked);
-inline constexpr float errorMapFullScale = 0.25f;  // this FLIP value and larger ones have the map's brightest colour
+inline constexpr float errorMapFullScale = 0.25f;  // smallest FLIP value with the brightest colour of the map
 std::string errorMapName(std::string_view method, std::string_view setting, std::uint32_t asked);
 
 std::string convergenceCsv(std::span<const ConvergenceRow> rows);
 std::string convergenceJson(std::span<const ConvergenceRow> rows, const ReferenceImage& reference,
                             const ConvergenceSubject& subject);
 
-// ---- journal --------------------------------------------------------------------------------------------------------
+// ---- journal of measured frames -------------------------------------------------------------------------------------
 
 // Returns one CSV line per frame, with numbers that are read back exactly. `subject`: hash of the properties that all
 // frames of a journal share (scene, reference, device, program).

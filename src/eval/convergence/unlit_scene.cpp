@@ -54,7 +54,7 @@ void paintLight(Mesh& mesh) {
 
 Scene unlitScene(Scene scene) {
     for (Material& material : scene.materials) material = unlitMaterial(material, scene);
-    // Give primitives without a material an unlit one, because glTF's default material is lit.
+    // Give an unlit material to primitives that have no material, because glTF's default material is lit.
     Material plain;
     plain.unlit = true;
     scene.materials.push_back(std::move(plain));

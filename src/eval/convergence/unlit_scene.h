@@ -6,9 +6,9 @@
 
 namespace defocus::engine {
 
-// Returns the scene with unlit, opaque materials. The materials' colours are the mean colours of the textures, times
-// Lambert shading baked into vertex colours; the lighting moves with the mesh. Geometry, nodes, cameras and environment
-// stay unchanged.
+// Returns the scene with unlit, opaque materials. A surface's colour is the mean colour of its texture, times Lambert
+// shading baked into vertex colours. The lighting therefore moves with the mesh. Geometry, nodes, cameras and
+// environment stay unchanged.
 Scene unlitScene(Scene scene);
 
 }  // namespace defocus::engine

@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double dollyLength = 0.5;  // length as a fraction of the focus distance
+constexpr double dollyLength = 0.5;  // length of the dolly as a fraction of the focus distance
 
 struct Depths {
     double nearest = std::numeric_limits<double>::infinity();
@@ -81,7 +81,7 @@ std::vector<MovementFrame> framesAlong(Movement movement, const World& world, co
     const Depths depths = depthsOf(world, view);
     const glm::dvec3 centre = world.pose.bounds.centre();
     const double focusDistance =
-        std::min(view.lens.focusDistance, depths.farthest);  // stays finite if the lens focuses at infinity
+        std::min(view.lens.focusDistance, depths.farthest);  // remains finite if the lens focuses at infinity
     std::vector<MovementFrame> result;
     for (int i = 0; i < frames; ++i) {
         const double place = static_cast<double>(i) / (frames - 1);
@@ -114,7 +114,7 @@ std::vector<MovementFrame> busiestStretch(const std::vector<MovementFrame>& fram
     if (length < 1 || static_cast<std::size_t>(length) > frames.size())
         fail("{} frames exceed the {} frames of the movement", length, frames.size());
 
-    // Number of level changes from the first frame up to each frame.
+    // For each frame, the number of level changes from the first frame up to this frame.
     std::vector<int> changes;
     std::map<int, std::uint32_t> levels;
     for (const MovementFrame& frame : frames) {

@@ -1,5 +1,5 @@
 #pragma once
-// Movements of focus, camera and scene that change levels of detail, for the popping benchmark.
+// Computes movements of focus, camera and scene that change levels of detail, for the popping benchmark.
 
 #include <vector>
 
@@ -14,7 +14,7 @@ enum class Movement {
     clip,       // an animation of the scene plays once, such as a walk cycle; the camera is fixed
 };
 
-const char* movementName(Movement movement);  // name on the command line
+const char* movementName(Movement movement);  // returns the name on the command line
 
 struct MovementFrame {
     View view;

@@ -1,4 +1,5 @@
-// Measures popping, which Jeong, Kim and Lee discuss in Multi-Resolution Depth-of-Field Rendering (2011).
+// Measures popping: visible jumps between levels of detail, discussed by Jeong, Kim and Lee 2011, Multi-Resolution
+// Depth-of-Field Rendering.
 
 #include "eval/popping/popping.h"
 
@@ -26,7 +27,7 @@ LodMode levelsOf(PoppingMode mode) {
     }
 }
 
-// The renderers of all modes. The layers are precise enough that rounding doesn't affect the results.
+// The renderers of all level modes. Their layers are precise enough that rounding doesn't affect the results.
 struct Renderers {
     std::unique_ptr<Renderer> accumulation;
     std::unique_ptr<Renderer> multirate;
@@ -55,7 +56,7 @@ double largestSpeed(const FramePlan& plan, const FramePlan& before) {
     return largest;
 }
 
-// ---- errors ---------------------------------------------------------------------------------------------------------
+// ---- errors between images ------------------------------------------------------------------------------------------
 
 double mean(const Image& map, const Image* mask) {
     double sum = 0;
@@ -68,7 +69,7 @@ double mean(const Image& map, const Image* mask) {
     return values > 0 ? sum / static_cast<double>(values) : 0;
 }
 
-// Returns the difference between `image` and `expected`, both in display values.
+// Returns the error of `image` relative to `expected`; both contain display values.
 Pop popBetween(const Image& expected, const Image& image, const Image& objects) {
     Image difference = image;
     for (std::size_t i = 0; i < difference.pixels.size(); ++i) difference.pixels[i] -= expected.pixels[i];
@@ -88,7 +89,7 @@ Image carriedOn(const Image& before, const Image& reference, const Image& refere
     return result;
 }
 
-// ---- movements ------------------------------------------------------------------------------------------------------
+// ---- measurement of a movement --------------------------------------------------------------------------------------
 
 std::vector<Image> masksOf(World& world, const std::vector<MovementFrame>& movement, const PoppingOptions& options) {
     std::vector<Image> masks;
@@ -106,8 +107,8 @@ std::vector<Image> masksOf(World& world, const std::vector<MovementFrame>& movem
 
 struct ModeState {
     FramePlan plan;
-    Image image;      // display values
-    Image reference;  // full detail with the same samples, display values
+    Image image;      // image of the level mode, in display values
+    Image reference;  // image at full detail with the same lens samples, in display values
 };
 
 PoppingFrame frameOf(const Renderers& renderers, PoppingMode mode, const ModeState& before, const ModeState& now,
@@ -122,7 +123,7 @@ PoppingFrame frameOf(const Renderers& renderers, PoppingMode mode, const ModeSta
     return frame;
 }
 
-// `step` is called after each frame, with all frames so far.
+// Measures one movement. Calls `step` after each frame with the results of all frames so far.
 std::vector<PoppingFrame> measureMovement(World& world, const Renderers& renderers, Movement name,
                                           const std::vector<MovementFrame>& movement, const std::vector<Image>& masks,
                                           const PoppingOptions& options, std::uint32_t samples,
@@ -156,7 +157,7 @@ std::vector<PoppingFrame> measureMovement(World& world, const Renderers& rendere
     return frames;
 }
 
-// ---- one sample's step ----------------------------------------------------------------------------------------------
+// ---- change of the image when one sample switches its level ---------------------------------------------------------
 
 // Returns the most blurred of the objects that have a coarser level; null if there is none.
 ObjectPlan* maxBlurred(FramePlan& plan, const World& world) {
@@ -200,7 +201,7 @@ std::optional<SampleStep> measureSampleStep(const World& world, Renderer& render
     step.level = static_cast<std::uint32_t>(object->lambda);
     const double depth = 0.5 * (object->nearestDepth + object->farthestDepth);
     step.coc = std::abs(circleOfConfusion(plan.coc, depth, view.width));
-    // projectedEdge is the size in px of level 0's mean edge at the object's nearest depth.
+    // projectedEdge is the projected mean edge length of level 0 in px, at the object's nearest depth.
     step.edgeError = pyramid.levels[step.level + 1].error / pyramid.levels[0].meanEdge * object->projectedEdge *
                      object->nearestDepth / depth;
     step.expected = std::sqrt(std::max(step.coc / step.edgeError, 1.0)) / samples;

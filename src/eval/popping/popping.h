@@ -50,15 +50,15 @@ struct PoppingOptions {
     std::vector<Movement> movements = {Movement::focusPull, Movement::dolly, Movement::turntable};
     std::vector<std::uint32_t> sampleCounts = {8, 16, 32};
     int clip = 0;          // index of the scene's clip, for Movement::clip
-    int pathFrames = 240;  // frames of a complete movement; determines its speed
-    int frames = 48;       // measured frames of each movement: the consecutive frames with most level changes
-    RenderSettings plan;   // settings that the bench doesn't vary: seed, metric, keepAll …
+    int pathFrames = 240;  // number of frames of a complete movement; determines its speed
+    int frames = 48;       // number of measured frames per movement: the consecutive ones with most level changes
+    RenderSettings plan;   // settings that the bench keeps constant: seed, metric, keepAll …
     RendererOptions renderer;
 };
 
 struct PopError {
     double rmse = 0;
-    double flip = 0;  // mean FLIP over the pixels
+    double flip = 0;  // mean FLIP over the measured pixels
 };
 
 struct Pop {
@@ -70,7 +70,7 @@ struct PoppingFrame {
     Movement movement = Movement::focusPull;
     std::uint32_t samples = 0;
     PoppingMode mode = PoppingMode::nearest;
-    int frame = 0;     // frame number t, ≥ 1
+    int frame = 0;     // number t of the frame in the movement, ≥ 1
     double speed = 0;  // max |λ_t − λ_{t−1}| over all objects
     Pop change;
     Pop step;

@@ -24,7 +24,7 @@ struct NamedMeasure {
     PopSummary PoppingRow::*place;
 };
 
-// Measures over the object pixels, followed by measures over the complete image.
+// Errors over the object pixels, followed by errors over the complete image.
 constexpr NamedMeasure measures[] = {
     {"changeRmse", [](const PoppingFrame& f) { return f.change.objects.rmse; }, &PoppingRow::changeRmse},
     {"changeFlip", [](const PoppingFrame& f) { return f.change.objects.flip; }, &PoppingRow::changeFlip},

@@ -10,21 +10,21 @@
 
 namespace defocus::engine {
 
-// Summary of one measure over the frames of a movement.
+// Summary of one error measure over all frames of a movement.
 struct PopSummary {
     double worst = 0;
     int worstFrame = 0;
     double percentile99 = 0;  // 99th percentile, interpolated linearly between frames
-    double ofNearest = 0;     // `worst` divided by `worst` of LodMode::nearest; NaN if that is 0 or missing
+    double ofNearest = 0;     // `worst`, divided by that of LodMode::nearest; NaN if the latter is 0 or missing
 };
 
 struct PoppingRow {
     Movement movement = Movement::focusPull;
     std::uint32_t samples = 0;
     PoppingMode mode = PoppingMode::nearest;
-    int frames = 0;  // number of frame pairs: number of views − 1
+    int frames = 0;  // number of pairs of consecutive frames: number of views − 1
     double speed = 0;
-    PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // measures over the object pixels
+    PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // errors over the object pixels
     PopSummary changeRmseImage, changeFlipImage, stepRmseImage, stepFlipImage;
 };
 
@@ -33,13 +33,13 @@ std::vector<PoppingRow> poppingRows(std::span<const PoppingFrame> frames);
 
 // Returns one line: the largest pop of each mode in the first frames of a movement.
 std::string firstFramesLine(std::span<const PoppingFrame> frames);
-std::string poppingHeader();                         // two lines
-std::string poppingLine(const PoppingRow& row);      // one line
-std::string sampleStepLine(const SampleStep& step);  // one line, labels included
+std::string poppingHeader();                         // returns the table's header, two lines
+std::string poppingLine(const PoppingRow& row);      // returns the table's line for a row
+std::string sampleStepLine(const SampleStep& step);  // returns one line with labels
 // Returns a sentence: the largest pop of each mode relative to LodMode::nearest, at the largest number of samples.
 std::string poppingSummary(std::span<const PoppingRow> rows);
 
-std::string poppingCsv(std::span<const PoppingFrame> frames);  // one line for each frame
+std::string poppingCsv(std::span<const PoppingFrame> frames);  // returns CSV with a line for each frame
 // Returns JSON with the worst frame and the 99th percentile of each movement, number of samples and mode.
 std::string poppingJson(std::span<const PoppingFrame> frames, std::span<const SampleStep> steps,
                         const BenchSubject& subject, const PoppingOptions& options);

@@ -19,10 +19,10 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint32_t fewSamples = 64;
-constexpr std::uint32_t enoughSamples = 1024;  // lens samples per set; noise cancels in the product of two sets' errors
+constexpr std::uint32_t enoughSamples = 1024;  // per image; noise cancels in the product of two images' errors
 
-// Scene for the measurement: a single static mesh without background, under the default lights, with the focus far
-// away.
+// Scene for the measurement: a single static mesh without background, under the default lights, with the focal plane
+// far away.
 struct Stand {
     World world;
     View view;
@@ -65,7 +65,7 @@ Stand standFor(const PreparedFrame& frame, const PredictionOptions& options) {
     const Finishes finishes(*scene);
     stand.world.pyramids = buildPyramids(scene->meshes, {.finishes = &finishes});
     if (stand.world.pyramids[0].levels.size() < 2) fail("{}: no mesh has levels", frame.sceneName);
-    // Frame the bounding sphere, so that the mesh is inside the image from every direction.
+    // Frame the bounding sphere, so that the mesh is inside the image from all view directions.
     const Bounds& bounds = stand.world.pyramids[0].bounds;
     const glm::dvec3 radius(0.5 * glm::length(bounds.size()));
     Pose ball = stand.world.pose;
@@ -122,14 +122,14 @@ Views viewsOf(Stand& stand, std::uint32_t samples, std::uint32_t level, std::uin
     return views;
 }
 
-// Images for two independent sets of lens samples.
+// Images for each of two independent sets of lens samples, whose noise is uncorrelated.
 using TwoSets = std::array<Views, 2>;
 
 TwoSets twoSetsOf(Stand& stand, std::uint32_t level, const RendererOptions& options) {
     return {viewsOf(stand, enoughSamples, level, 1, options), viewsOf(stand, enoughSamples, level, 2, options)};
 }
 
-// Mean radiance of the covered pixels, and covered area in pixels.
+// Mean radiance of the pixels that the mesh covers, and the covered area in pixels.
 struct Light {
     double mean = 0;
     double cover = 0;
@@ -164,7 +164,7 @@ double renderedError(const TwoSets& reference, const TwoSets& level) {
     return std::sqrt(std::max(products, 0.0) / light.cover) / light.mean;
 }
 
-// Returns the root of the mean of `squared` over all patch sizes.
+// Returns the square root of the mean of `squared` over all patch sizes.
 template <typename Squared>
 double rootMean(const std::array<double, patchDepths>& sides, const Squared& squared) {
     double sum = 0;

@@ -4,7 +4,7 @@
 // compared with level 0. Two independent sets of 1,024 lens samples separate the level's error from sampling noise:
 // only the error common to both sets counts.
 //
-// Equal for prediction and rendering: mesh, level, lens, patches of the blur, default lights. Both errors are RMS
+// Prediction and rendering use the same mesh, level, lens, patches of the blur and default lights. Both errors are RMS
 // differences of linear radiance, clamped at white, over three channels and the area that level 0 covers. They are
 // relative to level 0's mean radiance. The renderer's shading includes normal maps and the default sky; the
 // prediction's shading is simpler.
@@ -20,21 +20,21 @@
 namespace defocus::engine {
 
 struct PredictionOptions {
-    std::vector<double> cocs = {1, 4, 16, 64};  // CoC diameters at the mesh's centre, px
-    int width = 320;                            // px
-    int height = 240;                           // px
+    std::vector<double> cocs = {1, 4, 16, 64};  // measured CoC diameters at the mesh's centre, px
+    int width = 320;                            // image width, px
+    int height = 240;                           // image height, px
     RendererOptions renderer;
 };
 
 struct PredictionRow {
     std::string mesh;
-    double coc = 0;           // diameter at the mesh's centre, px
+    double coc = 0;           // CoC diameter at the mesh's centre, px
     std::uint32_t level = 0;  // level of detail; 0: full detail with 64 samples, whose error is sampling noise
     std::uint32_t triangles = 0;
     double predicted = 0;
     double rendered = 0;
-    // Whether the level is drawn at this blur with LodMetric::measured for some number of samples from 16 to 512. If λ
-    // lies between two levels, both are drawn.
+    // True if LodMetric::measured draws the level at this blur for some number of samples from 16 to 512. If λ lies
+    // between two levels, both levels are drawn.
     bool used = false;
 
     [[nodiscard]] bool withinTwo() const { return predicted <= 2 * rendered && rendered <= 2 * predicted; }

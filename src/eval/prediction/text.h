@@ -9,8 +9,8 @@
 
 namespace defocus::engine {
 
-std::string predictionHeader();                        // two lines
-std::string predictionLine(const PredictionRow& row);  // one line
+std::string predictionHeader();                        // returns the table's header, two lines
+std::string predictionLine(const PredictionRow& row);  // returns the table's line for a row
 
 // Returns a sentence: how many of the used levels are predicted within a factor of two, and the worst and the mean
 // factor.

@@ -1,6 +1,7 @@
 #pragma once
-// Measures two scenes that exceed the scaling benchmark: 100 million triangles in 10,000 instances of one mesh, and
-// 10,000 objects with separate meshes. Measures the time to the first image, the time of a frame, and the memory.
+// Measures two scenes that are larger than those of the scaling benchmark: 100 million triangles in 10,000 instances of
+// one mesh, and 10,000 objects with separate meshes. Measures the time to the first image, the time of a frame, and the
+// memory.
 
 #include <cstdint>
 #include <filesystem>
@@ -21,7 +22,7 @@ struct LargeScene {
     bool instances = false;  // true: all objects share one mesh
 };
 
-// Returns the two scenes.
+// Returns the two scenes described at the top of this file.
 std::vector<LargeScene> largeScenes();
 
 struct LargeSceneRow {
@@ -30,15 +31,15 @@ struct LargeSceneRow {
     std::uint64_t triangles = 0;   // triangles of all objects at full detail
     double worldMilliseconds = 0;  // time to build the scene and its pyramids, which may come from the cache
     Spread planMilliseconds;
-    double firstImageMilliseconds = 0;  // time from plan to first image, with uploads and compilation of shaders
+    double firstImageMilliseconds = 0;  // time from plan to first image, including uploads and shader compilation
     double frameMilliseconds = 0;       // time of a further frame with all samples
-    std::uint64_t trianglesDrawn = 0;   // triangles drawn in all samples
+    std::uint64_t trianglesDrawn = 0;   // triangles drawn in all samples together
     std::uint64_t residentBytes = 0;    // resident memory of the process after drawing
     std::uint64_t gpuBytes = 0;         // peak size of the renderer's resources
 };
 
 struct LargeSceneOptions {
-    int runs = 3;                       // timed runs of the planning
+    int runs = 3;                       // number of timed runs of the planning
     std::filesystem::path cacheFolder;  // cache of the pyramids; empty: no cache
     RendererOptions renderer;
 };
@@ -48,7 +49,7 @@ struct LargeSceneOptions {
 LargeSceneRow measureLargeScene(const LargeScene& scene, const LargeSceneOptions& options,
                                 const Progress& progress = {});
 
-// Return the header and a row of a text table.
+// These functions return the header and a row of a text table.
 std::string largeSceneHeader();
 std::string largeSceneLine(const LargeSceneRow& row);
 

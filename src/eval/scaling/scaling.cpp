@@ -16,11 +16,11 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::array comparedModes = {LodMode::off, LodMode::fractional};
-constexpr int gridTriangles = 500;        // triangles of each instance at full detail
-constexpr int smallFactor = 40;           // divisor of width and height, so that almost only vertex work remains
-constexpr double bytesPerTriangle = 600;  // main memory: mesh, pyramid while it is built, driver's copy
+constexpr int gridTriangles = 500;        // triangles of each fish in the grid at full detail
+constexpr int smallFactor = 40;           // divisor of the small image's width and height; leaves mainly vertex work
+constexpr double bytesPerTriangle = 600;  // main memory for mesh, pyramid during its build, and driver's copy
 constexpr double memoryShareMax = 0.8;
-constexpr double minMargin = 0.05;  // min difference to rank two parts, as a fraction of the frame time
+constexpr double minMargin = 0.05;  // smaller differences of two times, as a fraction of the frame time, are a tie
 
 FramePlan planOf(const ScalingWorld& world, const ScalingPoint& point, LodMode mode) {
     View view = world.view;
@@ -128,7 +128,7 @@ std::string tooLarge(const ScalingPoint& point, const Machine& machine) {
     return fmt::format("about {:.0f} GB of main memory needed", needed / 1e9);
 }
 
-// The point measured last, with its world, which the next point may reuse.
+// The point measured last, and its world, which the next point can reuse if it needs the same world.
 struct Subject {
     Machine machine;
     ScalingPoint point;
@@ -149,7 +149,7 @@ std::string measuredOrWhyNot(Subject& subject, const ScalingPoint& point, const 
             subject.point = point;
         }
         measurePoint(*subject.world, point, options, visitor);
-    } catch (const Error& error) {  // for example, graphics memory is full
+    } catch (const Error& error) {  // for example, because graphics memory is full
         reason = error.what();
     } catch (const std::bad_alloc&) {
         reason = "main memory is exhausted";

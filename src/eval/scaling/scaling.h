@@ -7,8 +7,9 @@
 // The rest of the complete frame's time is fill, the work per pixel of a surface. On a GPU these parts overlap, so they
 // show which part limits a frame, not the cost of each part.
 //
-// Equal along an axis: all parameters that the axis doesn't vary (see scalingPoints), and the process. Runs alternate
-// between modes. Times are medians of the wall-clock time between finished frames, after one untimed frame.
+// Along an axis, all parameters that it doesn't vary (see scalingPoints) stay constant; all points are measured in one
+// process. Runs alternate between modes. Times are medians of the wall-clock time between finished frames, after one
+// untimed frame.
 
 #include <cstdint>
 #include <filesystem>
@@ -34,12 +35,12 @@ enum class ScalingAxis {
     blur,       // largest circle of confusion; varied by f-numbers from 16 to 1
 };
 
-const char* scalingAxisName(ScalingAxis axis);  // name on the command line
+const char* scalingAxisName(ScalingAxis axis);  // returns the axis's name on the command line
 
 struct ScalingOptions {
     std::vector<ScalingAxis> axes = {ScalingAxis::triangles, ScalingAxis::instances, ScalingAxis::samples,
                                      ScalingAxis::pixels, ScalingAxis::blur};
-    bool large = false;                 // extends the triangles axis to 50,000,000
+    bool large = false;                 // true: extends the triangles axis to 50,000,000
     int runs = 3;                       // timed runs of each frame
     std::filesystem::path cacheFolder;  // cache of the pyramids; empty: no cache
     RendererOptions renderer;
@@ -49,7 +50,7 @@ enum class ScalingPart { layers, vertices, fill };
 
 const char* scalingPartName(ScalingPart part);
 
-// A frame on an axis. The axis sets one value; all other values have the defaults here.
+// A frame to measure, as a point on an axis. The axis sets one of the members; the others have the defaults here.
 struct ScalingPoint {
     ScalingAxis axis = ScalingAxis::triangles;
     double value = 0;  // number of triangles, instances, samples or pixels, or the f-number
@@ -73,14 +74,15 @@ struct ScalingRow {
     int runs = 0;
     Spread milliseconds;             // time of the complete frame
     Spread layers;                   // time of the empty frame, in which layers are only cleared and added, ms
-    Spread vertices;                 // time of the frame drawn into a small image, ms
-    Spread fill;                     // rest of the complete frame's time, ms, ≥ 0
+    Spread vertices;                 // time of the frame drawn into a small image, which is mainly work per vertex, ms
+    Spread fill;                     // rest of the complete frame's time: work per pixel of a surface, ms, ≥ 0
     std::uint64_t triangles = 0;     // drawn triangles, sum over all samples
     std::uint64_t gpuBytes = 0;      // peak size of the renderer's resources
     std::uint64_t pyramidBytes = 0;  // main memory of all levels of all meshes
 
     // Returns the part with the largest median time and all parts too close to rank below it: parts whose spreads touch
-    // its spread or whose medians differ by less than a twentieth of the frame time. Ordered as in ScalingPart.
+    // its spread or whose medians differ by less than a twentieth of the frame time. The parts are in the order of
+    // ScalingPart.
     [[nodiscard]] std::vector<ScalingPart> largestParts() const;
 };
 
@@ -88,23 +90,23 @@ struct ScalingRow {
 // the same size.
 struct ScalingTimes {
     std::vector<double> complete;
-    std::vector<double> layers;    // empty frame
-    std::vector<double> vertices;  // frame drawn into a small image
+    std::vector<double> layers;    // times of the empty frame
+    std::vector<double> vertices;  // times of the frame drawn into a small image
 };
 
-// Sets the row's members runs, milliseconds, layers, vertices and fill.
+// Sets the members `runs`, `milliseconds`, `layers`, `vertices` and `fill` of the row.
 void setTimes(ScalingRow& row, const ScalingTimes& times);
 
 struct ScalingVisitor {
     std::function<void(const ScalingRow&)> row;
-    // called with points that do not fit into memory
+    // Called with each point that does not fit into memory, and the reason.
     std::function<void(const ScalingPoint&, const std::string& reason)> leftOut;
 };
 
 // Measures all points of the requested axes. Needs a current GL context.
 void measureScaling(const ScalingOptions& options, const ScalingVisitor& visitor, const Progress& progress = {});
 
-// Least-squares fit of y ≈ factor · x^exponent to the logarithms of x and y.
+// A power law y ≈ factor · x^exponent, fitted by least squares to the logarithms of x and y.
 struct PowerLaw {
     double exponent = 0;
     double residual = 0;  // RMS of ln y − ln(factor · x^exponent): approximately the relative RMS error

@@ -52,7 +52,8 @@ std::optional<PowerLaw> lawOf(std::span<const ScalingRow> curve, double (*quanti
     return fittedPowerLaw(points);
 }
 
-// Returns the names of the row's largest parts, such as "fill" or "vertex work and fill alike".
+// Returns the names of the parts that take most of the row's frame time, such as "fill" or "vertex work and fill
+// alike".
 std::string largestText(const ScalingRow& row) {
     std::string text;
     const std::vector<ScalingPart> largest = row.largestParts();

@@ -11,15 +11,15 @@
 
 namespace defocus::engine {
 
-std::string scalingHeader();                     // two lines
-std::string scalingLine(const ScalingRow& row);  // one line
+std::string scalingHeader();                     // returns the table's header, two lines
+std::string scalingLine(const ScalingRow& row);  // returns the table's line for a row
 
 // Returns a line for each axis and mode: the fitted exponents of time and memory, and the parts that limit the frame
 // time.
 std::string scalingSummary(std::span<const ScalingRow> rows);
 
-// Returns the largest parts along the rows of one axis and mode, such as "fill up to 300 k, vertex work and fill alike
-// from 1 M".
+// Returns the parts that take most of the frame time along one axis and mode, such as "fill up to 300 k, vertex work
+// and fill alike from 1 M".
 std::string boundsAlong(std::span<const ScalingRow> rows);
 
 struct ScalingLeftOut {
@@ -27,7 +27,7 @@ struct ScalingLeftOut {
     std::string reason;
 };
 
-std::string scalingLine(const ScalingLeftOut& leftOut);  // one line
+std::string scalingLine(const ScalingLeftOut& leftOut);  // returns one line
 
 std::string scalingCsv(std::span<const ScalingRow> rows);
 std::string scalingJson(std::span<const ScalingRow> rows, std::span<const ScalingLeftOut> leftOut,

@@ -17,7 +17,7 @@ constexpr double gridNear = 2;     // depth of the grid's front, m
 constexpr double gridFar = 6;      // depth of the grid's back, m
 constexpr double gridWidth = 0.8;  // width of the grid, as a fraction of the view's width
 
-// Sets pose, camera, lens, lights and environment of the built-in school. The caller adds the pyramids.
+// Sets pose, camera, lens, lights and environment of the built-in school of fish. The caller adds the pyramids.
 void surround(ScalingWorld& result) {
     const Scene& scene = *result.scene;
     World& world = result.world;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array modes = {LodMode::off, LodMode::nearest, LodMode::fractional};
 constexpr std::uint32_t warmUpSamples = 2;
-constexpr std::uint32_t referenceFactor = 8;  // default reference samples / largest measured sample count
+constexpr std::uint32_t referenceFactor = 8;  // default reference samples, divided by the max measured number
 
 struct Setting {
     const char* sweep;
@@ -56,14 +56,14 @@ std::uint32_t referenceSamplesOf(const Setting& setting, const std::vector<Setti
     return std::clamp(referenceFactor * max, 2u, maxSamples);
 }
 
-// Renders the reference for the lens of a setting; reuses it for consecutive settings with the same lens.
+// Renders the reference with the lens of a setting. Reuses the reference for consecutive settings with the same lens.
 class References {
 public:
     References(const World& world, const std::vector<Setting>& settings, const SpeedupOptions& options,
                const Progress& progress)
         : world_(world), settings_(settings), options_(options), progress_(progress) {}
 
-    // Returns the setting's reference; null if no reference is requested.
+    // Returns the reference for the setting; null if no reference is requested.
     const ReferenceImage* of(const Setting& setting) {
         const std::uint32_t samples = referenceSamplesOf(setting, settings_, options_);
         if (samples == 0) return nullptr;
@@ -82,20 +82,20 @@ private:
     ReferenceImage image_;
 };
 
-// One of the compared variants of the frame (form, method, level mode), with its renderer and measurements.
+// One of the compared variants of the frame (preset, method, level mode), with its renderer and its measurements.
 struct SpeedupSubject {
     const SpeedupForm* form = nullptr;
     MethodUse use;
     LodMode mode = LodMode::off;
     LodCause cause = LodCause::blurAndSize;
-    const SpeedupSubject* fullDetail = nullptr;  // variant with the same settings at full detail
+    const SpeedupSubject* fullDetail = nullptr;  // the variant at full detail with otherwise the same settings
     std::unique_ptr<Renderer> renderer;
     std::vector<FramePlan> plans;  // plans of the frame, one per seed
     std::vector<double> milliseconds;
     std::vector<double> gpuMilliseconds;
     double setupMilliseconds = 0;           // set-up time of the renderer
     Image image;                            // image of the first seed
-    std::vector<Difference> fromReference;  // errors, one per seed
+    std::vector<Difference> fromReference;  // errors relative to the reference, one per seed
 };
 
 // Returns whether the method draws levels of detail. Ray tracers trace the loaded meshes only. Post-process methods
@@ -104,8 +104,8 @@ bool followsLevels(const Method& method) {
     return method.needsGl && method.usesLensSamples;
 }
 
-// Returns the subjects in the order of the rows. Subjects whose levels depend on size alone or on blur alone (LodCause)
-// follow the row that includes their results.
+// Returns the compared variants in the order of the rows. Variants whose levels depend on size alone or on blur alone
+// (LodCause) have no row of their own; they follow the variant whose row includes their results.
 std::deque<SpeedupSubject> subjectsOf(std::span<const SpeedupForm> forms, const std::vector<MethodUse>& methods) {
     std::deque<SpeedupSubject> subjects;  // a deque, because pointers to its elements stay valid
     const auto add = [&](const SpeedupForm& form, const MethodUse& use, LodMode mode, LodCause cause) {
@@ -141,7 +141,7 @@ FramePlan planOf(const SpeedupSubject& subject, const Setting& setting, std::uin
     return planFrame(*subject.form->world, setting.view, settings);
 }
 
-// Plans the frame for all seeds, sets up the renderer, and draws an untimed frame to fill the driver's caches.
+// Plans the frame for all seeds, sets up the renderer, and draws one untimed frame to fill the driver's caches.
 void prepare(SpeedupSubject& subject, const Setting& setting, int seeds, RendererOptions options) {
     for (int seed = 0; seed < seeds; ++seed) subject.plans.push_back(planOf(subject, setting, setting.samples, seed));
     const Clock::time_point begin = Clock::now();
@@ -152,13 +152,13 @@ void prepare(SpeedupSubject& subject, const Setting& setting, int seeds, Rendere
     finish(*subject.renderer, planOf(subject, setting, std::min(setting.samples, warmUpSamples)));
 }
 
-// Draws and times run `number`, with the seed number % seeds.
+// Draws and times run `number`, which uses the seed with index number % seeds.
 void run(SpeedupSubject& subject, std::size_t number, const ReferenceImage* reference) {
     finish(*subject.renderer, subject.plans[number % subject.plans.size()]);
     const RenderStats stats = subject.renderer->stats();
     subject.milliseconds.push_back(stats.renderMilliseconds);
     subject.gpuMilliseconds.push_back(stats.gpuMilliseconds);
-    if (number >= subject.plans.size()) return;  // an earlier run has drawn the same image
+    if (number >= subject.plans.size()) return;  // an earlier run has already drawn the image of this seed
     Image image = subject.renderer->image();
     if (reference != nullptr) subject.fromReference.push_back(compareImages(reference->image, image));
     if (number == 0) subject.image = std::move(image);
@@ -217,7 +217,7 @@ SpeedupRow rowOf(const Setting& setting, const SpeedupSubject& subject, const Re
     return row;
 }
 
-// Calls `visit` with a row for each subject. Subjects whose levels depend on size alone or on blur alone have no row:
+// Calls `visit` with the row of each variant. Variants whose levels depend on size alone or on blur alone have no row:
 // their results are added to the preceding row.
 void visitRows(const std::deque<SpeedupSubject>& subjects, const Setting& setting, const ReferenceImage* reference,
                const std::function<void(const SpeedupRow&)>& visit) {

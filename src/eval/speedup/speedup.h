@@ -1,10 +1,11 @@
 #pragma once
-// The benchmark of Jeong, Kim and Lee 2011 (their Figure 2). Measures how much faster a frame is with levels of detail
-// than at full detail, for a fixed camera. Varies the number of lens samples, the f-number and the focus distance.
+// Repeats the benchmark of Jeong, Kim and Lee 2011 (Figure 2): measures how much faster a frame is with levels of
+// detail than at full detail, for a fixed camera. Varies the number of lens samples, the f-number and the focus
+// distance.
 //
-// Equal for full detail, nearest level and fractional level: scene, camera, lens, lens samples, image size, layers per
-// draw, process, renderer. Runs alternate between all compared modes and methods, so a slowdown of the machine affects
-// all of them.
+// Full detail, nearest level and fractional level have the same scene, camera, lens, lens samples, image size, number
+// of layers per draw, process and renderer. Runs alternate between all compared modes and methods, so a slowdown of the
+// machine affects all of them.
 
 #include <functional>
 #include <optional>
@@ -21,7 +22,7 @@
 
 namespace defocus::engine {
 
-// Settings of levels and lens samples, and a world whose pyramids are built with these settings.
+// Settings of levels and lens samples, and a world whose pyramids are built with them.
 struct SpeedupForm {
     std::string preset;              // name of the preset (settings of a publication); empty: none
     const World* world = nullptr;    // scene, pose, lights and environment are the same in all forms
@@ -30,13 +31,13 @@ struct SpeedupForm {
 };
 
 struct SpeedupOptions {
-    std::vector<std::uint32_t> sampleCounts = {16, 32, 64, 128, 256, 512};  // measured with the view's own lens
+    std::vector<std::uint32_t> sampleCounts = {16, 32, 64, 128, 256, 512};  // lens samples, with the view's own lens
     std::vector<double> fStops;                                             // f-numbers to measure with `sweepSamples`
     std::vector<double> focusDistances;  // focus distances (m) to measure with `sweepSamples`
     std::uint32_t sweepSamples = 64;
-    std::vector<MethodUse> methods;  // measured after accumulation, with the first form's settings
-    int runs = 5;                    // runs of each frame, ≥ 1
-    int seeds = 5;                   // seeds, ≥ 1; run r uses the plan's seed + r % seeds, so the errors have a spread
+    std::vector<MethodUse> methods;  // methods to measure after accumulation, with the first form's settings
+    int runs = 5;                    // number of runs of each frame, ≥ 1
+    int seeds = 5;                   // number of seeds, ≥ 1; run r uses the plan's seed + r % seeds
     // Lens samples of the converged reference for each lens (reference_image.h); 0: no reference. Default: eight times
     // the largest number of samples measured with that lens, which takes about two thirds of the time of three runs of
     // all modes.
@@ -54,11 +55,11 @@ struct SpeedupPart {
 
 struct SpeedupRow {
     std::string sweep;   // varied parameter: "samples", "aperture" or "focus"
-    std::string preset;  // SpeedupForm::preset of the row's form
-    std::string method;  // name and settings, separated by spaces
+    std::string preset;  // name of the preset that the row's settings come from; see SpeedupForm
+    std::string method;  // name of the method and its settings, separated by spaces
     std::uint32_t samples = 0;
     double fStop = 0;
-    double focusDistance = 0;  // m
+    double focusDistance = 0;  // focus distance, m
     LodMode mode = LodMode::off;
     int runs = 0;
     Spread milliseconds;             // wall-clock time of a frame
@@ -66,19 +67,19 @@ struct SpeedupRow {
     double setupMilliseconds = 0;    // set-up time of the renderer; not part of `milliseconds`
     double pyramidMilliseconds = 0;  // build time of the pyramids, if levels are used; not part of `milliseconds`
     double speedUp = 1;              // median time of the settings at full detail divided by this row's median time
-    std::optional<SpeedupPart> sizeOnly, blurOnly;  // results by cause; only for accumulation with fractional levels
+    std::optional<SpeedupPart> sizeOnly, blurOnly;  // by LodCause; only for accumulation with fractional levels
     std::uint64_t triangles = 0;
     std::uint64_t gpuBytes = 0;               // peak size of the renderer's resources
-    Difference fromFullDetail;                // difference with the same lens samples, for the first seed
-    std::optional<Difference> fromReference;  // mean over the seeds
+    Difference fromFullDetail;                // from full detail with the same lens samples, for the first seed
+    std::optional<Difference> fromReference;  // from the reference, mean over the seeds
     std::vector<SeedError> ofSeeds;           // difference from the reference, one per measured seed
     std::uint32_t referenceSamples = 0;       // lens samples of the reference; 0: no reference
     Difference referenceRemaining;            // estimate of the reference's own error
 };
 
 // Calls `visit` with each row as soon as it is measured. For each setting, measures full detail, nearest level and
-// fractional level of each form, then the further methods. `forms` must not be empty. Needs a current GL context.
-// Throws Error in the same cases as planning and rendering.
+// fractional level of each form (settings and world), then the further methods. `forms` must not be empty. Needs a
+// current GL context. Throws Error in the same cases as planning and rendering.
 void measureSpeedup(std::span<const SpeedupForm> forms, const View& view, const SpeedupOptions& options,
                     const std::function<void(const SpeedupRow&)>& visit, const Progress& progress = {});
 

@@ -71,7 +71,7 @@ std::string partText(const std::optional<SpeedupPart>& part) {
     return part ? fmt::format("{:.2f}", part->speedUp) : std::string();
 }
 
-// Returns the name of the level mode for accumulation, else the method's name.
+// Returns what was drawn: the level mode for accumulation, else the method's name.
 std::string drawnText(const SpeedupRow& row) {
     return row.method == "accumulation" ? lodModeName(row.mode) : row.method;
 }

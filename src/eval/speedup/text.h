@@ -9,8 +9,8 @@
 
 namespace defocus::engine {
 
-std::string speedupHeader();                     // two lines
-std::string speedupLine(const SpeedupRow& row);  // one line
+std::string speedupHeader();                     // returns the table's header, two lines
+std::string speedupLine(const SpeedupRow& row);  // returns the table's line for a row
 std::string speedupCsv(std::span<const SpeedupRow> rows);
 
 std::string speedupJson(std::span<const SpeedupRow> rows, const BenchSubject& subject);

@@ -19,7 +19,7 @@ constexpr int columns = 32;
 constexpr int rows = 24;
 constexpr int depths = 9;
 
-// Returns the fraction of an object's depths whose CoC is at least `minCoc` px.
+// Returns the fraction of the object's depth range in which the CoC diameter is at least `minCoc` px.
 double blurredShareOf(const ObjectPlan& object, const FramePlan& plan, double minCoc) {
     const double nearest = std::max(object.nearestDepth, plan.view.nearPlane);
     const double farthest = std::max(object.farthestDepth, nearest);
@@ -33,8 +33,8 @@ double blurredShareOf(const ObjectPlan& object, const FramePlan& plan, double mi
     return static_cast<double>(blurred) / depths;
 }
 
-// Returns the first and the last of `count` grid cells along an axis whose centres lie in [begin, end], in normalised
-// device coordinates.
+// Returns the first and the last of `count` grid cells along an axis whose centres lie in [begin, end]; coordinates are
+// normalised device coordinates.
 std::array<int, 2> cellsIn(double begin, double end, int count) {
     const auto cell = [&](double ndc) { return (ndc + 1) / 2 * count - 0.5; };
     return {static_cast<int>(std::ceil(std::clamp(cell(begin), -0.5, count + 0.5))),
@@ -47,7 +47,7 @@ double blurredShare(const FramePlan& plan, double minCoc) {
     std::array<bool, std::size_t{columns} * rows> covered{};
     double blurred = 0;
     int open = columns * rows;
-    for (const ObjectPlan& object : plan.objects) {  // nearest first
+    for (const ObjectPlan& object : plan.objects) {  // the nearest object comes first
         CocBox box{.ndcMin = glm::dvec2(-1), .ndcMax = glm::dvec2(1)};
         if (object.nearestDepth > plan.view.nearPlane) box = cocBoxOf(object.viewBox, object.own, plan);
         const auto [left, right] = cellsIn(box.ndcMin.x, box.ndcMax.x, columns);

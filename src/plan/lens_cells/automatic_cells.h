@@ -1,7 +1,8 @@
 #pragma once
-// Chooses between the two methods of "auto": lens cells (method "multirate") if a visible part of the image has a large
-// blur, else plain accumulation, whose samples cost less. The choice depends on the view and the scene, not on the
-// number of samples or the machine. All machines that share a frame therefore make the same choice.
+// Chooses between the two methods that "auto" can use: "multirate", which blurs the image of each lens sample
+// (lens_cells.h), if a visible part of the image has a large blur; else "accumulation", whose samples cost less. The
+// choice depends on the view and the scene, not on the number of samples or the machine. All machines that share a
+// frame therefore make the same choice.
 
 #include <string>
 
@@ -9,10 +10,10 @@ namespace defocus::engine {
 
 struct FramePlan;
 
-// CoC diameter from which gaps between lens samples become visible. With 64 samples, neighbouring images of a point are
-// then 0.9 px apart.
+// Smallest CoC diameter at which gaps between lens samples become visible. With 64 samples, the neighbouring images of
+// a point are then 0.9 px apart.
 inline constexpr double minBlurOfCells = 8;  // px
-// Min fraction of the image whose CoC reaches minBlurOfCells, for method "auto" to use lens cells.
+// Min fraction of the image whose CoC must reach minBlurOfCells, so that method "auto" uses lens cells.
 inline constexpr double minShareOfCells = 0.01;
 
 // Returns the fraction of the image, 0 … 1, in which the CoC diameter is at least `minCoc` px. The fraction is
@@ -21,7 +22,7 @@ inline constexpr double minShareOfCells = 0.01;
 // the logarithm of depth.
 double blurredShare(const FramePlan& plan, double minCoc);
 
-// Returns why method "auto" draws the plan by accumulation; empty if it uses lens cells.
+// Returns why method "auto" draws the plan by accumulation; empty if it uses lens cells (method "multirate").
 std::string reasonForAccumulation(const FramePlan& plan);
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
 #pragma once
-// Size of the surface patch that a single pixel averages over, due to the blur and the pixel's own width.
+// Computes the size of the surface patch that a single pixel averages over, due to the blur and the pixel's own width.
 
 #include <array>
 #include <cstddef>
@@ -17,7 +17,8 @@ inline constexpr std::size_t patchDepths = 5;
 // RenderSettings::lodCause can omit the disk or the pixel from the convolution.
 std::array<double, patchDepths> blurredPatches(const ObjectPlan& object, const FramePlan& plan);
 
-// Returns the smallest |CoC| in px over a box and, if RenderSettings::refocus is set, over all its focus distances.
+// Returns the smallest |CoC| in px over a range of depths and image positions (`box`). If RenderSettings::refocus is
+// set, the result also covers all its focus distances.
 double smallestCoc(const FramePlan& plan, const CocBox& box);
 
 // Returns the projected length in px of one unit of object space, at the depth of the bounding box's centre.

@@ -36,7 +36,8 @@ struct Division {
     std::uint32_t share = 1;
     std::vector<std::uint32_t> order;
 
-    // Assigns `share` points to each centre. `members` and `among` are the indices of the points and of the centres.
+    // Assigns `share` points to each centre. `members` are the indices of the points, `among` the indices of the
+    // centres.
     void divide(std::span<std::uint32_t> members, std::span<std::uint32_t> among) {
         if (among.size() == 1) {
             std::ranges::sort(members);

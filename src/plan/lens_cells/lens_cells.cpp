@@ -16,14 +16,15 @@ namespace defocus::engine {
 
 namespace {
 
-// With N samples, σ of a cell's blur is cellWidth/√N times the CoC diameter. A disk-shaped cell has σ = 1/4 of its
-// diameter. The value is 40 % larger to close the gaps between cells.
+// A lens cell's blur has σ = cellWidth/√N times the CoC diameter for N samples. A disk-shaped cell has σ = 1/4 of its
+// diameter; the value here is 40 % larger to close the gaps between cells.
 constexpr double cellWidth = 0.35;
-constexpr std::uint32_t fewestSamples = 4;  // with fewer samples, the images of samples are not blurred
+constexpr std::uint32_t fewestSamples = 4;  // with fewer samples, the image of each sample stays unblurred
 constexpr std::uint32_t maxPointsOfCell = 16;
-constexpr std::uint32_t maxPoints = 1u << 14;  // max lens points in all cells together
+constexpr std::uint32_t maxPoints = 1u << 14;  // max number of lens points, summed over all cells
 
-// Mean and covariance of lens points, and the fraction of the unit disk that they cover. Defaults: a uniform unit disk.
+// Mean and covariance of lens points, and the fraction of the unit disk that they cover. The default values describe a
+// uniform unit disk.
 struct LensSpread {
     glm::dvec2 mean{0};
     glm::dmat2 covariance{0.25};
@@ -41,8 +42,8 @@ LensSpread spreadOf(const std::vector<LensSample>& samples) {
     return spread;
 }
 
-// Returns the fraction of the unit disk that the light through an aperture image would fill at uniform density. This is
-// (Σ w)² / Σ w² over the transmittances w of the image's pixels, divided by the number of pixels in the disk.
+// Returns the effective open area of an aperture image as a fraction of the unit disk: (Σ w)² / Σ w² over the
+// transmittances w of its pixels, divided by the number of pixels in the disk.
 double filledArea(const ApertureImage& image) {
     double squares = 0;
     double rowsBefore = 0;
@@ -63,7 +64,8 @@ LensSpread lensSpread(const Lens& lens) {
     const Aperture aperture = makeAperture(lens);
     if (isUniformDisk(aperture)) return {};
     LensSpread spread = spreadOf(lensSamples(lens, Sequence::sobol, 0, 4096, 0));
-    // Area of a uniform ellipse with this covariance, relative to the unit disk. A ring's hole is subtracted below.
+    // Area of the uniform ellipse with this covariance, relative to the unit disk. The hole of a ring-shaped aperture
+    // is subtracted below.
     spread.area = std::min(1.0, 4 * std::sqrt(glm::determinant(spread.covariance)));
     spread.area *= (1 - aperture.obstruction) / (1 + aperture.obstruction);
     if (!aperture.image.rowEnds.empty()) spread.area = std::min(spread.area, filledArea(aperture.image));
@@ -77,9 +79,10 @@ void rotate(std::vector<LensSample>& samples, double angle) {
     for (LensSample& sample : samples) sample.lens = rotation * sample.lens;
 }
 
-// Moves each sample to the mean point of its lens cell. A cell consists of further points of the sequence, which are
-// divided evenly among nearby samples. The division runs along two axes, so the mean points form rows and columns. The
-// axes are rotated, so that adjacent columns interleave across a blurred vertical or horizontal edge.
+// Moves each sample to the mean point of its lens cell, the region of the lens that the sample represents. A cell is
+// given by further points of the sequence, which are divided evenly among nearby samples. The division runs along two
+// axes, so the mean points form rows and columns. The axes are rotated, so that adjacent columns interleave across a
+// blurred vertical or horizontal edge.
 void moveToMeans(std::vector<LensSample>& samples, const FramePlan& plan) {
     const auto count = static_cast<std::uint32_t>(samples.size());
     const std::uint32_t points = std::min(maxPointsOfCell, maxPoints / count);
@@ -99,15 +102,15 @@ void moveToMeans(std::vector<LensSample>& samples, const FramePlan& plan) {
     rotate(samples, turn);
 }
 
-// Returns the lower triangular L with L·Lᵀ = m (Cholesky).
+// Returns the lower triangular matrix L with L·Lᵀ = m (Cholesky decomposition).
 glm::dmat2 root(const glm::dmat2& m) {
     const double a = std::sqrt(std::max(m[0][0], 1e-12));
     const double b = m[0][1] / a;
     return {a, b, 0, std::sqrt(std::max(m[1][1] - b * b, 1e-12))};
 }
 
-// Returns the lens points of `samples`, transformed so that their mean is the lens's mean, and their covariance is the
-// lens's covariance minus `variance` along each axis.
+// Returns the lens points of `samples` after a linear transformation. Afterwards, their mean is the mean of `lens`, and
+// their covariance is the covariance of `lens` minus `variance` along each axis.
 std::vector<glm::vec2> matched(const std::vector<LensSample>& samples, const LensSpread& lens, double variance) {
     glm::dmat2 wanted = lens.covariance;
     for (glm::length_t axis = 0; axis < 2; ++axis) wanted[axis][axis] -= std::min(variance, 0.75 * wanted[axis][axis]);

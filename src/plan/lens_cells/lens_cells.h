@@ -1,5 +1,5 @@
 #pragma once
-// Lens cells: regions of the lens that are each represented by one lens sample (method "multirate").
+// Computes lens cells: regions of the lens that are each represented by one lens sample (method "multirate").
 //
 // N samples divide the lens into N cells that pass equal amounts of light. A cell's image is approximately the image
 // from the cell's centre, blurred slightly. The blur kernel is the lens's shape, √N times smaller. A sum of pinhole
@@ -11,11 +11,11 @@
 // covariance of the blur. Blurred points keep their position and size for any N; plain sequence points would shift them
 // by their mean. σ falls as 1/√N, so the result converges to that of plain accumulation.
 //
-// Blurring is linear. Pixels are therefore sorted by σ into a few classes and summed, and each class is blurred once
-// per block of samples (render/accumulation/cell_sums.h). A pixel contributes to the two classes with the nearest
-// variances, with weights that preserve its own variance; this avoids popping. Pixels with hardly any blur stay
-// unblurred. Pixels with an alpha-blended surface also stay unblurred, because the surface and its background differ in
-// blur.
+// Blurring is linear. Pixels are therefore sorted by σ into a few classes and summed over a batch of samples; each
+// class is then blurred once per batch (render/accumulation/cell_sums.h). A pixel contributes to the two classes with
+// the nearest variances, with weights that preserve its own variance; this avoids popping. Pixels with hardly any blur
+// stay unblurred. Pixels with an alpha-blended surface also stay unblurred, because the surface and its background
+// differ in blur.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -30,33 +30,33 @@ inline constexpr int maxCellClasses = 5;  // max number of variance classes on e
 // Returns the blur variance of class k ≥ 0, a group of pixels with similar blur, along an axis in px²: 4^k/3 + 1/6. The
 // image of a class consists of tent-weighted means over squares of 2^k px, interpolated linearly between their centres.
 double cellClassVariance(int k);
-inline constexpr double minCellVariance = 0.01;  // subtracted from each blur variance, px²; too small to be visible
+inline constexpr double minCellVariance = 0.01;  // px², subtracted from each blur's variance; too small to be visible
 
 struct LensCells {
-    double blur = 0;                 // σ as a fraction of |c|; 0: images are not blurred
-    std::uint32_t firstSample = 0;   // LensSample::index of the first cell's sample
+    double blur = 0;                 // σ of the blur as a fraction of |c|; 0: images are not blurred
+    std::uint32_t firstSample = 0;   // LensSample::index of the first cell's lens sample
     std::vector<glm::vec2> middles;  // centre of each cell, in the coordinates of LensSample::lens
     glm::dvec2 pixelShift{0};        // shift in px, added to LensSample::pixel so that the mean offset is 0
     // Number of variance classes in front of and behind the focus plane. Both are 0 if the samples leave no visible
     // gaps. Samples move to the cells' centres even then, to avoid popping.
     int inFront = 0;
     int behind = 0;
-    std::string reason;  // reason why images are not blurred; empty if images are blurred
+    std::string reason;  // why images are not blurred; empty if images are blurred
     [[nodiscard]] int classes() const { return inFront + behind; }
 };
 
-// Returns why the images of the plan's samples cannot be blurred by lens cells; empty if they can.
+// Returns why the images of the plan's samples cannot be blurred by lens cells; empty if they can be.
 std::string reasonForNoCells(const FramePlan& plan);
 
-// Returns the cells of the samples that were planned together. A frame whose samples are added in blocks has separate
-// cells in each block. The blur of a block's cells depends on the number of all samples up to the end of the block.
+// Returns the lens cells of the plan's samples. A frame whose samples are added batch by batch has separate cells in
+// each batch. The blur of a batch's cells depends on the number of all samples up to the end of the batch.
 LensCells lensCells(const FramePlan& plan);
 
 // Moves each sample of the plan to the centre of its lens cell, and shifts its position in the pixel by
 // LensCells::pixelShift. Does nothing if cells.blur is 0.
 void moveToCells(FramePlan& plan, const LensCells& cells);
 
-// Returns the resolution along an axis that the image of a sample needs at a CoC of `coc` px, as a fraction of full
+// Returns the image resolution that a lens sample needs along each axis at a CoC of `coc` px, as a fraction of full
 // resolution. The fraction is 2^−k at the variance of class k, and 1 if images are not blurred.
 double pixelRate(const LensCells& cells, double coc);
 

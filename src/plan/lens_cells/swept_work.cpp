@@ -12,14 +12,14 @@ namespace defocus::engine {
 
 namespace {
 
-// Bounding rectangle in normalised device coordinates.
+// Rectangle in normalised device coordinates that bounds a triangle over the lens and the exposure.
 struct SweptBounds {
     glm::dvec2 min{1e30};
     glm::dvec2 max{-1e30};
 };
 
-// Image that sums values over pixel rectangles. add() changes four corners; image() fills the rectangles by prefix sums
-// over rows and columns.
+// Accumulates an image from rectangles of constant value. add() stores a rectangle as changes at its four corners;
+// image() sums these changes over rows and columns (prefix sums).
 class RectangleSums {
 public:
     RectangleSums(int width, int height)
@@ -61,8 +61,8 @@ private:
     std::vector<double> corners_;
 };
 
-// Returns the object's vertices at the shutter times. Between two shutter times, x/w, y/w and C/w stay between the
-// values at these times, where C is the circle of confusion.
+// Returns the object's clip-space vertices at the shutter times. Between two shutter times, x/w, y/w and C/w stay
+// between the values at these times, where C is the circle of confusion.
 std::vector<ClipVertices> momentsOf(const FramePlan& plan, const World& world, const ObjectPlan& object,
                                     std::uint32_t level) {
     std::vector<ClipVertices> moments;

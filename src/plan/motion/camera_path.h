@@ -1,5 +1,5 @@
 #pragma once
-// Movements for shots and benchmarks: camera dolly, camera orbit, and focus pull.
+// Computes movements for shots and benchmarks: camera dolly, camera orbit, and focus pull.
 
 #include "plan/view.h"
 

@@ -1,5 +1,6 @@
 #pragma once
-// Clip-space vertices of a level, computed on the CPU. The GPU version is shaders/include/posing.glsl with lens.glsl.
+// Computes the clip-space vertices of a level on the CPU. On the GPU, shaders/include/posing.glsl and lens.glsl compute
+// the same vertices.
 
 #include <glm/vec3.hpp>
 #include <vector>
@@ -9,11 +10,12 @@
 namespace defocus::engine {
 
 struct ClipVertices {
-    std::vector<glm::dvec3> places;  // (x, y, w) in the clip space of the pinhole camera
+    std::vector<glm::dvec3> places;  // positions (x, y, w) in the clip space of the pinhole camera
     std::vector<double> coc;         // circle of confusion C; undefined for w ≤ 0 with artistic controls
 };
 
-// Returns the vertices of a level in `pose`, one of the object's poses; `time` ∈ [0, 1] is the time in the exposure.
+// Returns the vertices of a level in `pose`, which is one of the object's poses. `time` ∈ [0, 1] is the time in the
+// exposure.
 ClipVertices clipVertices(const FramePlan& plan, const World& world, const ObjectPlan& object, std::uint32_t level,
                           const ObjectPose& pose, double time);
 

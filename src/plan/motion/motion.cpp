@@ -1,5 +1,6 @@
-// Source: Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization. Vertices and
-// their circles of confusion C change linearly between the opening and the closing of the shutter.
+// Plans motion blur. Source: Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic
+// Rasterization. Vertices and their circles of confusion C change linearly between the opening and the closing of the
+// shutter.
 #include "plan/motion/motion.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double stillness = 1e-9;  // tolerance relative to the largest matrix element
+constexpr double stillness = 1e-9;  // max change of a matrix at rest, relative to the matrix's largest element
 
 std::size_t momentCount(const World& world, const View& view) {
     return std::max(world.shutter.poses.size(), view.shutterCameras.size());

@@ -1,5 +1,5 @@
 #pragma once
-// Motion of objects and camera while the shutter is open.
+// Plans the motion of objects and camera while the shutter is open.
 
 #include "plan/frame_plan.h"
 
@@ -10,15 +10,15 @@ namespace defocus::engine {
 void checkShutter(const World& world, const View& view, const RenderSettings& settings);
 
 // Returns the poses of an object at the shutter times, each in the view space of its time. The result is empty if the
-// object doesn't move relative to the camera. This is the case if all poses equal `pose` within 1e-9 of each matrix's
+// object doesn't move relative to the camera, which means that all poses equal `pose` within 1e-9 of each matrix's
 // largest element.
 std::vector<ObjectPose> objectMotion(const World& world, const View& view, std::size_t object, const ObjectPose& pose);
 
-// Returns true if the exposure has a duration.
+// Returns true if the exposure time is greater than 0.
 bool shutterIsOpen(const World& world, const View& view);
 
-// Fills plan.moments and plan.middleFromView. Both stay empty if no object or shadow caster moves and no vertex blur
-// changes.
+// Fills plan.moments and plan.middleFromView. Both stay empty if no object and no shadow caster moves, and no blur
+// modifier of a vertex changes.
 void planMoments(FramePlan& plan, const World& world, const std::vector<ObjectPlan>& casters);
 
 }  // namespace defocus::engine

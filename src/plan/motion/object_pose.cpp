@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the bounds of the offsets that the morph targets add to a position.
+// Returns the bounds of the offsets that all morph targets together add to a vertex position.
 Bounds morphReach(const Pyramid& pyramid, const ObjectPose& pose) {
     Bounds reach;
     reach.extend(glm::dvec3(0));
@@ -53,7 +53,7 @@ Bounds posedBox(const Pyramid& pyramid, const ObjectPose& pose, bool skinned) {
         return transformed(widened(pyramid.bounds, reach), pose.viewFromJoint.front());
     Bounds box;
     for (std::size_t j = 0; j < pyramid.jointBounds.size(); ++j) {
-        // Joint indices beyond the skin select the first joint, as in posing.glsl.
+        // Joint indices outside the skin select the first joint, as in posing.glsl.
         const glm::dmat4& matrix = pose.viewFromJoint[j < pose.viewFromJoint.size() ? j : 0];
         box.extend(transformed(widened(pyramid.jointBounds[j], reach), matrix));
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Pose of an object in view space at one instant, and a bounding box of all its levels in that pose.
+// Computes the pose of an object in view space at one instant, and a bounding box of all its levels in that pose.
 
 #include "plan/frame_plan.h"
 
@@ -7,7 +7,7 @@ namespace defocus::engine {
 
 ObjectPose objectPose(const Object& object, const glm::dmat4& viewFromWorld);
 
-// Returns true if morph targets change the mesh.
+// Returns true if morph targets change the mesh in this pose.
 bool morphs(const ObjectPose& pose);
 
 // Returns a bounding box of the vertices of all levels in view space. A skinned vertex Σ w_j·M_j·p with joint weights

@@ -22,7 +22,7 @@ double openingOffset(const ShutterSettings& shutter) {
     return 0;
 }
 
-// Returns the shutter times (times at which poses are needed) as fractions of the exposure.
+// Returns the shutter times, the times at which poses are needed, as fractions of the exposure.
 std::vector<double> shutterShares(const ShutterSettings& shutter, const Lens& lens, const RenderSettings& settings) {
     std::vector<double> shares;
     if (const auto* const segments = std::get_if<std::uint32_t>(&shutter.motionSegments)) {

@@ -1,5 +1,6 @@
 #pragma once
-// Exposure of a frame: its duration, and the scene's poses at the shutter times, the times at which motion is sampled.
+// Computes the exposure of a frame: its duration, and the scene's poses at the shutter times, the times at which motion
+// is sampled.
 
 #include <functional>
 #include <optional>
@@ -10,9 +11,9 @@
 
 namespace defocus::engine {
 
-// Exposure duration and motion sampling.
+// Settings of the exposure's duration and of the sampling of motion.
 struct ShutterSettings {
-    double seconds = 0;  // duration of the exposure; 0: no motion blur
+    double seconds = 0;  // duration of the exposure in s; 0: no motion blur
     ShutterPosition position = ShutterPosition::centre;
     MotionSegments motionSegments = 1u;
     std::optional<double> opening;  // opening time in s, relative to the frame's time; replaces `position`

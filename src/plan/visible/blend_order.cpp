@@ -14,10 +14,10 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t maxConvexTriangles = 1000;  // max triangles of a primitive that isConvex() tests
-constexpr std::size_t maxParts = 5000;            // max parts of all primitives; bounds the comparisons of pairs
-constexpr double tolerance = 1e-4;                // relative to the primitive's size; allows for rounded positions
+constexpr std::size_t maxParts = 5000;            // max total of parts; limits the time for comparing pairs
+constexpr double tolerance = 1e-4;                // allowance for rounded positions, relative to the primitive's size
 
-// A blended or transmissive primitive of an object.
+// An alpha-blended or transmissive primitive of an object.
 struct Candidate {
     std::uint32_t object = 0;
     std::uint32_t primitive = 0;
@@ -25,14 +25,14 @@ struct Candidate {
     bool doubleSided = false;
 };
 
-// A part of a primitive, or an entire primitive.
+// A node of the sorting graph: a convex part of a primitive, or an entire primitive.
 struct BlendNode {
     std::size_t candidate = 0;
     BlendRun run;
     BlendPart part;  // unused for entire primitives that transmit or are drawn by stochastic transparency
 };
 
-// Relations of a node to the nodes before it in BlendSorter::nodes_, as indices of these nodes.
+// Draw-order constraints between a node and the nodes before it in BlendSorter::nodes_, as indices of these nodes.
 struct Relations {
     std::vector<std::size_t> before;     // nodes that must be drawn before this node
     std::vector<std::size_t> after;      // nodes that must be drawn after this node
@@ -43,7 +43,7 @@ class BlendSorter {
 public:
     BlendSorter(FramePlan& plan, const World& world) : plan_(&plan), world_(&world) {}
 
-    // Returns FramePlan::blendOrder and sets ObjectPlan::blended.
+    // Returns the value for FramePlan::blendOrder, and sets ObjectPlan::blended.
     std::vector<BlendRun> runs();
 
 private:
@@ -77,8 +77,8 @@ void BlendSorter::findCandidates() {
     }
 }
 
-// Returns the parts of a candidate at its drawn levels; empty if there are too many, or if the surface changes its
-// shape.
+// Returns the convex parts of a candidate at its drawn levels; empty if there are too many parts, or if the mesh
+// deforms.
 std::vector<BlendNode> BlendSorter::partsOf(std::size_t candidate) const {
     const Candidate& from = candidates_[candidate];
     const ObjectPlan& object = plan_->objects[from.object];
@@ -125,18 +125,18 @@ void BlendSorter::addNodes(std::size_t candidate) {
     std::ranges::move(parts, std::back_inserter(nodes_));
 }
 
-// Returns the relations of a node to the nodes before it.
+// Returns the draw-order constraints between a node and the nodes before it in nodes_.
 Relations BlendSorter::relationsOf(std::size_t node) const {
     Relations relations;
     const BlendNode& b = nodes_[node];
     for (std::size_t i = 0; i < node; ++i) {
         const BlendNode& a = nodes_[i];
         if (transmits(i) || transmits(node)) {
-            if (a.candidate != b.candidate) relations.after.push_back(i);  // a's object is nearer
+            if (a.candidate != b.candidate) relations.after.push_back(i);  // the object of `a` is nearer
             continue;
         }
         if (a.run.stochastic || b.run.stochastic || !overlap(a.part, b.part)) continue;
-        // An object's levels are drawn in different samples, or in different pixels of a sample.
+        // Levels of the same object are drawn in different samples or at different pixels, so they need no order.
         if (a.run.object == b.run.object && a.run.level != b.run.level) continue;
         const bool aMayHide = mayHide(a.part, b.part, *plan_);
         const bool bMayHide = mayHide(b.part, a.part, *plan_);
@@ -147,8 +147,8 @@ Relations BlendSorter::relationsOf(std::size_t node) const {
     return relations;
 }
 
-// Finds the relations of all nodes. A node that cannot be sorted relative to an earlier sorted node is drawn by
-// stochastic transparency.
+// Finds the draw-order constraints of all nodes. A node that cannot be sorted relative to an earlier sorted node is
+// drawn by stochastic transparency.
 void BlendSorter::relate() {
     relations_.resize(nodes_.size());
     parallelFor(nodes_.size(), [&](std::size_t i) { relations_[i] = relationsOf(i); });
@@ -157,13 +157,13 @@ void BlendSorter::relate() {
             relations_[i].unordered, [&](std::size_t earlier) { return !nodes_[earlier].run.stochastic; });
 }
 
-// Returns the indices of the nodes in an order that fulfils the relations between sorted nodes. Where there is a
-// choice, the farthest objects come first. A cycle is broken by making one of its nodes, or a node behind it,
-// stochastic.
+// Returns the indices of the nodes in an order that satisfies the constraints between sorted nodes. Where several nodes
+// could be next, the farthest object comes first. A cycle is broken by drawing one of its nodes, or a node behind it,
+// with stochastic transparency.
 std::vector<std::size_t> BlendSorter::backToFront() {
     const std::size_t count = nodes_.size();
     std::vector<std::vector<std::size_t>> later(count);
-    std::vector<std::size_t> earlier(count);  // number of remaining nodes that must be drawn before the node
+    std::vector<std::size_t> earlier(count);  // number of remaining nodes that must be drawn before each node
     const auto constrain = [&](std::size_t first, std::size_t then) {
         const bool free = nodes_[first].run.stochastic || nodes_[then].run.stochastic;
         if (free && !transmits(first) && !transmits(then)) return;
@@ -203,7 +203,7 @@ std::vector<std::size_t> BlendSorter::backToFront() {
     return order;
 }
 
-// Appends a run, or extends the last one if both have triangles of the same level of a primitive.
+// Appends a run, or extends the last run if both have triangles of the same primitive and level.
 void append(std::vector<BlendRun>& runs, const BlendRun& run) {
     const bool extends = !runs.empty() && !runs.back().triangles.empty() && !run.triangles.empty() &&
                          runs.back().object == run.object && runs.back().primitive == run.primitive &&

@@ -36,7 +36,8 @@ PosedPart posedPart(const glm::dmat4& viewFromObject, const std::vector<glm::vec
     return part;
 }
 
-// Returns whether the entire part lies on the plane or in front of it (`sign` 1) or behind it (−1).
+// Returns whether no corner of the part lies behind the plane (`sign` 1) or in front of the plane (−1), within
+// `rounding`.
 bool isOn(const Plane& plane, const PosedPart& part, double sign, double rounding) {
     return std::ranges::all_of(part.corners, [&](const glm::dvec3& corner) {
         return sign * (glm::dot(plane.normal, corner) - plane.distance) >= -rounding;

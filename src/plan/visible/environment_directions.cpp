@@ -1,4 +1,5 @@
-// Importance sampling of an environment on an equirectangular grid (Pharr, Jakob and Humphreys 2016, section 14.2.4).
+// Samples directions to an environment by importance, on an equirectangular grid (Pharr, Jakob and Humphreys 2016,
+// section 14.2.4).
 #include "plan/visible/environment_directions.h"
 
 #include <algorithm>
@@ -54,8 +55,8 @@ double importance(int row, bool onGround) {
     return onGround ? 0.25 + 0.75 * std::max(0.0, std::cos(std::numbers::pi * (row + 0.5) / gridRows)) : 1;
 }
 
-// Inverts cumulative sums. Returns the index of the interval that contains `place`, a fraction of the last sum, and the
-// position [0, 1] inside the interval.
+// Inverts a cumulative distribution. Returns the index of the interval of `sums` that contains `place`, a fraction of
+// the last sum, and the position in [0, 1] inside the interval.
 std::pair<std::size_t, double> inverted(std::span<const double> sums, double place) {
     const double target = place * sums.back();
     const auto found = std::ranges::upper_bound(sums, target);

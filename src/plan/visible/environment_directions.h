@@ -1,5 +1,5 @@
 #pragma once
-// Directions to the environment, for shadows from environment lighting.
+// Chooses directions to the environment, for shadows in environment lighting.
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -20,12 +20,13 @@ public:
     explicit EnvironmentDirections(const Environment& environment, bool onGround = false);
 
     struct Choice {
-        glm::dvec3 toLight{0, 1, 0};  // unit vector
+        glm::dvec3 toLight{0, 1, 0};  // unit vector to the environment
         glm::dvec3 radiance{0.0};     // radiance divided by the probability density of the direction, W/m²
     };
     // Maps `point` ∈ [0, 1)² to a direction.
     [[nodiscard]] Choice at(const glm::dvec2& point) const;
-    // Returns the luminance-weighted illuminance, averaged over the orientations of a surface.
+    // Returns the illuminance from the environment, averaged over all orientations of a surface. Colours are weighted
+    // to luminance.
     [[nodiscard]] double meanIlluminance() const { return meanIlluminance_; }
     [[nodiscard]] bool empty() const { return rowSums_.empty() || !(rowSums_.back() > 0); }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int middlePoints = 9;  // test points along each side of the image's central third
 
-// Returns the lens focused at infinity, where focus breathing doesn't change the field of view.
+// Returns the lens focused at infinity, for which focus breathing doesn't change the field of view.
 Lens unfocused(const Lens& lens) {
     Lens result = lens;
     result.focusDistance = std::numeric_limits<double>::infinity();

@@ -1,7 +1,7 @@
 #pragma once
-// Automatic focus: the depth (m along the view axis) of a node, of a pixel's surface, or of the middle of the image.
-// The view must be complete except for its focus distance. Error messages begin with `who`, such as "--focus-pixel" or
-// "focus".
+// Finds depths for automatic focus, in m along the view axis: of a node, of a pixel's surface, or of the middle of the
+// image. The view must be complete except for its focus distance. Error messages begin with `who`, such as
+// "--focus-pixel" or "focus".
 
 #include <glm/vec2.hpp>
 #include <optional>

@@ -8,8 +8,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns (Nx, Ny, det) of lens_facing.h as a trilinear function of three triangles: the polar form (blossom). The
-// Bernstein coefficients over time are means of its values for the first and the last triangle of the motion.
+// Returns (Nx, Ny, det), as defined in lens_facing.h, in polar form (blossom): a trilinear function of three triangles.
+// Means of its values for the first and the last triangle of the motion are the Bernstein coefficients over time.
 glm::dvec3 blossom(const LensTriangle& a, const LensTriangle& b, const LensTriangle& c) {
     glm::dvec3 result(0);
     for (std::size_t i = 0; i < 3; ++i) {

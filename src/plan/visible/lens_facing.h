@@ -17,7 +17,7 @@ namespace defocus::engine {
 
 struct LensTriangle {
     std::array<glm::dvec3, 3> places;  // (x, y, w) in the clip space of the pinhole camera
-    std::array<double, 3> coc{};       // circle of confusion C of each corner
+    std::array<double, 3> coc{};       // circle of confusion C at each corner
 };
 
 // Returns the largest determinant over all lens points in the disk of `radius`. The triangle faces away from all these

@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the luminance-weighted illuminance in lux on a surface that faces the light.
+// Returns the illuminance in lux on a surface that faces the light. The light's colour is weighted to luminance.
 double illuminance(const PlacedLight& placed, const glm::dvec3& camera, const SeenPoint& seen) {
     const Light& light = placed.light;
     const double brightness = light.intensity * luminance(glm::dvec3(light.color));
@@ -29,7 +29,7 @@ double illuminance(const PlacedLight& placed, const glm::dvec3& camera, const Se
     return brightness / (bounded * bounded);
 }
 
-// Returns the illuminance from each light, then from the environment, summed over the points.
+// Returns the illuminance from each light, then from the environment, each summed over the points.
 std::vector<double> illuminances(const World& world, const FramePlan& plan, double byEnvironment,
                                  const std::vector<SeenPoint>& seen) {
     const glm::dvec3 camera(plan.view.worldFromCamera[3]);
@@ -45,7 +45,7 @@ double total(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-// Returns the values divided by their sum; zeros if the sum is 0.
+// Returns the values divided by their sum, or zeros if the sum is 0.
 std::vector<double> normalized(std::vector<double> values) {
     const double all = total(values);
     for (double& value : values) value = all > 0 ? value / all : 0;

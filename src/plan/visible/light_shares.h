@@ -1,5 +1,5 @@
 #pragma once
-// Estimates how much each light contributes to the image, to choose the lights that cast shadows.
+// Estimates how much each light contributes to the image. The estimate chooses the lights that cast shadows.
 
 #include <vector>
 

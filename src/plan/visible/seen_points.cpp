@@ -14,20 +14,20 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int rayColumns = 16;  // columns and rows of the grid of rays through the image
+constexpr int rayColumns = 16;  // columns of the grid of rays through the image; rayRows: rows
 constexpr int rayRows = 12;
 constexpr int rayDepths = 4;              // points on the part of a ray inside a bounding box
 constexpr std::size_t maxCrossings = 16;  // max boxes along a ray; farther boxes are ignored
 
-// Part of a ray inside the bounding box of an object. Depths in m.
+// Part of a ray inside the bounding box of an object, with depths in m.
 struct Crossing {
     double enter = 0;
     double leave = 0;
     const ObjectPlan* object = nullptr;
 };
 
-// Returns where a ray from the camera crosses the object's box; `leave` < `enter` if the ray misses the box.
-// `direction` has depth 1 m.
+// Returns where a ray from the camera enters and leaves the object's bounding box; `leave` < `enter` if the ray misses
+// the box. `direction` is scaled to a depth of 1 m.
 Crossing crossing(const ObjectPlan& object, const glm::dvec3& direction, double nearPlane) {
     Crossing found{nearPlane, std::numeric_limits<double>::infinity(), &object};
     for (int axis = 0; axis < 3; ++axis) {

@@ -8,7 +8,7 @@
 
 namespace defocus::engine {
 
-// Estimated position of a visible surface, which passes at most `spread` m from `place`.
+// Estimated position of a visible surface: the surface passes `place` at a distance of at most `spread` m.
 struct SeenPoint {
     glm::dvec3 place{0.0};  // position in m from the camera along the world's axes
     double depth = 0;       // depth in m along the view axis

@@ -1,5 +1,5 @@
-// Sources: Haeberli and Akeley 1990, The Accumulation Buffer (soft shadows); Williams 1978, Casting Curved Shadows on
-// Curved Surfaces; Shirley and Chiu 1997, A Low Distortion Map Between Disk and Square.
+// Plans shadow maps. Sources: Haeberli and Akeley 1990, The Accumulation Buffer (soft shadows); Williams 1978, Casting
+// Curved Shadows on Curved Surfaces; Shirley and Chiu 1997, A Low Distortion Map Between Disk and Square.
 #include "plan/visible/shadows.h"
 
 #include <algorithm>
@@ -19,17 +19,17 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int minMapSize = 128;               // px
+constexpr int minMapSize = 128;               // min width and height of a shadow map, px
 constexpr int maxImageMapSize = 2048;         // max map size in px that is chosen to match the image's size
-constexpr double resolvedShare = 0.95;        // fraction of visible points where texels are at most texelPixels wide
-constexpr double texelPixels = 2;             // texel width in px; above 1, because lens samples shift the texels
+constexpr double resolvedShare = 0.95;        // fraction of visible points with texels of at most texelPixels px
+constexpr double texelPixels = 2;             // texel width in px; can exceed 1, because samples shift the texels
 constexpr double minTexelLimit = 1 << 20;     // max texels of a map; for large images, twice the number of pixels
 constexpr double maxSampleTexels = 64 << 20;  // max texels of all maps of a lens sample: 256 MiB
 constexpr double minShare = 0.01;             // lights below this fraction of the visible illuminance cast no shadow
 constexpr double widestTangent = 3;           // max tan of half a map's field of view
 constexpr double levelErrorTexels = 0.5;      // max simplification error of a caster, texels
 constexpr std::size_t maxBoxes = 64;          // with more casters, a single box contains all casters
-constexpr double nearShare = 1e-4;            // near plane of point and spot lights, relative to the scene's size
+constexpr double nearShare = 1e-4;            // near plane of point and spot lights, as a fraction of the scene's size
 constexpr std::uint32_t smoothPoints = 64;    // min number of points on a light for a smooth penumbra
 
 struct Rectangle {
@@ -101,12 +101,12 @@ bool oneMapShows(const PlacedLight& placed, const glm::dvec3& position, const st
 
 struct ShadowCandidate {
     int light = 0;
-    double share = 0;  // fraction of the visible illuminance
+    double share = 0;  // fraction of the visible illuminance that the light causes
     int faces = 1;
 };
 
-// Returns the maps of the strongest lights that fit into maxShadowMaps, in the order of the lights. `shares` are the
-// lightShares().
+// Returns the shadow maps of the strongest lights, at most maxShadowMaps, in the order of the lights. `shares` are the
+// results of lightShares().
 std::vector<ShadowMap> chosenMaps(const World& world, const FramePlan& plan, const std::vector<glm::dvec3>& corners,
                                   const std::vector<double>& shares) {
     const glm::dvec3 camera(plan.view.worldFromCamera[3]);
@@ -134,16 +134,16 @@ std::vector<ShadowMap> chosenMaps(const World& world, const FramePlan& plan, con
     return maps;
 }
 
-// Returns the number of points on each light per sample. A penumbra has as many steps as there are points in total, so
-// frames with few samples use several points per sample. The number of samples includes all earlier samples of the
-// frame.
+// Returns the number of points on each light per lens sample. A penumbra has as many brightness steps as there are
+// points in all samples, so frames with few samples use several points per sample. The number of samples includes all
+// earlier samples of the frame.
 std::uint32_t pointsFor(const RenderSettings& settings, std::size_t maps) {
     const std::uint64_t samples = std::uint64_t{settings.firstSample} + settings.sampleCount;
     const std::uint64_t wanted = (smoothPoints + samples - 1) / std::max<std::uint64_t>(samples, 1);
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, maxPointsPerSample(maps)));
 }
 
-// ---- projections ----------------------------------------------------------------------------------------------------
+// ---- projections of the shadow maps ---------------------------------------------------------------------------------
 
 // Returns the corners of the volume that the lens samples see, up to the farthest object. Shadows outside this volume
 // are invisible.
@@ -237,8 +237,8 @@ std::optional<Rectangle> inFront(const Axes& axes, const glm::dvec3& origin, con
     return area;
 }
 
-// Returns the projection from one point of the disk of a point or spot light. `point` is its position on the unit disk,
-// `camera` the camera's position in m.
+// Returns the projection of a shadow map from one point of the disk of a point or spot light. `point` is the position
+// on the unit disk, `camera` the camera's position in m.
 ShadowProjection localProjection(const ShadowPlan& shadows, const glm::dvec3& camera, const PlacedLight& placed,
                                  int face, const glm::dvec2& point, const glm::dvec2& shift) {
     const Bounds bounds = boundsOfCorners(shadows.corners);
@@ -274,7 +274,7 @@ ShadowProjection localProjection(const ShadowPlan& shadows, const glm::dvec3& ca
     return projection;
 }
 
-// Returns the projection of a map for the position `place` in [0, 1)² on the light.
+// Returns the projection of a shadow map from the point of the light at `place` in [0, 1)².
 ShadowProjection mapProjection(const World& world, const glm::dvec3& camera, const ShadowPlan& shadows,
                                const EnvironmentDirections& directions, const ShadowMap& map, const glm::dvec2& place,
                                const glm::dvec2& shift) {
@@ -293,7 +293,7 @@ ShadowProjection mapProjection(const World& world, const glm::dvec3& camera, con
     return parallelProjection(shadows, axes.z + tangent * (onDisk.x * axes.x + onDisk.y * axes.y), shift);
 }
 
-// ---- size of the maps -----------------------------------------------------------------------------------------------
+// ---- size of the shadow maps ----------------------------------------------------------------------------------------
 
 // Returns the number of texels across the map that makes a texel at `seen` twice as wide as the smallest visible
 // detail, which is a pixel or half the blur. Returns 0 if the point is outside the map.
@@ -333,8 +333,8 @@ int mapSize(const World& world, const FramePlan& plan, const ShadowPlan& shadows
     return std::min(size, static_cast<int>(most));
 }
 
-// Returns the position in [0, 1)² of a sample's `point` on the lights. The points of one sample are consecutive in the
-// sequence. The points of all samples together are therefore evenly distributed.
+// Returns the position in [0, 1)² on every light for point number `point` of a lens sample. The points of one sample
+// are consecutive in the sequence, so the points of all samples together are evenly distributed.
 glm::dvec2 lightPoint(const FramePlan& plan, const LensSample& sample, std::uint32_t point) {
     if (plan.shadows.points == 1) return glm::dvec2(sample.light);
     const std::uint64_t index = std::uint64_t{sample.index} * plan.shadows.points + point;

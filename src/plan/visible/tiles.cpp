@@ -19,7 +19,7 @@ int cellSide(int pixels) {
     return (pixels + cells - 1) / cells;
 }
 
-// Keeps the objects that `isKept` returns true for, and their part of the blend order.
+// Keeps only the objects for which `isKept` returns true, also in the blend order.
 void keepObjects(FramePlan& plan, const auto& isKept) {
     std::vector<std::optional<std::uint32_t>> newIndex(plan.objects.size());
     std::vector<ObjectPlan> kept;

@@ -1,5 +1,5 @@
 #pragma once
-// Parts of the image, for frames that exceed memory or that several machines share.
+// Divides the image into parts, for frames that exceed memory or that several machines share.
 //
 // A tile is bit-identical to the same pixels of the entire image. Tiles are drawn with the entire image's viewport, so
 // window coordinates and their rounding in the rasterizer stay the same. Only the tile's pixels are kept and summed.
@@ -24,11 +24,11 @@ struct PixelRectangle {
 
 struct Tile {
     PixelRectangle area;
-    PixelRectangle cell;  // cell of the image whose window coordinates are used; it contains `area`
+    PixelRectangle cell;  // cell of the image whose window coordinates the tile uses; the cell contains `area`
     bool operator==(const Tile&) const = default;
 };
 
-inline constexpr int maxCellPixels = 8192;  // px; larger images are divided into cells with separate window coordinates
+inline constexpr int maxCellPixels = 8192;  // max side of a cell, px; larger images consist of several cells
 
 // Returns the cells of an image, row by row. All cells have the same size, except that the last cell of a row or column
 // may be smaller.

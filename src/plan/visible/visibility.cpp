@@ -1,5 +1,6 @@
-// Sources: Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization, Appendix A.
-// Shirman and Abi-Ezzi 1993, The Cone of Normals Technique for Fast Processing of Curved Patches.
+// Culls geometry. Sources: Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic
+// Rasterization, Appendix A. Shirman and Abi-Ezzi 1993, The Cone of Normals Technique for Fast Processing of Curved
+// Patches.
 
 #include "plan/visible/visibility.h"
 
@@ -20,28 +21,28 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double snapping = 1.0 / 128;      // max change in px of a triangle's altitude by rounding to 8 subpixel bits
-constexpr double transformation = 0x1p-21;  // max error of a single-precision position, relative to its summands
+constexpr double transformation = 0x1p-21;  // max error of a single-precision position, relative to the summed terms
 constexpr double storage = 1e-6;            // relative error of a cluster's stored values
 constexpr double guardBand = 1.8;           // |NDC| beyond which triangles may be clipped
 constexpr int shutterParts = 4;         // parts of the time between two shutter times; each has its own motion bound
 constexpr std::size_t maxMoments = 64;  // max shutter times for culling; with more, all clusters are drawn
-// max vertices per level, over all shutter times; posing them takes about 10 ms
+// max number of vertices per level, over all shutter times; posing them takes about 10 ms
 constexpr std::size_t maxPosedVertices = 100'000;
-constexpr double minSaving = 1.0 / 8;  // fraction of a level's triangles; if less is culled, all are drawn
-constexpr std::uint32_t minGap = 128;  // min triangles to skip; drawing fewer costs less than another range
+constexpr double minSaving = 1.0 / 8;  // min culled fraction of a level's triangles; otherwise all are drawn
+constexpr std::uint32_t minGap = 128;  // min culled triangles between two ranges; a smaller gap costs less to draw
 
 // Bounds of the lens in object space during a part of the exposure.
 struct LensRange {
     glm::dvec3 eye{0};             // centre of the lens in the middle of this part of the exposure
     glm::dmat3 viewFromNormal{1};  // inverse transpose of the object's matrix
     double inverseSize = 0;        // Frobenius norm of the object's inverse matrix
-    double motion = 0;             // max distance of a lens point from its position at the part's middle
+    double motion = 0;             // max distance of a lens point from its position in the middle of this part
 };
 
 // An object as seen by all samples of the frame.
 struct ObjectViews {
-    std::vector<glm::dmat4> viewFromObject;  // first in the middle of the exposure, then at each shutter time
-    std::vector<LensRange> lenses;           // empty: no cluster is culled for facing away
+    std::vector<glm::dmat4> viewFromObject;  // matrix in the middle of the exposure, then at each shutter time
+    std::vector<LensRange> lenses;           // ranges over the exposure; empty: no culling of back faces
     double lensRadius = 0;                   // radius in m of the disk that bounds the lens
     double shapeLoss = 1;                    // max factor by which a tilted focus plane shrinks a triangle's altitude
     double minVolume = 0;                    // min view-space volume in m³ of a unit cube of object space
@@ -345,7 +346,7 @@ bool cornersFaceAway(const IndexRange& range, const Bounds& box, const LevelCorn
     return true;
 }
 
-// ---- levels --------------------------------------------------------------------------------------------------------
+// ---- culling of levels ---------------------------------------------------------------------------------------------
 
 bool clusterOutside(const Bounds& box, const ObjectViews& views, const FramePlan& plan) {
     double largest = infinity;
@@ -364,7 +365,7 @@ public:
     explicit Runs(VisibleLevel& level) : level_(&level), runs_(&level.primitives.emplace_back()) {}
 
     void show(const IndexRange& range) {
-        if (!runs_->empty() && (away_ + outside_) < minGap)  // the gap is too small for another range
+        if (!runs_->empty() && (away_ + outside_) < minGap)  // the gap is too small for a further range
             runs_->back().count += 3 * (away_ + outside_) + range.count;
         else {
             leaveOut();
@@ -383,7 +384,7 @@ public:
 private:
     VisibleLevel* level_;
     std::vector<IndexRange>* runs_;
-    std::uint32_t away_ = 0;  // culled triangles since the last range
+    std::uint32_t away_ = 0;  // number of culled triangles since the last range
     std::uint32_t outside_ = 0;
 };
 

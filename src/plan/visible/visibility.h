@@ -35,14 +35,14 @@
 
 namespace defocus::engine {
 
-// Returns the depths and image positions of `viewBox`, which must lie beyond the near plane. `own` bounds the blur
-// modifiers of the surfaces in the box.
+// Returns the range of depths and image positions of `viewBox`, which must lie beyond the near plane. `own` bounds the
+// blur modifiers of the surfaces in the box.
 CocBox cocBoxOf(const Bounds& viewBox, const OwnBlur& own, const FramePlan& plan);
 
 // Returns true if no lens sample sees any part of the box. `own` bounds the blur modifiers of the surfaces in the box.
 // `largest` (px) is an upper bound of their CoC.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest);
-// Returns true if no lens sample sees any part of the box in `area` of the image.
+// Returns true if no lens sample sees any part of the box inside the rectangle `area` of the image.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,
                            const PixelRectangle& area);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The picture of the window, drawn without a window, and the references that it is compared with.
+// Draws the window's image without a window, and renders the reference images that it is compared with.
 
 #include "core/progress.h"
 #include "view/bench/view_bench.h"
@@ -9,13 +9,14 @@ namespace defocus::engine {
 
 class BenchPicture {
 public:
-    // `document` and `state` must outlive this object.
+    // `document` and `state` must exist longer than this object.
     BenchPicture(Document& document, ViewState& state, bool software)
         : document_(document), state_(state), software_(software) {}
 
-    // Draws the picture for the state as the window does, and waits for the GPU. Throws Error if the method fails.
+    // Draws the image for the current state as the window does, and waits for the GPU. Throws Error if the method
+    // fails.
     void draw();
-    // Adds samples to a still picture, then draws it. Waits for a millisecond if the picture is not yet still.
+    // Adds lens samples to the image of a view at rest, then draws it. Waits 1 ms if the view has not yet come to rest.
     void grow();
     [[nodiscard]] ViewPicture& image() { return *picture_.image; }
 
@@ -26,11 +27,11 @@ private:
     LivePicture picture_;
 };
 
-// Renders the reference of a view at full detail.
+// Renders the reference image of a view: full detail and ViewBenchOptions::referenceSamples lens samples.
 Image benchReference(const Document& document, const ViewState& state, const View& view,
                      const ViewBenchOptions& options, const Progress& progress);
 
-// Returns the image at another size, interpolated bilinearly like the window's texture.
+// Resizes the image with bilinear interpolation, as the window does with its texture.
 Image enlarged(const Image& image, int width, int height);
 
 }  // namespace defocus::engine

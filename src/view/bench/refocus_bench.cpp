@@ -17,7 +17,7 @@ namespace {
 
 constexpr int dragFrames = 20;
 
-// A drag of the focus distance or the f-number.
+// Change of the focus distance or of the f-number, as if the user dragged its slider.
 struct Drag {
     std::string name;
     double focusDistance = 1;  // focus distance in m at the end of the drag
@@ -44,7 +44,8 @@ public:
     DragRun(Document& document, ViewState& state, const ViewBenchOptions& options)
         : state_(state), picture_(document, state, options.software) {}
 
-    // Fills the times and qualities of `row`. Returns two pictures: at the end of the drag, and at full quality.
+    // Drags the value and fills the times and qualities of `row`. Returns the last image of the drag and the first
+    // image at full quality.
     std::pair<Image, Image> run(const Drag& drag, RefocusBenchRow& row) {
         rest();
         row.keptImages = picture_.image().keptImages() ? picture_.image().keptImages()->drawn() : 0;
@@ -75,7 +76,8 @@ public:
     }
 
 private:
-    // Draws until the picture is still, has full quality, and all lens images are kept.
+    // Draws frames until the view is at rest, the image has full quality, and the images of all lens samples are
+    // stored.
     void rest() {
         picture_.draw();
         do picture_.grow();

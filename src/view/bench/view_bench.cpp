@@ -22,16 +22,16 @@ using namespace std::chrono_literals;
 
 constexpr double step = glm::radians(1.0);    // angle of the orbit per frame
 constexpr double settledSeconds = 1;          // time at rest before the movement, so that the first input is typical
-constexpr std::uint32_t minStillSamples = 4;  // samples of the first picture that the window shows at rest
+constexpr std::uint32_t minStillSamples = 4;  // min lens samples before the window shows the image at rest
 constexpr double comparedShares[] = {0.25, 0.5, 0.75};  // fractions of the movement at which frames are compared
 
 struct ShownFrame {
     std::uint32_t frame = 0;  // index of the frame in the movement
     View view;
-    Image image;  // image as drawn, possibly smaller than the view
+    Image image;  // frame as drawn, possibly smaller than the view
 };
 
-using References = std::map<std::uint32_t, Image>;  // key: frame index; all methods have the same camera path
+using References = std::map<std::uint32_t, Image>;  // references by frame index; all methods have the same camera path
 
 double percentile95(std::vector<double> values) {
     const auto place = values.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(values.size() - 1));
@@ -63,7 +63,8 @@ public:
     }
 
 private:
-    // Draws until the picture has converged, or for `seconds`. Notes the times of the first and the converged picture.
+    // Draws until the image has converged or `seconds` have passed. Records the times of the first and the converged
+    // image.
     void rest(double seconds) {
         const Clock::time_point begin = Clock::now();
         const auto elapsed = [&] { return 1e-3 * millisecondsSince(begin); };

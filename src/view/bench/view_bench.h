@@ -1,5 +1,6 @@
 #pragma once
-// Measures the picture of the window without a display: a camera moves along a fixed path, then rests.
+// Measures the frame rate, latency and image error of the window without a display, while a camera moves along a fixed
+// path and then rests.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,32 +18,32 @@ namespace defocus::engine {
 
 struct ViewBenchOptions {
     std::vector<MethodUse> methods;        // methods to measure, one after another
-    std::uint32_t frames = 60;             // frames of the movement, ≥ 4: an orbit of 1° per frame
+    std::uint32_t frames = 60;             // number of frames of the movement, an orbit of 1° per frame; ≥ 4
     double restSeconds = 10;               // max time to measure after the movement, s
-    double convergedError = 0.005;         // estimated error at which the picture at rest counts as converged
+    double convergedError = 0.005;         // estimated error at which the image at rest counts as converged
     std::uint32_t referenceSamples = 512;  // lens samples of a reference at full detail, 2 … maxSamples
     std::filesystem::path shaderFolder;    // replacement shaders; empty: the embedded shaders
-    bool software = false;                 // OpenGL runs on the CPU
+    bool software = false;                 // true: OpenGL runs on the CPU
 };
 
 struct ViewBenchRow {
-    std::string method;          // method in the format of MethodUse::text
+    std::string method;          // method and its settings, in the format of MethodUse::text
     double framesPerSecond = 0;  // mean frame rate over the movement
-    double slowFrame = 0;        // 95th percentile of the frame times, ms
-    double firstPicture = 0;     // time from the first change of the camera to its finished frame, ms
-    FrameQuality quality;        // quality of the last frame of the movement
-    double movingPsnr = 0;       // PSNR in dB, from the mean squared error of three frames of the movement
-    double stillPicture = 0;     // time from the end of the movement to the first accumulated picture, s
-    double converged = 0;        // time from the end of the movement to the converged picture, s; infinity: not reached
-    std::uint32_t samples = 0;   // lens samples of the picture at the end
-    double stillPsnr = 0;        // PSNR of the picture at the end, dB
+    double slowFrame = 0;        // 95th percentile of the frame times over the movement, ms
+    double firstPicture = 0;     // time from the first camera change to the end of the frame that shows it, ms
+    FrameQuality quality;        // resolution and lens samples of the last frame of the movement
+    double movingPsnr = 0;       // PSNR in dB, from the mean squared error of three frames during the movement
+    double stillPicture = 0;     // time from the end of the movement to the first accumulated image, s
+    double converged = 0;        // time from the end of the movement to the converged image, s; infinity: not reached
+    std::uint32_t samples = 0;   // lens samples of the final image
+    double stillPsnr = 0;        // PSNR of the final image, dB
 };
 
 // Opens the scene of `state.options` and waits for its pyramids. Throws Error if it can't be opened.
 void openForBench(Document& document, ViewState& state);
 
-// Measures the methods on the document's scene at ViewState::pictureSize. Errors are measured on the picture as the
-// window shows it: frames at a lower resolution are enlarged. Needs a current GL context. Throws Error for a method
+// Measures the methods on the document's scene at ViewState::pictureSize. Errors are measured on the image at the
+// window's size: frames of lower resolution are enlarged first. Needs a current GL context. Throws Error for a method
 // that doesn't support the scene or the settings.
 void measureView(Document& document, ViewState& state, const ViewBenchOptions& options,
                  const std::function<void(const ViewBenchRow&)>& take, const Progress& progress = {});

@@ -20,7 +20,7 @@ Request withoutScene(Request options) {
     return options;
 }
 
-// Adds the scene to the recent files, and reads the recent files and the scene's saved views.
+// Adds the scene to the recent files, and reads the list of recent files and the scene's saved views.
 void readKeptLists(const Document& document, ViewState& state) {
     const std::filesystem::path& scene = state.options.scene;
     try {
@@ -81,7 +81,7 @@ void adoptScene(Document& document, ViewState& state, LoadedScene scene) {
 }
 
 void stepThroughHistory(Document& document, ViewState& state, const ViewActions& actions) {
-    // Finish a running focus pull immediately.
+    // Finish a running focus pull at once, by setting its end distance.
     if (state.pull) state.lens.focusDistance = state.pull->to;
     state.pull.reset();
     EditHistory& history = document.history;
@@ -94,7 +94,7 @@ void stepThroughHistory(Document& document, ViewState& state, const ViewActions&
     static_cast<ViewEdit&>(state) = *edit;
     state.options.time = time;
     state.options.clip = clip;
-    document.shown.lens.apertureImage = state.options.lens.apertureImage;  // already loaded with the edit's lens
+    document.shown.lens.apertureImage = state.options.lens.apertureImage;  // the edit's lens contains the loaded image
     document.poseIsStale = !document.frame->scene->clips.empty();          // the camera may be animated
     state.aperturePath = state.options.lens.apertureImage.string();
     state.marker.shown = false;
@@ -150,7 +150,7 @@ bool takeLoadedScene(Document& document, ViewState& state) {
         adoptScene(document, state, std::move(*loaded));
         return true;
     }
-    // Replace the draft's pyramids; camera, lens and all edits stay.
+    // Replace the draft pyramids by the final ones; camera, lens and all edits stay.
     document.frame->world.pyramids = std::move(loaded->frame->world.pyramids);
     document.draft = false;
     ++document.worldVersion;

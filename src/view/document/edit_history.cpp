@@ -51,7 +51,7 @@ void EditHistory::note(const ViewEdit& now, bool held, double seconds) {
     const bool grasped = held && !held_;
     const bool letGo = !held && held_;
     held_ = held;
-    if (grasped && pending_) commit(latest_);  // an edit by mouse wheel is complete when a drag begins
+    if (grasped && pending_) commit(latest_);  // an edit by mouse wheel ends when a drag begins
     if (changed) changedAt_ = seconds;
     latest_ = now;
     if (changed) pending_ = !sameEdit(now, current_);

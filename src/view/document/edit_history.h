@@ -1,6 +1,6 @@
 #pragma once
-// Undo and redo of everything that affects the picture: camera, lens, environment, levels, samples, exposure. Overlays,
-// comparisons and the animation's time are not part of an edit.
+// Implements undo and redo of everything that affects the image: camera, lens, environment, levels, samples, exposure.
+// Overlays, comparisons and the animation's time are not restored.
 
 #include <deque>
 #include <optional>
@@ -15,14 +15,15 @@ bool sameEdit(const ViewEdit& a, const ViewEdit& b);
 
 class EditHistory {
 public:
-    // Clears the history. `opened`: state in which the scene was opened.
+    // Clears the history. `opened`: initial state of the scene, which reset() returns.
     void begin(const ViewEdit& opened);
 
     // Receives the state of each frame. An edit becomes an undo step when the mouse button or key is released (`held`
     // becomes false). Edits by mouse wheel or keys become an undo step after half a second without change.
     void note(const ViewEdit& now, bool held, double seconds);
 
-    // Return the state before the latest edit (undo) or after the next one (redo); nullopt if there is no such step.
+    // Return the state before the latest edit (undo) or after the next one (redo). Return nullopt if there is no such
+    // step.
     std::optional<ViewEdit> undo(const ViewEdit& now);
     std::optional<ViewEdit> redo(const ViewEdit& now);
     // Returns the state in which the scene was opened, as an edit that can be undone. Returns nullopt if `now` equals
@@ -40,9 +41,9 @@ private:
     ViewEdit opened_, current_;
     ViewEdit latest_;  // state of the previous frame
     Steps before_, after_;
-    bool pending_ = false;  // latest_ has changes that aren't an undo step yet
+    bool pending_ = false;  // true: latest_ has changes that aren't an undo step yet
     bool held_ = false;
-    double changedAt_ = 0;  // time of the latest change, s
+    double changedAt_ = 0;  // time of the latest change in s, on the clock of note()
 };
 
 }  // namespace defocus::engine

@@ -25,8 +25,8 @@ fs::path userFile(const char* variable, const char* folderInHome, const char* na
     return home == nullptr || *home == '\0' ? fs::path() : fs::path(home) / folderInHome / "defocus" / name;
 }
 
-// Returns the JSON in a file; null if there is no regular file, nlohmann's discarded value if the text isn't JSON.
-// Throws Error if the file is unreadable.
+// Returns the JSON in a file; null if there is no regular file, and nlohmann's value `discarded` if the text isn't
+// JSON. Throws Error if the file is unreadable.
 json readKept(const fs::path& file) {
     const std::optional<std::vector<std::byte>> bytes = readOwnFile(file);
     if (!bytes) return nullptr;
@@ -91,14 +91,14 @@ json allViews(const fs::path& file) {
     return object;
 }
 
-// Returns the recent scenes. Missing files are included, because their drive may be mounted again.
+// Returns the recent scenes. Scenes whose file is missing are included, because their drive may be mounted again.
 std::vector<std::string> rememberedNames(const fs::path& list) {
     std::vector<std::string> names;
     try {
         for (const json& entry : readKept(list))
             if (entry.is_string()) names.push_back(entry.get<std::string>());
     } catch (const Error&) {
-        return {};  // an unreadable list is overwritten later
+        return {};  // the next write replaces an unreadable list
     }
     return names;
 }

@@ -1,12 +1,12 @@
 #pragma once
-// JSON files that the window keeps between runs. Settings and saved views are stored in $XDG_CONFIG_HOME/defocus
-// (~/.config), recent scenes in $XDG_STATE_HOME/defocus (~/.local/state).
+// Reads and writes the JSON files that the window keeps between runs. Settings and saved views are stored in
+// $XDG_CONFIG_HOME/defocus (~/.config), recent scenes in $XDG_STATE_HOME/defocus (~/.local/state).
 
 #include "view/state/view_state.h"
 
 namespace defocus::engine {
 
-// Return the paths of the files; empty if neither the XDG variable nor the home folder is known.
+// Each of these functions returns the path of a file; empty if neither the XDG variable nor the home folder is known.
 std::filesystem::path viewSettingsPath();
 std::filesystem::path savedViewsPath();
 std::filesystem::path recentFilesPath();
@@ -14,9 +14,9 @@ std::filesystem::path recentFilesPath();
 struct ViewSettings {
     bool dark = true;
     bool panel = true;
-    double interfaceScale = 1;                 // scale factor, 0.5 … 3
-    std::optional<double> budgetMilliseconds;  // budget in ms per frame; nullopt: depends on the driver
-    int width = 0;                             // size in window units; 0: not stored
+    double interfaceScale = 1;                 // scale factor of the interface, 0.5 … 3
+    std::optional<double> budgetMilliseconds;  // time budget per frame, ms; nullopt: depends on the driver
+    int width = 0;                             // window size in window units; 0: not stored
     int height = 0;
 };
 

@@ -59,7 +59,7 @@ void SceneLoader::run(Job& job) {
             const std::scoped_lock lock(job.mutex);
             job.ready = LoadedScene{job.options, std::move(draft), {}, true};
         }
-        // Build all levels, because the window may switch between all level modes.
+        // Build all levels, because the user may switch to any level mode later.
         const LodMode asked = frame->settings.lod;
         if (asked == LodMode::off) frame->settings.lod = LodMode::fractional;
         addPyramids(*frame, progress);

@@ -17,18 +17,18 @@ struct LoadedScene {
     Request options;
     std::unique_ptr<PreparedFrame> frame;  // null: the scene could not be opened
     std::string fault;                     // why the scene could not be opened
-    bool draft = false;                    // the pyramids are coarse drafts; the final result follows
+    bool draft = false;                    // true: the pyramids are coarse drafts; the final pyramids follow
 };
 
 class SceneLoader {
 public:
     SceneLoader() = default;
-    // Cancels all jobs and waits for them; a job ends when it next reports progress.
+    // Cancels all jobs and waits for them. A cancelled job ends when it next reports progress.
     ~SceneLoader();
     SceneLoader(const SceneLoader&) = delete;
     SceneLoader& operator=(const SceneLoader&) = delete;
 
-    // Starts to open a scene. Cancels jobs that have not delivered a draft yet.
+    // Starts to open a scene. Cancels all earlier jobs that have not delivered a draft yet.
     void open(const Request& options);
     // Returns the next result: a draft, the final scene, or a failure. Returns each result once; nullopt if there is no
     // new result.
@@ -37,7 +37,7 @@ public:
     [[nodiscard]] bool busy() const { return !jobs_.empty() && !jobs_.back()->cancelled; }
     struct Opening {
         std::string name;   // name of the scene
-        std::string stage;  // such as "fish" or "pyramids"
+        std::string stage;  // what is loaded or built, such as "fish" or "pyramids"
         double share = 0;   // finished fraction of the stage, 0 … 1
     };
     // Returns the progress of the current job; nullopt if the loader is idle.

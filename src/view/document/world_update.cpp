@@ -1,4 +1,5 @@
-// Applies the request in the window's state to the document's world. Panels, keys and undo change only the request.
+// Applies the settings in the window's state (its request) to the document's world. Panels, keys and undo change only
+// the request.
 
 #include <algorithm>
 #include <tuple>
@@ -13,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Groups of a request's members that are compared, applied and reverted together.
+// Each lambda below ties the members of a request that are compared, applied and reverted together.
 constexpr auto cameraPart = [](auto& request) { return std::tie(request.camera); };
 constexpr auto aperturePart = [](auto& request) { return std::tie(request.lens.apertureImage); };
 constexpr auto nodeBlurPart = [](auto& request) { return std::tie(request.nodeBlur); };
@@ -27,7 +28,8 @@ constexpr auto surroundingsPart = [](auto& request) {
 };
 constexpr auto lightsPart = [](auto& request) { return std::tie(request.lightAngle, request.lightRadius); };
 
-// Calls `update` if the part differs between the state and the world. Reverts the part of the state if `update` throws.
+// Calls `update` if the members tied by `part` differ between the state's request and the shown request. Reverts these
+// members in the state if `update` throws.
 template <typename Part, typename Update>
 void apply(const Part& part, Document& document, ViewState& state, const Update& update) {
     if (part(state.options) == part(document.shown)) return;
@@ -40,8 +42,8 @@ void apply(const Part& part, Document& document, ViewState& state, const Update&
     }
 }
 
-// Returns the state's request with a camera of the file. Omits the camera position and a focus that depends on the
-// image.
+// Returns the state's request with a camera of the file. Omits the request's camera position, and its focus if that
+// depends on the image.
 Request cameraRequest(const ViewState& state, const CameraChoice& camera) {
     Request request = state.options;
     request.camera = camera;
@@ -60,8 +62,8 @@ void updateLights(Document& document, const ViewState& state) {
     ++document.poseVersion;
 }
 
-// Returns the camera that the view follows, in the world's pose; if the view follows none, a camera at the view's
-// position.
+// Returns the file's camera that the view follows, in the world's pose. If the view follows none, returns a camera at
+// the view's position.
 PlacedCamera followedCamera(const Document& document, const ViewState& state) {
     const double aspect = static_cast<double>(state.pictureSize.x) / state.pictureSize.y;
     const PreparedFrame& frame = *document.frame;

@@ -12,9 +12,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double exportSlice = 60;  // time per frame for rendering the still, ms
+constexpr double exportSlice = 60;  // time per frame that is spent on rendering the still, ms
 
-// Returns the view of the window at the size of an exported still.
+// Returns the window's view at the size of the still image to export.
 View exportView(const Document& document, const ViewState& state) {
     View view = currentView(document, state);
     const glm::ivec2 size = state.exportSize.value_or(state.pictureSize);

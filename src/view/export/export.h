@@ -1,5 +1,5 @@
 #pragma once
-// Exports still images, shots, and the command that renders the picture.
+// Exports still images and shots, and composes the command line that renders the window's image.
 
 #include <optional>
 
@@ -8,7 +8,7 @@
 
 namespace defocus::engine {
 
-// Returns the `defocus render` command for the window's picture.
+// Returns the `defocus render` command that renders the window's image.
 std::string pictureCommand(const Document& document, const ViewState& state);
 
 // Executes the export actions: records keyframes, saves shots, and starts or cancels the export of a still image.
@@ -16,7 +16,7 @@ std::string pictureCommand(const Document& document, const ViewState& state);
 std::optional<std::string> actOnExport(std::optional<StillExport>& still, const Document& document, ViewState& state,
                                        const ViewActions& actions, bool software);
 
-// Continues rendering the still image for part of the frame time.
+// Spends part of the frame time on rendering the still image.
 void stepExport(std::optional<StillExport>& still, ViewState& state);
 
 }  // namespace defocus::engine

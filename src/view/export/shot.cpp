@@ -31,7 +31,7 @@ int frameOf(std::size_t key) {
 }
 
 // Returns the roll angle in degrees, about the view axis, of a camera that looks at `target`. Of the equivalent angles,
-// returns the one closest to `before`, so that the camera doesn't spin between two keys.
+// returns the one closest to `before`, so that the camera doesn't spin between two keyframes.
 double rollOf(const glm::dmat4& worldFromCamera, const glm::dvec3& target, double before) {
     const glm::dmat4 upright = lookingAt(glm::dvec3(worldFromCamera[3]), target);
     const double roll =
@@ -64,7 +64,7 @@ ordered_json lensJson(const std::vector<ShotKey>& keys, const Lens& cameraLens) 
     ordered_json lens = ordered_json::object();
     for (const LensField& field : lensFields()) {
         const std::string_view name = field.name;
-        if (name == "focusDistance") continue;  // written as keys of the shot's focus
+        if (name == "focusDistance") continue;  // written as keyframes of the shot's focus
         if ((name == "exposureTime" || name == "iso") && !shotExposedByLens(keys)) continue;
         const auto valueAt = [&](std::size_t key) { return lensFieldValue(keys[key].view.lens, field); };
         bool varies = false;
@@ -87,7 +87,7 @@ ordered_json focusJson(const std::vector<ShotKey>& keys) {
     return focus;
 }
 
-// Adds the settings that are constant in a shot. Samples and levels are written even if they have their defaults, so
+// Adds the settings that stay constant during a shot. Writes samples and levels even if they have their defaults, so
 // that the shot doesn't change when a default does.
 void addSettings(ordered_json& shot, const Request& request) {
     for (const Setting& setting : settings()) {

@@ -14,7 +14,7 @@ StillExport::StillExport(const PreparedFrame& frame, const StillRequest& request
     checkImageExtension(request.output);
     checkWritable(request.output);
     checkStop(options);
-    // Small waves (batches of lens samples) keep the window responsive.
+    // Small batches (waves) of lens samples keep the window responsive.
     options.wave = options.wave.value_or(request.software ? 2 : 8);
     driver_.emplace(frame.world, driverOptions(options, request.shaderFolder));
     driver_->start({request.view, renderSettings(options), stopSettings(options)});

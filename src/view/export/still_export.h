@@ -12,11 +12,11 @@
 namespace defocus::engine {
 
 struct StillRequest {
-    Request options;  // samples, seed, levels, method
+    Request options;  // provides samples, seed, levels and method
     View view;
     std::filesystem::path output;  // path with extension .exr, .png or .jpg
     WriteOptions write;
-    bool software = false;  // OpenGL runs on the CPU
+    bool software = false;  // true: OpenGL runs on the CPU
     std::filesystem::path shaderFolder;
 };
 

@@ -17,7 +17,7 @@ ImU32 faded(ImU32 color, float alpha) {
     return (color & ~IM_COL32_A_MASK) | static_cast<ImU32>(own * alpha) << IM_COL32_A_SHIFT;
 }
 
-// Returns the window position of a world-space point; nullopt for a point behind the camera.
+// Returns the window position of a world-space point; nullopt if the point is behind the camera.
 std::optional<ImVec2> onPicture(const Ui& ui, const glm::dvec3& point) {
     const ViewState& state = ui.state;
     const glm::dvec3 p = glm::inverse(state.camera.worldFromCamera) * glm::dvec4(point, 1);
@@ -75,7 +75,8 @@ void drawDivider(const Ui& ui) {
     const std::string left = sideLabel(picture.firstSide());
     const float leftWidth = labelWidth(ui, left);
     drawLabel(ui, {std::max(begin, top.x - gap - leftWidth), top.y + gap}, left);
-    // If one side of the divider is too narrow, its label crosses the divider. The right label then moves down a row.
+    // If one side of the divider is too narrow for its label, the label crosses the divider. The right label then moves
+    // down a row.
     const std::string right = rightLabel(picture, display);
     const float x = std::min(top.x + gap, end - labelWidth(ui, right));
     const bool crosses = x < top.x || begin + leftWidth > top.x;
@@ -131,7 +132,7 @@ std::string samplesLabel(const ViewPicture& picture) {
     return text;
 }
 
-// Draws labels for lens, samples and warnings at the bottom left. Returns the top right corner of these labels.
+// Draws the status labels at the bottom left: lens, samples and warnings. Returns the labels' top right corner.
 ImVec2 drawStatus(const Ui& ui) {
     const float gap = 8 * ui.scale;
     const ImVec2 corner = pictureCorner(ui, 0, 1);

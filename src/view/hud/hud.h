@@ -1,5 +1,5 @@
 #pragma once
-// Heads-up display: labels, markers and messages drawn over the picture.
+// Draws the heads-up display: labels, markers and messages over the picture.
 
 #include "view/widgets/ui.h"
 
@@ -13,12 +13,12 @@ inline constexpr ImU32 dimColor = IM_COL32(190, 190, 190, 255);
 inline constexpr ImU32 warningColor = IM_COL32(255, 198, 92, 255);
 inline constexpr ImU32 faultColor = IM_COL32(255, 120, 105, 255);
 
-// Converts a point of the picture, x and y in [0, 1] from the top left, to a window position.
+// Converts a position in the image, x and y in [0, 1] from the top left, to a window position.
 ImVec2 pictureCorner(const Ui& ui, double x, double y);
 
 struct LabelStyle {
     ImU32 color = brightColor;
-    float anchorX = 0, anchorY = 0;  // point of the label's box, 0 … 1, that lies at the given position
+    float anchorX = 0, anchorY = 0;  // which point of the label's box, 0 … 1, lies at the given position
     float alpha = 1;
     float width = 0;  // max width of wrapped text; 0: no wrapping
 };
@@ -34,7 +34,7 @@ std::string distanceText(double metres);
 // Draws messages, progress and the list of keys.
 void drawNotices(const Ui& ui);
 
-// Draws the colour scale of the current overlay. `status`: top right corner of the status labels.
+// Draws the colour scale of the current overlay. `status`: top right corner of the status labels at the bottom left.
 void drawLegend(const Ui& ui, const ImVec2& status);
 
 // Draws a tooltip that explains how the object under the cursor is drawn.

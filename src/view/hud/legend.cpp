@@ -18,12 +18,12 @@ constexpr double hoverDelay = 0.12;  // seconds without mouse movement before pi
 
 struct Legend {
     const char* title;
-    const char* shortTitle;            // title in narrow pictures
-    glm::vec3 (*colour)(float);        // maps a position on the scale, 0 … 1, to a linear colour
-    std::array<const char*, 5> marks;  // labels at even spacing
+    const char* shortTitle;            // shorter title for narrow images
+    glm::vec3 (*colour)(float);        // maps a position on the scale in [0, 1] to a linear colour
+    std::array<const char*, 5> marks;  // labels of the scale, evenly spaced
 };
 
-// Colours of the blur overlay; must match shaders/view/display.frag. `t` = 0.5 is in focus.
+// Returns the colours of the blur overlay, which must match shaders/view/display.frag. `t` = 0.5 is in focus.
 glm::vec3 cocColour(float t) {
     const float side = 2 * t - 1;
     const glm::vec3 colour = side < 0 ? glm::vec3(1, 0.55f, 0.10f) : glm::vec3(0.2f, 0.55f, 1);
@@ -82,7 +82,7 @@ void drawLegend(const Ui& ui, const ImVec2& status) {
     const char* title = wanted <= room ? legend->title : legend->shortTitle;
     const ImVec2 size(std::min(room, wanted), 10 * s);
     ImVec2 end = pictureCorner(ui, 1, 1);
-    if (end.x - size.x - 2 * pad - 16 * s < status.x) end.y = status.y;  // no space beside the status labels
+    if (end.x - size.x - 2 * pad - 16 * s < status.x) end.y = status.y;  // there is no space beside the status labels
     const ImVec2 at(end.x - size.x - 8 * s - pad, end.y - 8 * s - pad - line - 4 * s - size.y);
     list.AddRectFilled({at.x - pad, at.y - line - 5 * s - pad}, {end.x - 8 * s, end.y - 8 * s}, plateColor, 4 * s);
     list.AddText({at.x, at.y - line - 5 * s}, brightColor, title);

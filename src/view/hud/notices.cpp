@@ -1,4 +1,4 @@
-// Draws messages, progress and the list of keys.
+// Draws messages, progress and the list of keyboard shortcuts.
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// Panel sections that analyse the picture: overlays, comparisons, performance.
+// Draws the panel sections that analyse the image: overlays, comparisons, performance.
 
 #include <fmt/format.h>
 #include <imgui.h>

@@ -15,8 +15,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Starts a program from $PATH with its standard output redirected to `output`. Returns its process id; −1 if it is not
-// installed.
+// Starts a program from $PATH with its standard output redirected to `output`. Returns the process id; −1 if the
+// program is not installed.
 pid_t startProgram(std::vector<std::string> command, int output) {
     std::vector<char*> words;
     for (std::string& word : command) words.push_back(word.data());

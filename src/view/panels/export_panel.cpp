@@ -1,4 +1,4 @@
-// Panel section for exporting stills, commands and shots, and the dialog for a still's file name.
+// Draws the panel section for exporting stills, commands and shots, and the dialog for a still's file name.
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -33,7 +33,7 @@ std::string freeName(const std::string& path) {
     }
 }
 
-// Draws the rows for the size and the samples of a still.
+// Draws the rows that set the size and the number of samples of a still.
 void stillRows(ViewState& state) {
     const glm::ivec2 size = state.exportSize.value_or(state.pictureSize);
     std::array<int, 2> edited = {size.x, size.y};

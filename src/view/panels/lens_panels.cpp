@@ -1,4 +1,4 @@
-// Panel sections for the lens: focus, lens, aperture, and the exposure of the image.
+// Draws the panel sections for the lens: focus, lens, aperture, and the exposure of the image.
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -36,8 +36,8 @@ void focusPointsRow(ViewState& state) {
     state.lens.focusTilt = state.lens.focusSwing = 0;
 }
 
-// Draws the slider for the blur of the selected object's node. Draws nothing if the node has no name or isn't the first
-// node of that name.
+// Draws the slider for the blur scale of the selected object's node. Draws nothing unless the node is the first one
+// with its name, because --node-blur refers to nodes by name.
 void nodeBlurRow(const Ui& ui) {
     if (ui.state.selected < 0) return;
     const std::vector<Node>& nodes = ui.scene().nodes;
@@ -53,8 +53,8 @@ void nodeBlurRow(const Ui& ui) {
     ImGui::EndDisabled();
 }
 
-// Shows how many lens images (images of single lens samples) are kept to change focus and f-number without rendering.
-// The tooltip says why none are kept.
+// Shows how many images of single lens samples are stored, from which focus and f-number can change without rendering.
+// The tooltip says why none are stored.
 void lensImagesRow(const Ui& ui) {
     const KeptImages* const kept = ui.picture.image ? ui.picture.image->keptImages() : nullptr;
     std::string about =

@@ -1,4 +1,4 @@
-// Panel sections for the objects: the tree of nodes, and the materials of the selected object.
+// Draws the panel sections for the objects: the tree of nodes, and the materials of the selected object.
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -19,8 +19,8 @@ namespace {
 struct TreeRow {
     int node = -1;
     int depth = 0;
-    bool shown = true;    // neither the node nor one of its ancestors is hidden
-    bool parent = false;  // the node has descendants with meshes
+    bool shown = true;    // true: neither the node nor one of its ancestors is hidden
+    bool parent = false;  // true: the node has descendants with meshes
 };
 
 // Returns the rows of all nodes that have a mesh or a descendant with a mesh. Descendants of collapsed nodes are
@@ -59,7 +59,7 @@ std::string rowName(const Scene& scene, int index) {
     return fmt::format("node {}", index);
 }
 
-// Returns the index of the first object whose node is `node` or a descendant; −1 if there is none.
+// Returns the index of the first object that belongs to `node` or to one of its descendants; −1 if there is none.
 int objectOf(const Scene& scene, const Pose& pose, int node) {
     for (std::size_t i = 0; i < pose.objects.size(); ++i)
         for (int above = pose.objects[i].node; above >= 0; above = scene.nodes[static_cast<std::size_t>(above)].parent)

@@ -44,7 +44,7 @@ void FileBrowser::open(const fs::path& folder) {
     enter(folder);
 }
 
-// Lists a folder. If it can't be read, keeps the current list and sets fault_.
+// Lists a folder. If the folder can't be read, keeps the current list and sets fault_.
 void FileBrowser::enter(const fs::path& folder) {
     std::error_code fault;
     fs::directory_iterator files(folder, fs::directory_options::skip_permission_denied, fault);

@@ -8,7 +8,7 @@
 
 namespace defocus::engine {
 
-// The desktop's file dialog: runs zenity or kdialog as a separate process.
+// Runs the desktop's file dialog, zenity or kdialog, as a separate process.
 class DesktopDialog {
 public:
     DesktopDialog() = default;
@@ -20,8 +20,8 @@ public:
     bool open(const std::filesystem::path& folder);
     [[nodiscard]] bool running() const { return process_ > 0; }
     struct Outcome {
-        std::filesystem::path chosen;  // empty: cancelled
-        bool failed = false;           // the program failed to show a dialog
+        std::filesystem::path chosen;  // chosen file; empty: cancelled
+        bool failed = false;           // true: the program could not show a dialog
     };
     // Returns the outcome once the dialog is closed; nullopt while it is open.
     std::optional<Outcome> take();
@@ -32,7 +32,7 @@ private:
     std::string text_;
 };
 
-// The window's own dialog for opening scenes.
+// The window's own dialog for choosing a scene file, drawn with ImGui.
 class FileBrowser {
 public:
     void open(const std::filesystem::path& folder);
@@ -57,8 +57,8 @@ private:
     bool justOpened_ = false;
     std::filesystem::path folder_;
     std::vector<Entry> entries_;
-    std::string fault_;  // why the latest input had no effect
-    std::string text_;   // typed path, or part of a name that filters the list
+    std::string fault_;  // why the user's latest input had no effect
+    std::string text_;   // text field: a path, or part of a name that filters the list
 };
 
 struct OpenDialog {

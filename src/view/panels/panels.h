@@ -1,6 +1,6 @@
 #pragma once
-// The panel beside the picture, which is a list of sections, and the dialog for stills. Each section is a function of
-// Ui.
+// Draws the panel beside the image, a list of sections, and the dialog for exporting stills. Each section is a function
+// with a parameter of type Ui.
 
 #include <vector>
 
@@ -9,8 +9,8 @@
 
 namespace defocus::engine {
 
-// The sections from top to bottom: function, title, whether initially open, condition for being shown. A new section
-// needs a function and a line here.
+// The sections from top to bottom: function, title, whether initially open, condition under which the section is shown.
+// A new section needs a function and a line here.
 #define DEFOCUS_PANELS(PANEL)                                    \
     PANEL(scenePanel, "Scene", true, always)                     \
     PANEL(objectsPanel, "Objects", false, withScene)             \
@@ -33,9 +33,9 @@ namespace defocus::engine {
 DEFOCUS_PANELS(DEFOCUS_DECLARE_PANEL)
 #undef DEFOCUS_DECLARE_PANEL
 
-inline constexpr double panelWidth = 364;  // width in interface units; see interfaceScale
+inline constexpr double panelWidth = 364;  // panel width in interface units; see interfaceScale
 
-// Returns the settings of the section "Samples and levels" from top to bottom: the settings of samples, levels and
+// Returns the settings of the section "Samples and levels" from top to bottom: all settings of samples, levels and
 // methods that affect the pixels and have a widget.
 std::vector<const Setting*> settingsPanelRows();
 

@@ -1,4 +1,4 @@
-// Panel sections for rendering: surroundings, level of detail, method.
+// Draws the panel sections for rendering: environment, level of detail, method.
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -54,8 +54,8 @@ void backgroundCombo(Background& background) {
         background = choices[chosen];
 }
 
-// Draws the choice of a paper's preset. The window keeps the lens apart from the other settings, so values of the lens
-// that the preset sets or resets are copied to it.
+// Draws the choice of a paper's preset. The window stores the lens separately from the other settings, so the lens
+// values that the preset sets or resets are also copied to that lens.
 void presetRow(ViewState& state) {
     const Preset* const before = presetOf(state.options);
     if (!settingRow(state.options, "preset", presets().front().name)) return;

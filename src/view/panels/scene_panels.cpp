@@ -1,4 +1,4 @@
-// Panel sections for the scene: opening, cameras, undo; saved views; animation.
+// Draws the panel sections for the scene: opening, cameras, undo; saved views; animation.
 
 #include <fmt/format.h>
 #include <imgui.h>

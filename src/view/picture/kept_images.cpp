@@ -15,13 +15,13 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns `bytes`, or a quarter of the free memory if this is less.
+// Returns `bytes`, or a quarter of the free memory if that is less.
 std::uint64_t withinFreeMemory(std::uint64_t bytes) {
     const std::uint64_t free = freeDeviceMemory().value_or(freeMemory());
     return free > 0 ? std::min(bytes, free / 4) : bytes;
 }
 
-// Returns the number of images that fit into `bytes`. Throws Error if fewer than minImages fit.
+// Returns the number of lens images that fit into `bytes`. Throws Error if fewer than minImages fit.
 std::uint32_t fittingImages(const PartSize& size, std::uint64_t bytes) {
     const std::uint64_t fitting = bytes / KeptLensImages::bytes(size, 1);
     if (fitting < KeptImages::minImages)
@@ -40,7 +40,7 @@ FocusRange keptRange(const View& view, const FramePlan& plan) {
         range.nearest = std::min(range.nearest, std::max(object.nearestDepth, view.nearPlane));
         range.farthest = std::max(range.farthest, object.farthestDepth);
     }
-    const double maxMove = std::max(view.width, view.height) / 8.0;  // px
+    const double maxMove = std::max(view.width, view.height) / 8.0;  // max shift of a lens image, px
     const double dioptres = maxMove / lightFieldInfo(view, {own, own}).pixelsPerDioptre;
     range.nearest = std::max(range.nearest, 1 / (1 / own + dioptres));
     if (1 / own > dioptres) range.farthest = std::min(range.farthest, 1 / (1 / own - dioptres));
@@ -85,7 +85,7 @@ bool KeptImages::grow(double milliseconds) {
             drawImage();
             if (millisecondsSince(begin) + millisecondsSince(imageBegin) > milliseconds) break;
         }
-    } catch (const Error& error) {  // out of graphics memory
+    } catch (const Error& error) {  // graphics memory is full
         discard();
         obstacle_ = error.what();
     }
@@ -111,7 +111,7 @@ std::vector<ShiftedImage> KeptImages::imagesFor(const Lens& lens) const {
         std::vector<ShiftedImage> images = shiftedImages(info_, {lens.focusDistance, lens.fStop}, "lens images");
         if (images.size() * 4 < planned()) images.clear();
         return images;
-    } catch (const Error&) {  // outside the range of focus or aperture
+    } catch (const Error&) {  // focus distance or aperture out of range
         return {};
     }
 }

@@ -47,7 +47,7 @@ double poppingFocus(const FramePlan& plan, double nearPlane, double seconds) {
     return focusBetween(nearest, std::max(nearest, farthest), share);
 }
 
-// Returns the settings that affect the picture as text, without the number of samples, the level mode and the method.
+// Returns the settings that affect the picture as one text, without number of samples, level mode and method.
 std::string pictureSettings(Request request) {
     const Request defaults;
     request.samples = defaults.samples;
@@ -57,8 +57,8 @@ std::string pictureSettings(Request request) {
     return pixelSettings(request);
 }
 
-// Returns the picture's request for the state. `plan`: plan of the previous frame; provides depths for the popping
-// test.
+// Returns the request for drawing the picture of this state. `plan`: plan of the previous frame, which gives the depth
+// range of the popping test.
 PictureRequest pictureRequest(const Document& document, const ViewState& state, const FramePlan& plan, bool software) {
     PictureRequest result;
     result.view = currentView(document, state);
@@ -88,13 +88,13 @@ void makeImage(LivePicture& picture, const Document& document, const ViewState& 
     options.layerFormat = state.options.layerFormat;
     options.shaderFolder = document.shaderFolder;
     options.wave = state.options.wave.value_or(software ? 1 : 8);
-    picture.image.reset();  // free memory before the next allocation
+    picture.image.reset();  // free its memory before the next allocation
     picture.image.emplace(document.frame->world, options, software);
     picture.worldVersion = document.worldVersion;
 }
 
-// Simplifies a request that failed: turns off comparison and popping test or, if neither is on, replaces the method by
-// accumulation. Returns false if nothing could be simplified.
+// Simplifies a request that can't be drawn: turns off comparison and popping test or, if neither is on, replaces the
+// method by accumulation. Returns false if the request is already as simple as possible.
 bool simplifyRequest(ViewState& state) {
     if (state.comparison != Comparison::none || state.poppingSince) {
         state.comparison = Comparison::none;
@@ -107,7 +107,7 @@ bool simplifyRequest(ViewState& state) {
     return true;
 }
 
-// Meters the exposure once the view has come to rest.
+// Measures and sets the exposure once the view has come to rest.
 void meter(LivePicture& picture, Document& document, ViewState& state, bool exporting) {
     const bool moving = picture.image->moving();
     const bool meters = state.meters && !(state.lens.exposureTime > 0);
@@ -118,8 +118,8 @@ void meter(LivePicture& picture, Document& document, ViewState& state, bool expo
     state.exposure = meteredExposure(frame.world, currentView(document, state), frame.settings, document.shaderFolder);
 }
 
-// Updates the warnings about a still picture. Clipping needs a read-back from the GPU, so it is checked once per
-// exposure.
+// Updates the warnings about the picture of a view at rest. Clipping needs a read-back from the GPU, so it is checked
+// once per exposure.
 void updateWarnings(LivePicture& picture, const ViewState& state) {
     picture.warnings.clear();
     if (picture.image->moving()) {

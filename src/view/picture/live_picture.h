@@ -1,5 +1,5 @@
 #pragma once
-// Keeps the window's picture up to date: renderer, exposure meter, warnings.
+// Keeps the window's picture, its exposure and its warnings up to date.
 
 #include "view/document/document.h"
 #include "view/picture/view_picture.h"
@@ -11,19 +11,19 @@ struct LivePicture {
     std::uint64_t worldVersion = 0;     // Document::worldVersion for which `image` was created
     std::vector<std::string> warnings;  // warnings about the picture; empty while the view moves
 
-    bool meterDue = false;                                       // whether the view has moved since the last metering
+    bool meterDue = false;                                       // true: the view has moved since the last metering
     std::vector<std::string> clipping;                           // warnings about clipping
-    std::optional<std::pair<double, ToneMap>> clippingKnownFor;  // exposure (EV) and tone map of `clipping`
+    std::optional<std::pair<double, ToneMap>> clippingKnownFor;  // exposure (EV) and tone map of the last check
 };
 
-// Returns the label of one side of the divider.
+// Returns the label of the picture on one side of the divider.
 std::string sideLabel(const PictureSide& side);
 
-// Adds samples to the picture of a still view; see ViewPicture::grow.
+// Adds samples to the picture of a view at rest; see ViewPicture::grow.
 void growPicture(LivePicture& picture, const Document& document, const ViewState& state);
 
-// Updates the picture to document and state. Turns off a method or comparison that fails, with a message.
-// `restOfFrame`: see PictureRequest. `exporting`: the exposure must not change.
+// Updates the picture so that it matches document and state. Turns off a method or comparison that fails, with a
+// message. `restOfFrame`: see PictureRequest. `exporting`: the exposure must not change.
 void updatePicture(LivePicture& picture, Document& document, ViewState& state, bool software, double restOfFrame,
                    bool exporting);
 

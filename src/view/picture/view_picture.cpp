@@ -14,14 +14,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto settleTime = 120ms;            // time without change before the image starts to accumulate samples
-constexpr std::uint32_t minShownSamples = 4;  // a still image with fewer samples looks worse than the last moving frame
-constexpr double visibleGrowth = 1.08;        // relative growth of the sample count at which the window is updated
+constexpr auto settleTime = 120ms;            // time without change after which the image accumulates samples
+constexpr std::uint32_t minShownSamples = 4;  // with fewer samples, an image looks worse than the last moving frame
+constexpr double visibleGrowth = 1.08;        // growth of the sample count (a factor) at which the window is updated
 constexpr double softwareGrowthTime = 60;     // min time per frame for adding samples if OpenGL runs on the CPU, ms
 constexpr auto psnrInterval = 700ms;
 
-// Returns the numbers of a request that affect its images, in addition to settings, sides, aperture image and
-// focusKey(). Exposure time and ISO only affect the display.
+// Returns the numeric values of a request that affect its images, in addition to settings, sides, aperture image and
+// focusKey(). Exposure time and ISO are omitted, because they affect only the display.
 std::vector<double> imageKey(const PictureRequest& request) {
     const View& view = request.view;
     std::vector<double> key = {static_cast<double>(view.width), static_cast<double>(view.height), view.nearPlane,
@@ -35,7 +35,7 @@ std::vector<double> imageKey(const PictureRequest& request) {
     return key;
 }
 
-// Returns the lens values that can change in pictures computed from kept lens images.
+// Returns the lens values that can change when a picture is computed from stored lens images instead of rendered.
 std::vector<double> focusKey(const Lens& lens) {
     return {lens.focusDistance, lens.fStop};
 }
@@ -52,7 +52,7 @@ std::vector<double> displayKey(const DisplaySettings& display) {
             display.differenceGain};
 }
 
-// Returns the view at another resolution. Limits on the lens's blur, in px, are also scaled.
+// Returns the view at another resolution. Limits on the blur that are given in px are scaled with the resolution.
 View resized(const View& view, double resolution) {
     View result = view;
     result.width = std::max(1, static_cast<int>(std::lround(view.width * resolution)));
@@ -71,7 +71,7 @@ RenderSettings settingsOf(const RenderSettings& settings, const PictureSide& sid
     return result;
 }
 
-// Appends the pass times of one image. Returns the image's set-up time, ms.
+// Appends the times of an image's render passes. Returns the set-up time of the image, ms.
 double addPasses(std::vector<PassTime>& passes, const RenderStats& stats, const std::string& side) {
     for (const PassTime& pass : stats.passes) passes.push_back({pass.name + side, pass.milliseconds});
     if (stats.passes.empty()) passes.push_back({"waves" + side, stats.gpuMilliseconds});
@@ -167,7 +167,7 @@ bool ViewPicture::prepareSides(const PictureRequest& request) {
             sides_[i]->shows = wanted;
             continue;
         }
-        sides_[i].reset();  // free memory before the next allocation
+        sides_[i].reset();  // free its memory before the next allocation
         sides_[i] = std::make_unique<Side>(Side{wanted, {*world_, parseMethodUse(wanted.method), options_}});
         fresh_ = true;
     }
@@ -206,7 +206,7 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     notePasses();
 }
 
-// Draws the picture from the kept lens images. Returns false if too few of them suit the request's lens.
+// Computes the picture from the stored lens images. Returns false if too few of them suit the request's lens.
 bool ViewPicture::drawRefocused(const PictureRequest& request) {
     const Lens& lens = request.view.lens;
     const std::uint32_t serving = images_ && images_->complete() && !showsWork_ ? images_->serving(lens) : 0;
@@ -238,7 +238,7 @@ void ViewPicture::beginGrowing(const PictureRequest& request) {
     planImages(request);
 }
 
-// Plans lens images of a still view, unless suitable images are kept.
+// Plans lens images for a view at rest, unless suitable lens images are already stored.
 void ViewPicture::planImages(const PictureRequest& request) {
     const bool sums = parseMethodUse(request.sides[0].method).method->sumsBlocks;
     if (request.imageBytes == 0 || request.sides.size() > 1 || !sums) return;
@@ -247,7 +247,7 @@ void ViewPicture::planImages(const PictureRequest& request) {
     images_->begin(request.view, settingsOf(request.settings, request.sides[0]), first().plan(), request.imageBytes);
 }
 
-// Returns whether the next call of grow() draws lens images to keep instead of samples.
+// Returns whether the next call of grow() draws lens images to store, instead of samples of the picture.
 bool ViewPicture::keepsMore() const {
     if (!growing_ || !images_ || images_->drawn() == images_->planned()) return false;
     return first().samples() >= blockSamples || !grows_;
@@ -269,8 +269,8 @@ void ViewPicture::grow(const FrameBudget& budget) {
     notePasses();
 }
 
-// Updates the pass times of the latest frame. A renderer sums its times since the image was begun, so the previous sums
-// are subtracted.
+// Updates the pass times of the latest frame. A renderer sums its times since the image was begun, so the sums of the
+// previous frame are subtracted.
 void ViewPicture::notePasses() {
     std::vector<PassTime> totals;
     double setup = 0;

@@ -1,12 +1,12 @@
 #pragma once
-// Renders the picture of the window on the GPU. While the view changes, each frame is drawn completely, in a quality
-// that fits the time budget. While the view is still, the image accumulates samples. Shows one image, or two for
-// comparison, and overlays.
+// Renders the window's picture on the GPU: one image, or two images for comparison, and overlays. While the view
+// changes, each frame is drawn completely, in a quality that fits the time budget. While the view is at rest, the image
+// accumulates samples.
 //
-// After the first batch of samples of a still view, the images of its lens samples are also drawn and kept
-// (kept_images.h). If only the focus distance or the f-number changes, the picture is computed from these images until
-// the accumulated image has as many samples. If OpenGL runs on the CPU and adding all images takes longer than the
-// budget, fewer images are added until the view is still.
+// After the first batch of samples of a view at rest, the images of its lens samples are also drawn and kept as lens
+// images (kept_images.h). If only the focus distance or the f-number changes, the picture is computed from these images
+// until the accumulated image has as many samples. If OpenGL runs on the CPU and adding all images takes longer than
+// the budget, fewer images are added until the view rests.
 
 #include <chrono>
 #include <memory>
@@ -26,7 +26,7 @@
 namespace defocus::engine {
 
 struct PictureSide {
-    std::string method;  // method and settings in the format of MethodUse::text
+    std::string method;  // method and its settings, in the format of MethodUse::text
     LodMode lod = LodMode::fractional;
     std::uint32_t firstSample = 0;
     bool operator==(const PictureSide&) const = default;
@@ -34,15 +34,15 @@ struct PictureSide {
 
 struct PictureRequest {
     View view;                       // view at the window's resolution
-    RenderSettings settings;         // level thresholds that are set replace the defaults
-    std::string settingsKey;         // the image is restarted when this text changes
+    RenderSettings settings;         // settings; thresholds that are set replace the default level thresholds
+    std::string settingsKey;         // text that identifies the settings; when it changes, the image is restarted
     std::uint64_t poseVersion = 0;   // value of Document::poseVersion
-    std::vector<PictureSide> sides;  // one side, or two for comparison
+    std::vector<PictureSide> sides;  // what each side shows: one side, or two for comparison
     DisplaySettings display;
     std::uint32_t maxSamples = 4096;
     std::optional<double> targetError;         // stops accumulating below this estimated error
     std::optional<FrameQuality> fixedQuality;  // replaces the quality chosen by the budget; disables accumulation
-    double restOfFrame = 0;                    // part of the frame's budget that the interface takes, ms
+    double restOfFrame = 0;                    // time that the interface takes from the frame's budget, ms
     std::uint64_t imageBytes = 0;              // max size of the kept lens images in bytes; 0: none are kept
 };
 
@@ -51,11 +51,11 @@ public:
     // `world` must outlive the picture. Needs a current GL context.
     ViewPicture(const World& world, RendererOptions options, bool software);
 
-    // Adds samples to a still image for about the budget's time, at least 60 ms if OpenGL runs on the CPU. Call this
-    // before fetching the events of a frame, so that the frame reacts to events that arrive meanwhile.
+    // Adds samples to the image of a view at rest for about the budget's time, at least 60 ms if OpenGL runs on the
+    // CPU. Call this before fetching the events of a frame, so that the frame reacts to events that arrive meanwhile.
     void grow(const FrameBudget& budget);
-    // Updates the picture to the request. While the view changes, draws a frame in about the budget's time and adapts
-    // the budget's quality.
+    // Updates the picture to match the request. While the view changes, draws a frame in about the budget's time and
+    // adapts the budget's quality.
     void update(const PictureRequest& request, FrameBudget& budget);
 
     [[nodiscard]] const GlTexture& texture() const { return display_.texture(); }
@@ -64,29 +64,30 @@ public:
     [[nodiscard]] bool finished() const { return growing_ && !grows_ && !(showsWork_ && workGrows_); }
     // Returns whether grow() has nothing left to draw.
     [[nodiscard]] bool idle() const { return finished() && !keepsMore(); }
-    // Returns the lens samples in the first image, or the kept images in a refocused picture.
+    // Returns the number of lens samples in the first image. If the picture is refocused, returns the number of lens
+    // images that it is computed from.
     [[nodiscard]] std::uint32_t samples() const;
-    // Returns whether the picture is computed from kept images.
+    // Returns whether the picture is computed from stored lens images.
     [[nodiscard]] bool refocused() const { return refocused_.has_value(); }
-    // Returns null before the first still view.
+    // Returns the stored lens images; null before the view first comes to rest.
     [[nodiscard]] const KeptImages* keptImages() const { return images_ ? &*images_ : nullptr; }
-    // Returns whether the first image of a still view has reached its target error.
+    // Returns whether the first image of a view at rest has reached its target error.
     [[nodiscard]] bool converged() const { return growing_ && first().converged(); }
     [[nodiscard]] std::optional<double> estimatedError() const {
         return growing_ && !refocused_ ? first().estimatedError() : std::nullopt;
     }
     [[nodiscard]] Image image() { return readBack(firstTexture(), 4); }  // first image, linear RGBA
-    [[nodiscard]] const FramePlan& plan() const;  // plan of the first image; empty without an image
-    // Returns the second side; null without a comparison.
+    [[nodiscard]] const FramePlan& plan() const;  // plan of the first image; an empty plan without an image
+    // Returns the right side of a comparison; null without a comparison.
     [[nodiscard]] const PictureSide* secondSide() const { return sides_.size() > 1 ? &sides_[1]->shows : nullptr; }
     [[nodiscard]] const PictureSide& firstSide() const { return sides_[0]->shows; }
-    [[nodiscard]] std::optional<double> psnr() const { return psnr_; }  // PSNR between the sides, dB
+    [[nodiscard]] std::optional<double> psnr() const { return psnr_; }  // PSNR in dB between the two sides
     [[nodiscard]] std::uint32_t workSamples() const { return work_ ? work_->samples() : 0; }
     [[nodiscard]] std::uint32_t wave() const { return sides_.empty() ? 0 : first().stats().wave; }
     // Returns the times of the latest frame: passes from timer queries, set-up by wall clock.
     [[nodiscard]] const std::vector<PassTime>& passes() const { return passes_; }
     [[nodiscard]] std::uint64_t changes() const { return changes_; }  // number of changes of the view or the scene
-    [[nodiscard]] std::uint64_t begun() const { return begun_; }      // number of still images begun so far
+    [[nodiscard]] std::uint64_t begun() const { return begun_; }      // number of images begun so far for views at rest
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -95,7 +96,7 @@ private:
         ProgressiveImage image;
     };
 
-    // Picture from kept images, which replaces the first image.
+    // Picture computed from stored lens images, shown instead of the first image.
     struct Refocused {
         FramePlan plan;
         std::uint32_t images = 0;
@@ -103,8 +104,8 @@ private:
 
     [[nodiscard]] const ProgressiveImage& first() const { return sides_[0]->image; }
     [[nodiscard]] const GlTexture& firstTexture();
-    [[nodiscard]] std::uint32_t minSamples() const;                    // smaller of the sample counts of both sides
-    [[nodiscard]] double growthTime(const FrameBudget& budget) const;  // ms
+    [[nodiscard]] std::uint32_t minSamples() const;                    // smaller of the two sides' sample counts
+    [[nodiscard]] double growthTime(const FrameBudget& budget) const;  // time of one call of grow(), ms
     bool prepareSides(const PictureRequest& request);
     void drawMoving(const PictureRequest& request, FrameBudget& budget);
     bool drawRefocused(const PictureRequest& request);
@@ -123,10 +124,10 @@ private:
     DisplayPass display_;
     std::optional<AovPass> aovs_;
     std::optional<WorkPass> work_;
-    bool aovsCurrent_ = false;  // the AOVs of the current view are drawn
+    bool aovsCurrent_ = false;  // true: the AOVs of the current view are drawn
     bool wireframeCurrent_ = false;
     bool workCurrent_ = false;
-    bool workGrows_ = false;  // the work overlay needs more samples
+    bool workGrows_ = false;  // true: the work overlay needs more samples
     std::vector<std::unique_ptr<Side>> sides_;
     std::optional<KeptImages> images_;
     std::optional<Refocused> refocused_;
@@ -137,10 +138,10 @@ private:
     Clock::time_point nextPsnr_;
     std::uint32_t presentedSamples_ = 0;
     bool showsWork_ = false;
-    bool growing_ = false;  // the view is still and the image accumulates
-    bool grows_ = false;    // more samples are needed
-    bool grown_ = false;    // samples were added since the latest update
-    bool fresh_ = true;     // the next frame uploads the scene, so its time is ignored
+    bool growing_ = false;  // true: the view is at rest and the image accumulates samples
+    bool grows_ = false;    // true: the image needs more samples
+    bool grown_ = false;    // true: samples were added since the latest update
+    bool fresh_ = true;     // true: the next frame uploads the scene, so its time is ignored
     std::optional<double> psnr_;
     GpuTimer overlayTimer_, displayTimer_;
     std::vector<PassTime> passes_, passTotals_;

@@ -15,7 +15,7 @@ namespace {
 
 const glm::dvec3 worldUp(0, 1, 0);
 constexpr double maxElevation = glm::radians(89.0);
-constexpr double minPivotDistance = 1e-4;  // m
+constexpr double minPivotDistance = 1e-4;  // min distance of the pivot from the camera, m
 constexpr double maxPivotDistance = 1e7;
 
 // Orthonormalizes the axes, so that rounding errors of many small rotations don't accumulate.
@@ -31,8 +31,8 @@ ViewCamera turnedAbout(const ViewCamera& camera, const glm::dvec3& centre, doubl
     const double highest = std::max(maxElevation, elevation);
     const double pitch = std::clamp(elevation + up, lowest, highest) - elevation;
 
-    // Pitch about the horizontal axis perpendicular to the view direction; the x axis of a rolled camera isn't
-    // horizontal.
+    // Rotate about the horizontal axis perpendicular to the view direction. The camera's own x axis isn't horizontal if
+    // the camera is rolled.
     const glm::dvec3 across = glm::cross(camera.forward(), worldUp);
     const glm::dvec3 axis = glm::length(across) > 1e-6 ? glm::normalize(across) : glm::dvec3(camera.worldFromCamera[0]);
     const glm::dquat rotation = glm::angleAxis(right, worldUp) * glm::angleAxis(pitch, axis);

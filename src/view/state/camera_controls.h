@@ -11,8 +11,8 @@
 namespace defocus::engine {
 
 struct ViewCamera {
-    glm::dmat4 worldFromCamera{1.0};  // rigid; the camera looks along −z
-    double pivotDistance = 1;         // distance in m from the camera, > 0; orbit and zoom are about the pivot
+    glm::dmat4 worldFromCamera{1.0};  // rigid transform; the camera looks along −z
+    double pivotDistance = 1;         // distance of the pivot in m, > 0; orbit and zoom are about the pivot
 
     [[nodiscard]] glm::dvec3 position() const { return worldFromCamera[3]; }
     [[nodiscard]] glm::dvec3 forward() const { return -glm::dvec3(worldFromCamera[2]); }
@@ -23,7 +23,7 @@ struct ViewCamera {
 // perpendicular to the view. The elevation is clamped short of straight up and straight down.
 ViewCamera orbited(const ViewCamera& camera, double right, double up);
 
-// Rotates the camera about its own position by the same angles as orbited().
+// Rotates the camera about its own position; the angles are those of orbited().
 ViewCamera turned(const ViewCamera& camera, double right, double up);
 
 // Moves the camera and its pivot parallel to the image, in metres along the camera's right and up axes.
@@ -32,7 +32,7 @@ ViewCamera panned(const ViewCamera& camera, double right, double up);
 // Multiplies the distance to the pivot by `factor`; < 1 moves the camera closer.
 ViewCamera zoomed(const ViewCamera& camera, double factor);
 
-// Moves the camera and its pivot, in metres: right, along world up, and ahead.
+// Moves the camera and its pivot by metres to the right, along world up, and ahead.
 ViewCamera flown(const ViewCamera& camera, const glm::dvec3& rightUpAhead);
 
 // Moves the camera, without rotating it, so that the bounding sphere of `bounds` fills the image; the sphere's centre

@@ -29,11 +29,11 @@ struct FocusPull {
 };
 
 // Returns the focus distance after `notches` of the mouse wheel; positive notches focus farther. Each notch multiplies
-// the distance by the same factor.
+// the distance by a constant factor.
 inline double rackedFocus(double focusDistance, double notches) {
-    constexpr double step = 0.03;         // relative change per notch
-    constexpr double minDistance = 1e-3;  // m
-    constexpr double maxDistance = 1e6;   // m
+    constexpr double step = 0.03;         // relative change of the distance per notch
+    constexpr double minDistance = 1e-3;  // min focus distance, m
+    constexpr double maxDistance = 1e6;   // max focus distance, m
     if (!std::isfinite(focusDistance)) return notches < 0 ? maxDistance : focusDistance;
     return std::clamp(focusDistance * std::exp(step * notches), minDistance, maxDistance);
 }

@@ -11,7 +11,7 @@
 namespace defocus::engine {
 
 struct FrameQuality {
-    double resolution = 1;       // rendered pixels per window pixel, in each dimension
+    double resolution = 1;       // rendered pixels per window pixel, along each axis
     std::uint32_t samples = 64;  // lens samples; 1: pinhole, without blur
     double thresholdBias = 1;    // multiplies the level-of-detail thresholds; > 1: coarser meshes
 };
@@ -27,21 +27,21 @@ inline std::span<const FrameQuality> frameQualities() {
 }
 
 struct FrameBudget {
-    double milliseconds = 16;  // budget in ms per frame
+    double milliseconds = 16;  // time budget per frame, ms
     std::size_t rung = 3;      // index into frameQualities()
     [[nodiscard]] const FrameQuality& quality() const { return frameQualities()[rung]; }
 };
 
-// Returns the budget with which a window begins. `software`: OpenGL runs on the CPU.
+// Returns the initial budget of a window. `software`: whether OpenGL runs on the CPU.
 inline FrameBudget windowBudget(bool software) {
     return software ? FrameBudget{50, 2} : FrameBudget{};
 }
 
-// Chooses the quality of the next frame after a frame that took `measured` ms. Goes down as many rungs as needed to
-// meet the budget, or up one rung if twice the time would fit. In between, keeps the rung, so that the quality doesn't
-// flicker.
+// Chooses the quality of the next frame after a frame that took `measured` ms. Goes down as many rungs of
+// frameQualities() as needed to meet the budget, or up one rung if twice the time would fit. Otherwise keeps the rung,
+// so that the quality doesn't flicker.
 inline FrameBudget adapted(FrameBudget budget, double measured) {
-    constexpr double tooSlow = 1.15;  // a frame above this multiple of the budget takes too long
+    constexpr double tooSlow = 1.15;  // a frame that takes more than this multiple of the budget is too slow
     constexpr double roomToClimb = 0.42;
     if (measured > tooSlow * budget.milliseconds) {
         const double doublings = std::log2(measured / budget.milliseconds);

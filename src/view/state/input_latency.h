@@ -18,7 +18,7 @@ public:
     using Time = std::chrono::steady_clock::time_point;
 
     // Records that events that arrived after `since` were fetched. The effect of these events may appear some frames
-    // later; the earliest event without a visible effect is timed.
+    // later; the measured time begins at the earliest event without a visible effect.
     void arrived(Time since) {
         if (!waiting_) waiting_ = since;
     }
@@ -29,10 +29,10 @@ public:
         if (answers_.size() > maxAnswers) answers_.pop_front();
         waiting_.reset();
     }
-    // Drops the waiting events, because they don't change the picture.
+    // Drops the events whose effect is awaited, because they don't change the picture.
     void forget() { waiting_.reset(); }
 
-    struct Summary {  // latencies of the latest events with a visible effect, ms
+    struct Summary {  // latencies in ms of the latest events whose effect was shown
         std::size_t count = 0;
         double latest = 0, median = 0, worst = 0;
     };
@@ -47,7 +47,7 @@ private:
     static constexpr std::size_t maxAnswers = 256;
 
     std::optional<Time> waiting_;
-    std::deque<double> answers_;  // latencies, ms
+    std::deque<double> answers_;  // latencies of these events, ms
 };
 
 }  // namespace defocus::engine

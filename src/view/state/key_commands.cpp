@@ -12,7 +12,7 @@ namespace {
 using K = KeyContext;
 using Overlay = DisplayOverlay;
 
-constexpr double frameTime = 1.0 / 24;  // step of the animation, s
+constexpr double frameTime = 1.0 / 24;  // time by which a key advances the animation, s
 constexpr double minScale = 0.5;        // limits of the interface's scale
 constexpr double maxScale = 3;
 constexpr double scaleStep = 1.1;

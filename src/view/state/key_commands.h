@@ -1,5 +1,5 @@
 #pragma once
-// The keys of the window: one table for the commands and for the displayed list of keys.
+// Defines the window's keys in one table, which both the commands and the displayed list of keys use.
 
 #include <span>
 
@@ -15,9 +15,9 @@ struct KeyContext {
 };
 
 struct KeyCommand {
-    const char* keys = nullptr;     // text in the list of keys; null: the preceding row includes this key
-    const char* meaning = nullptr;  // explanation in the list of keys
-    int key = 0;                    // WindowEvent::key, or withControl; 0: row without a command
+    const char* keys = nullptr;     // key names in the displayed list; null: the preceding row includes this key
+    const char* meaning = nullptr;  // meaning of the keys in the displayed list
+    int key = 0;                    // key code: WindowEvent::key or withControl(); 0: the row has no command
     void (*run)(KeyContext) = nullptr;
 };
 

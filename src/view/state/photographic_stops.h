@@ -1,5 +1,5 @@
 #pragma once
-// Standard f-numbers of lenses and cameras: thirds of a stop from f/0.7 to f/64.
+// Lists the standard f-numbers of lenses and cameras: thirds of a stop from f/0.7 to f/64.
 
 #include <algorithm>
 #include <iterator>
@@ -15,9 +15,9 @@ inline std::span<const double> standardStops() {
     return stops;
 }
 
-// Returns the standard f-number `steps` entries beyond `fStop`; positive steps close the aperture. If `fStop` lies
-// between two entries, the first step goes to the neighbouring entry. The result is clamped to the first and last
-// entry.
+// Returns the standard f-number that lies `steps` entries after `fStop` in the list; positive steps close the aperture.
+// If `fStop` lies between two entries, the first step goes to the neighbouring entry. The result is clamped to the
+// first and last entry.
 inline double steppedStop(double fStop, int steps) {
     constexpr double tolerance = 1e-9;
     if (steps == 0) return fStop;

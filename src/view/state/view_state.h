@@ -1,5 +1,5 @@
 #pragma once
-// The complete state that the window shows and the user can change, as plain data.
+// Holds, as plain data, everything that the window shows and that the user can change.
 
 #include <deque>
 #include <filesystem>
@@ -16,10 +16,11 @@
 
 namespace defocus::engine {
 
-// Area of the picture, which begins at the window's top left corner. Sizes and positions are in window units.
+// Area of the window that shows the picture, from the window's top left corner. Sizes and positions are in window
+// units.
 struct PictureArea {
     glm::dvec2 size{1.0};
-    // Maps a window position to [−1, 1], y up.
+    // Maps a window position in this area to [−1, 1] in x and y, with y up.
     [[nodiscard]] glm::dvec2 normalized(const glm::dvec2& position) const;
     [[nodiscard]] bool contains(const glm::dvec2& position) const;
 };
@@ -39,42 +40,42 @@ std::optional<PickedSurface> pickedSurface(const PreparedFrame& frame, const Vie
 
 enum class Navigation { orbit, fly };
 
-// Image on the right side of the divider.
+// Image that is shown on the right side of the divider and compared with the current settings on the left.
 enum class Comparison {
     none,
-    fullDetail,  // full detail with the same lens samples
-    nearest,     // one level per object (LodMode::nearest)
-    reference,   // full detail with a different set of lens samples
-    method,      // method ViewState::comparedMethod
+    fullDetail,  // image at full detail, with the lens samples of the left side
+    nearest,     // image with one level per object (LodMode::nearest)
+    reference,   // image at full detail, with other lens samples than the left side
+    method,      // image drawn with the method ViewState::comparedMethod
 };
 
 struct Message {
     std::string text;
     bool fault = false;
-    double until = 0;  // time when the message disappears, s, as ViewState::now
+    double until = 0;  // time at which the message disappears, in s on the clock of ViewState::now
 };
 
-// Marker of the latest click to focus; fades out.
+// Marker of the point that was last clicked to focus; it fades out.
 struct FocusMarker {
     bool shown = false;
-    std::uint64_t number = 0;  // index of the click, from 1
+    std::uint64_t number = 0;  // number of the click, counted from 1
     glm::dvec3 point{0.0};     // position in world space
-    double since = 0;          // time of the click, s, as ViewState::now
+    double since = 0;          // time of the click, in s on the clock of ViewState::now
     std::string name;          // name of the object; empty: no surface was hit
     double distance = 0;       // focus distance, m
 };
 
 // State of the dialog for exporting a still.
 struct ExportDialog {
-    bool fresh = true;           // whether the dialog was opened in this frame
-    bool asksToReplace = false;  // whether the dialog asks to replace an existing file
+    bool fresh = true;           // true in the frame in which the dialog opens
+    bool asksToReplace = false;  // true: the dialog asks whether to replace an existing file
 };
 
 struct SavedView {
     std::string name;
     ViewCamera camera;
     double nearPlane = 0.01;  // m
-    Lens lens;                // lens without aperture image, which saved views don't store
+    Lens lens;                // lens without aperture image, which saved views don't contain
 };
 
 struct ShotKey {
@@ -89,19 +90,19 @@ struct ViewEdit {
     ViewCamera camera;
     Lens lens;
     double nearPlane = 0.01;     // m
-    bool followsCamera = false;  // the view follows the file's camera, which may be animated
+    bool followsCamera = false;  // true: the view follows the file's camera, which may be animated
     double exposure = 0;         // exposure in EV; with `meters`, the latest metered value
-    bool meters = false;         // meter the exposure whenever the view comes to rest
+    bool meters = false;         // true: the exposure is metered whenever the view comes to rest
 };
 
 // State that is reset when another scene is opened.
 struct SceneState {
-    int selected = -1;  // index into Pose::objects of the object focused on last; −1: none
+    int selected = -1;  // index into Pose::objects of the object last focused on; −1: none
     bool playing = false;
     std::optional<FocusPull> pull;
     FocusMarker marker;
     std::vector<glm::dvec3> focusPoints;  // points in world space; three points determine the plane of focus
-    std::optional<double> poppingSince;   // start of the popping test, s; nullopt: not running
+    std::optional<double> poppingSince;   // start of the popping test, in s on the clock of `now`; nullopt: not running
     std::vector<ShotKey> shotKeys;
     std::vector<SavedView> savedViews;
 };
@@ -109,7 +110,7 @@ struct SceneState {
 struct ViewState : ViewEdit, SceneState {
     // State of the current frame, set by the window loop.
     double now = 0;             // seconds since the window was opened
-    PictureArea area;           // window units
+    PictureArea area;           // window area that shows the picture
     glm::ivec2 pictureSize{1};  // size of the picture, px
 
     // State of camera and scene.
@@ -121,7 +122,7 @@ struct ViewState : ViewEdit, SceneState {
     Comparison comparison = Comparison::none;
     std::string comparedMethod = "circular";
     FrameBudget budget;
-    std::uint32_t maxSamples = 4096;        // max lens samples of a still view
+    std::uint32_t maxSamples = 4096;        // max lens samples of a view at rest
     std::uint64_t imageBytes = 1ull << 30;  // max size of the kept lens images in bytes; 0: none are kept
 
     // State of the window.
@@ -129,22 +130,22 @@ struct ViewState : ViewEdit, SceneState {
     bool help = false;
     bool dark = true;
     double interfaceScale = 1;                  // multiplies the scale of the screen
-    std::vector<std::filesystem::path> recent;  // recent scenes, latest first
+    std::vector<std::filesystem::path> recent;  // scenes that were opened recently, latest first
     std::deque<Message> messages;
     std::string fault;          // latest error message
-    bool printsFaults = false;  // also print error messages on stderr
+    bool printsFaults = false;  // true: also print error messages on stderr
 
-    // Contents of text fields, and state of their dialogs.
+    // Contents of text fields, and the state of dialogs.
     std::string openPath, viewName, environmentPath, aperturePath;
-    bool environmentIsFile = false;  // whether the field for an environment file is shown
+    bool environmentIsFile = false;  // true: the field for an environment file is shown
     std::string exportPath = "still.png";
     std::optional<glm::ivec2> exportSize;  // size of a still, px; nullopt: pictureSize
     std::optional<ExportDialog> exportDialog;
     std::string shotPath = "shot.json";
 };
 
-// Actions requested by panels and keys that need files, the GPU or the window. The actions are executed at the end of
-// the frame.
+// Actions that panels and keys request. They need files, the GPU or the window, so they are executed at the end of the
+// frame.
 struct ViewActions {
     std::optional<std::filesystem::path> open;
     std::optional<std::string> chooseCamera;  // name of the camera; "auto" frames the scene
@@ -157,8 +158,8 @@ struct ViewActions {
     bool copyCommand = false;
     bool recordKey = false;
     bool saveShot = false;
-    bool askExport = false;    // open the export dialog
-    bool exportStill = false;  // write the still to ViewState::exportPath, replacing an existing file
+    bool askExport = false;    // true: open the dialog for exporting a still
+    bool exportStill = false;  // true: write the still to ViewState::exportPath, and replace an existing file
     bool cancelExport = false;
     bool openDialog = false;
     bool screenshot = false;
@@ -169,14 +170,14 @@ struct ViewActions {
 // Returns the exposure of the picture in EV: from the lens if it has an exposure time, else ViewState::exposure.
 double shownExposure(const ViewState& state);
 
-// Returns the settings for encoding 8-bit images: exposure and tone map.
+// Returns the settings with which the picture is encoded in 8 bits: exposure and tone map.
 WriteOptions writeOptions(const ViewState& state);
 
-// Both functions show a message over the picture for some seconds; sayFault is for errors.
+// say() and sayFault() show a message over the picture for some seconds; sayFault() is for errors.
 void say(ViewState& state, std::string text);
 void sayFault(ViewState& state, std::string text);
 
-// Sets the image on the right side of the divider, and moves the divider into the picture.
+// Chooses the image on the right side of the divider, and moves the divider into the picture.
 void compare(ViewState& state, Comparison comparison);
 
 // Starts a focus pull to `distance` m that takes `seconds`.
@@ -185,14 +186,14 @@ void pullFocus(ViewState& state, double distance, double seconds = FocusPull{}.d
 // Sets the plane of focus to contain the three focus points, then clears the points.
 void tiltFocus(ViewState& state);
 
-// Both functions move the camera so that the selected object, or the scene, fills the image, and pull the focus to the
-// centre of that object or scene.
+// Each of these functions moves the camera so that the selected object, or the entire scene, fills the image. It also
+// pulls the focus to the centre of that object or scene.
 void frameSelection(const PreparedFrame& frame, ViewState& state);
 void frameScene(const PreparedFrame& frame, ViewState& state);
 
 // Starts or stops the popping test: a focus pull from near to far and back, which shows fractional levels on the left
 // side and nearest levels on the right.
-inline constexpr double poppingDuration = 8;  // s
+inline constexpr double poppingDuration = 8;  // duration of the popping test, s
 void togglePoppingTest(ViewState& state);
 
 // Advances focus pull and animation by `seconds`, and ends the popping test after poppingDuration.

@@ -1,4 +1,4 @@
-// Drawings in the panel: aperture ring, aperture, blur over depth, frame times.
+// Draws the panel's diagrams: aperture ring, aperture shape, blur over depth, frame times.
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
@@ -21,7 +21,7 @@ ImU32 color(ImGuiCol index, float alpha = 1) {
 
 struct Canvas {
     ImDrawList& list;
-    ImVec2 origin, end;  // top left and bottom right corner
+    ImVec2 origin, end;  // top left and bottom right corner of the drawing area
     [[nodiscard]] float width() const { return end.x - origin.x; }
     [[nodiscard]] float height() const { return end.y - origin.y; }
 };
@@ -39,7 +39,7 @@ Canvas canvas(float height, float rounding, const char* id = nullptr, ImU32 fill
     return result;
 }
 
-// Returns the fractional index of an f-number in standardStops().
+// Returns the position of an f-number in the list standardStops(), as a fractional index.
 float stopPosition(double fStop) {
     const std::span<const double> stops = standardStops();
     if (fStop <= stops.front()) return 0;
@@ -54,12 +54,12 @@ float stopPosition(double fStop) {
 // standard stop.
 void turnRing(double& fStop, float centre, float spacing) {
     ImGui::SetItemUsingMouseWheel();  // keep the panel from scrolling
-    static float rolled = 0;  // notches of the wheel; touchpads send fractions, and slow frames receive several
+    static float rolled = 0;  // wheel notches not yet applied: touchpads send fractions, and slow frames get several
     rolled = ImGui::IsItemHovered() ? rolled + ImGui::GetIO().MouseWheel : 0;
     const int notches = static_cast<int>(rolled);
     if (notches != 0) fStop = steppedStop(fStop, -notches);
     rolled -= static_cast<float>(notches);
-    static float dragged = 0;  // px
+    static float dragged = 0;  // drag distance not yet applied, px
     static bool turned = false;
     if (ImGui::IsItemActivated()) {
         dragged = 0;
@@ -76,9 +76,9 @@ void turnRing(double& fStop, float centre, float spacing) {
     }
 }
 
-// Range of depths that the diagram shows, on a logarithmic axis.
+// Range of depths on the diagram's logarithmic horizontal axis.
 struct DepthAxis {
-    double nearest = 0;  // m
+    double nearest = 0;  // nearest depth on the axis, m
     double farthest = 0;
     [[nodiscard]] float share(double depth) const {
         return static_cast<float>(std::log(std::clamp(depth, nearest, farthest) / nearest) /
@@ -101,8 +101,8 @@ double cocAt(const FramePlan& plan, double depth) {
     return std::abs(circleOfConfusion(plan.coc, depth, plan.view.width));
 }
 
-// Returns the depth (m), at the image's centre, where the blur reaches one pixel. Searches from the focus to
-// `endDioptre` (1/m); if the blur stays below a pixel, returns the depth of `endDioptre`.
+// Returns the depth (m), at the image's centre, where the blur reaches one pixel. Searches from the focus distance to
+// `endDioptre` (1/m). If the blur stays below a pixel, returns the depth of `endDioptre`.
 double limitOfFocus(const FramePlan& plan, double endDioptre) {
     const auto sharp = [&](double dioptre) {
         return cocAt(plan, dioptre > 0 ? 1 / dioptre : std::numeric_limits<double>::infinity()) < 1;

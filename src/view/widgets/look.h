@@ -1,5 +1,5 @@
 #pragma once
-// The light and the dark theme of the interface: colours, sizes and font.
+// Sets the interface's light or dark theme: colours, sizes and font.
 
 #include <imgui.h>
 

@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double maxSliderRange = 64;  // integers with a larger range get no slider, which would be too coarse
+constexpr double maxSliderRange = 64;  // integers with a larger range get no slider, because it would be too coarse
 
 // Returns ImGui's format string for a value of the setting.
 std::string numberFormat(const Setting& setting, double value) {
@@ -80,7 +80,7 @@ std::optional<std::string> editedText(const Setting& setting, const std::string&
     return {};
 }
 
-// Draws a checkbox that sets `text` to `first` or clears it. Returns whether `text` is set.
+// Draws a checkbox that, when checked, sets `text` to `first` and otherwise clears it. Returns whether `text` is set.
 bool valueIsSet(const std::string& name, std::string& text, const std::string& first) {
     bool set = !text.empty();
     if (ImGui::Checkbox("##set", &set)) text = set ? first : "";
@@ -101,7 +101,7 @@ bool settingRow(Request& request, const std::string& name, const std::string& fi
     const Setting& setting = *settingNamed(name);
     ImGui::PushID(name.c_str());
     rowLabel(fieldLabel(name), fmt::format("{} ({})", setting.help, setting.option));
-    // For a setting whose value is a number or a word such as "auto", the word counts as unset.
+    // Some settings have either a number or a word such as "auto"; here the word counts as unset.
     const bool words = setting.kind != SettingKind::choice && !setting.choices.empty();
     const auto unset = [&](const std::string& text) { return words && text == setting.choices.front() ? "" : text; };
     const std::string before = unset(setting.text(request).value_or(""));

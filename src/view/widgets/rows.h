@@ -1,5 +1,5 @@
 #pragma once
-// Panel rows for settings (frame/settings/settings.h) and lens fields (lens/lens_fields.h).
+// Draws the panel rows of settings (frame/settings/settings.h) and of lens fields (lens/lens_fields.h).
 
 #include <string>
 #include <string_view>

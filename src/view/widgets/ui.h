@@ -1,5 +1,5 @@
 #pragma once
-// The data that panels, dialogs and the heads-up display read and change during a frame.
+// Bundles the data that panels, dialogs and the heads-up display read and change during a frame.
 
 #include "view/export/still_export.h"
 #include "view/picture/live_picture.h"
@@ -9,9 +9,9 @@
 namespace defocus::engine {
 
 struct FrameTimes {
-    double frame = 0;           // latest frame time, ms
-    double interface = 0;       // time of widgets and buffer swap, ms
-    std::vector<float> recent;  // latest frame times, ms
+    double frame = 0;           // time of the latest frame, ms
+    double interface = 0;       // time for drawing widgets and swapping buffers, ms
+    std::vector<float> recent;  // times of the latest frames, ms
     InputLatency latency;
 };
 

@@ -12,7 +12,7 @@ namespace defocus::engine {
 namespace {
 
 Places& places() {
-    static Places noted;  // global, as ImGui's own state is
+    static Places noted;  // a global variable, like ImGui's own state
     return noted;
 }
 

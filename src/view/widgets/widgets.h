@@ -1,5 +1,5 @@
 #pragma once
-// Panel widgets that ImGui lacks.
+// Draws panel widgets that ImGui lacks.
 
 #include <array>
 #include <map>
@@ -47,8 +47,8 @@ void centreDialog(float width, float height = 0);
 // Window positions of widgets, by name.
 using Places = std::map<std::string, std::array<long, 2>>;
 
-// Records the centre of the previous widget under a name, unless the widget is scrolled out of sight. Scripts read the
-// positions from the state file (docs/window.md).
+// Records the window position of the previous widget's centre under a name, unless the widget is scrolled out of sight.
+// Scripts read these positions from the state file (docs/window.md).
 void notePlace(const std::string& name);
 // Returns the positions recorded since the last call.
 Places takePlaces();

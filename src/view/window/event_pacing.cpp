@@ -12,17 +12,17 @@ bool isModifier(int code) {
     return code >= key::leftShift && code <= key::lastModifier;
 }
 
-// Returns whether the effect of a key depends on preceding text input: Return, Backspace, Tab, arrows …
+// Returns whether the effect of a key depends on text typed before: Return, Backspace, Tab, arrows …
 bool edits(int code) {
     return code >= key::escape && !isModifier(code);
 }
 
-// Summary of the events that the frame has taken so far.
+// Summary of the events already taken for the current frame.
 struct Taken {
     bool button = false;
     bool editingKey = false;
     bool text = false;
-    std::optional<bool> control;  // whether Ctrl is down for the keys taken so far; nullopt: no key was taken
+    std::optional<bool> control;  // whether Ctrl is down for the keys taken; nullopt: no key was taken
     std::set<int> pressed;
 };
 

@@ -11,8 +11,8 @@
 namespace defocus::engine {
 
 struct EventPace {
-    bool interfaceHasHand = false;  // a widget uses the mouse or takes text, or a dialog is open
-    glm::dvec2 pictureEnd{0.0};     // lower right corner of the picture, window units; beyond it is the interface
+    bool interfaceHasHand = false;  // true: a widget uses the mouse or takes text, or a dialog is open
+    glm::dvec2 pictureEnd{0.0};     // lower right corner of the picture, window units; the interface is outside
 };
 
 // Removes the events of one frame from the front of the queue, at least one if there are any. The other events wait for

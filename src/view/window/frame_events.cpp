@@ -1,4 +1,4 @@
-// Layout and input events of a frame.
+// Lays out the window, and fetches the input events of each frame.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ void poll(Session& session, double seconds) {
     for (WindowEvent& event : session.window.poll(seconds)) session.events.push_back(std::move(event));
 }
 
-// Returns the max time (s) to wait for an event; 0 while the picture moves or accumulates samples.
+// Returns the max time (s) to wait for an event; 0 while the view changes or the picture accumulates samples.
 double idleTime(const Session& session) {
     const ViewState& state = session.state;
     const bool loading = session.document.loader.busy();

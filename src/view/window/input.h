@@ -1,5 +1,5 @@
 #pragma once
-// Converts mouse and key events over the picture to changes of the state.
+// Applies mouse and key events over the picture to the window's state.
 
 #include <set>
 
@@ -11,9 +11,9 @@ namespace defocus::engine {
 
 struct InputContext {
     const PreparedFrame* frame = nullptr;  // null: no scene is open
-    bool mouseOnInterface = false;         // a widget uses the mouse
-    bool typing = false;                   // a text field or a dialog receives the keys
-    bool navigating = false;               // keys move between widgets
+    bool mouseOnInterface = false;         // true: a widget uses the mouse
+    bool typing = false;                   // true: a text field or a dialog receives the keys
+    bool navigating = false;               // true: keys move between widgets
 };
 
 class ViewInput {

@@ -18,7 +18,7 @@ namespace {
 
 void loadFont(double scale) {
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-    const bool hadTexture = atlas.IsBuilt();  // false: the backend creates the texture in its first frame
+    const bool hadTexture = atlas.IsBuilt();  // false: ImGui's backend creates the font texture in its first frame
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     atlas.Clear();
     addFont(atlas, scale);
@@ -87,7 +87,7 @@ void ViewInterface::feed(const std::vector<WindowEvent>& events) {
                 if (event.key < 0 || event.repeated) break;
                 if (event.pressed) {
                     tell(event);
-                    io.KeysDownDuration[event.key] = -1;  // a new press, even if no release preceded it
+                    io.KeysDownDuration[event.key] = -1;  // makes ImGui see a new press, even if no release preceded it
                     down.insert(event.key);
                     if (event.key < key::leftShift) chord = event;
                 } else if (down.contains(event.key)) {

@@ -28,7 +28,7 @@ private:
 
     std::vector<WindowEvent> tappedKeys_;  // keys pressed and released in one frame; ImGui gets the release in the next
     std::array<bool, 3> buttons_{};        // whether each mouse button is down after the latest event
-    glm::dvec2 mouse_{0.0};                // position, window units
+    glm::dvec2 mouse_{0.0};                // mouse position, window units
     bool focused_ = false;
     double scale_ = 0;
     bool dark_ = true;

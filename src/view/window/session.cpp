@@ -62,7 +62,7 @@ void rememberSettings(Session& session) {
 
 void takeScene(Session& session) {
     if (!takeLoadedScene(session.document, session.state)) return;
-    session.still.reset();  // the export refers to the old scene
+    session.still.reset();  // the running export refers to the old scene
     session.window.setTitle(session.document.frame->sceneName + " – defocus");
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Runs the window of `defocus view`.
+// Runs the window of the command `defocus view`.
 
 #include <deque>
 
@@ -15,19 +15,19 @@
 namespace defocus::engine {
 
 struct SessionOptions {
-    Request request;                     // Request::size is the size of the picture
+    Request request;                     // all settings; Request::size is the size of the picture
     std::filesystem::path screenshot;    // file for a screenshot at the end; empty: none
     int frames = 0;                      // frames with the complete scene before the window closes; 0: no limit
     std::filesystem::path shaderFolder;  // replacement shaders; empty: the embedded shaders
-    bool quiet = false;                  // print no warnings on stderr
-    std::filesystem::path stats;         // JSON file for the state, updated continuously; empty: none
+    bool quiet = false;                  // true: print no warnings on stderr
+    std::filesystem::path stats;         // JSON file to which the window's state is written continuously; empty: none
 };
 
 // Opens a window and the scene; returns once the window is closed. Throws Error if there is no display or, with
 // SessionOptions::frames, if the scene can't be opened.
 void runSession(const SessionOptions& options);
 
-// All parts of a running session.
+// State of a running window: scene, picture, interface and input events.
 struct Session {
     explicit Session(const SessionOptions& options);
 
@@ -37,7 +37,7 @@ struct Session {
     ViewInterface interface;
     ViewInput input;
     ViewState state;
-    ViewActions actions;  // actions requested in this frame
+    ViewActions actions;  // actions that panels and keys requested in this frame
     Document document;
     LivePicture picture;
     std::optional<StillExport> still;
@@ -45,14 +45,14 @@ struct Session {
     FrameTimes times;
 
     std::deque<WindowEvent> events;                // fetched events that no frame has taken yet
-    Clock::time_point queuedSince = Clock::now();  // time when the earliest of `events` arrived
+    Clock::time_point queuedSince = Clock::now();  // time at which the earliest of `events` arrived
     Clock::time_point fetchedAt = Clock::now();
-    double growthTime = 0;  // time spent on the still image in this frame, ms
+    double growthTime = 0;  // time spent in this frame on adding samples to the image of a view at rest, ms
 
     const Clock::time_point begin = Clock::now();
     int framesWithScene = 0;  // frames drawn with the complete scene, not with a draft
     std::uint64_t framesDrawn = 0;
-    double statsWrittenAt = -1;  // seconds since the window was opened; -1: not written yet
+    double statsWrittenAt = -1;  // time of the last write, in s since the window was opened; -1: not yet
     Places places;               // positions of the widgets in the latest frame
 };
 
@@ -65,10 +65,11 @@ InputContext inputContext(const Session& session);
 // Sets ViewState::area and pictureSize from the size of the window.
 void layOut(Session& session);
 
-// Returns the events of the next frame. First adds samples to a still picture; waits if nothing else is to be done.
+// Returns the events of the next frame. First adds samples to the picture if the view is at rest; waits if nothing else
+// is to be done.
 std::vector<WindowEvent> fetchEvents(Session& session);
 
-// Writes the state to SessionOptions::stats several times a second. `now`: writes immediately.
+// Writes the state to the file SessionOptions::stats several times a second. `now`: whether to write immediately.
 void writeStats(Session& session, bool now = false);
 
 }  // namespace defocus::engine

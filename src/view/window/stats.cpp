@@ -79,7 +79,7 @@ ordered_json windowJson(const Session& session) {
     const InputLatency::Summary latency = session.times.latency.summary();
     return {
         {"fault", state.fault},
-        {"frames", session.framesDrawn},  // drawn frames; the state reflects all events until two frames ago
+        {"frames", session.framesDrawn},  // number of frames drawn; the state reflects all events up to two frames ago
         {"typing", inputContext(session).typing},
         {"openPath", state.openPath},
         {"frameMilliseconds", session.times.frame},
