@@ -28,6 +28,7 @@ COMMANDS = {  # each name is a module of this package, with "-" for "_"
     "latency": "measure how fast the window answers the mouse",
     "cold": "measure the time to the first picture of a scene, with empty caches",
     "layers": "measure the processor time that data layers add to a picture",
+    "lighting": "measure the processor time that lighting adds to a picture",
 }
 
 
