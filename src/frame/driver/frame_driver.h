@@ -47,12 +47,12 @@ struct FrameOrder {
     View view;
     RenderSettings settings;
     StopSettings stop = {};
-    std::optional<SampleRange> samples = {};         // draw only partial sums over these samples; nullopt: all samples
+    std::optional<SampleRange> samples = {};         // draw only the partial sum of these samples; nullopt: all samples
     std::optional<std::vector<RowRange>> rows = {};  // draw only these rows, in tiles; nullopt: all rows
-    RowSink takeRows = {};                           // receives finished rows of tiles; if empty, image() returns them
+    RowSink takeRows = {};                           // receives the rows of finished tiles; empty: image() has them
     SampleSink takeSample = {};                      // receives each lens sample's image; if set, no mean is computed
     std::string untiledReason = {};                  // reason why tiles are forbidden; empty: tiles are allowed
-    bool shortDraws = false;                         // advance() draws few samples; implied by a time limit
+    bool shortDraws = false;                         // advance() draws few samples per call; implied by a time limit
 };
 
 class FrameDriver {
