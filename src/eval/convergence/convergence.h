@@ -101,7 +101,7 @@ struct ConvergenceRun {
     std::uint64_t triangles = 0;
     std::uint64_t peakBytes = 0;  // peak size of the renderer's resources
     std::uint64_t imageHash = 0;
-    ImageError error;                // difference from the reference
+    ImageError error;                // difference of the image from the reference image
     std::optional<ImageError> bias;  // difference from full detail with the same lens samples; nullopt without levels
     std::string fault;               // why the image is invalid; empty if it is valid
 };

@@ -46,8 +46,8 @@ private:
 struct Source {
     Document document;
     tinygltf::Model model;                                             // result of readStructure
-    std::vector<std::optional<std::vector<std::byte>>> buffers;        // nullopt: fallback buffer without data
-    std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // of views with EXT_meshopt_compression
+    std::vector<std::optional<std::vector<std::byte>>> buffers;        // bytes; nullopt: a fallback buffer without data
+    std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // bytes of views with EXT_meshopt_compression
     UnpackBudget budget;
     std::set<std::filesystem::path> files;  // external files whose size was added to the budget
     std::vector<Ignored> ignored;
