@@ -42,7 +42,7 @@ using namespace defocus::engine;
 constexpr int timedFrames = 3;
 constexpr std::uint32_t referenceSamples = 1600;
 constexpr double tableBlur = 0.1;     // largest blur in Table 1, as a fraction of the image's width
-constexpr double largestError = 0.1;  // max RMSE against accumulation
+constexpr double largestError = 0.1;  // max RMSE relative to the image of method accumulation
 
 struct Measured {
     double milliseconds = 0;

@@ -122,7 +122,8 @@ struct Region {
     std::function<bool(const LensSample&)> holds;
 };
 
-// Returns half planes of the lens: the lens areas from which a point behind a straight blurred edge is visible.
+// Returns half planes that cut the lens. Seen past a straight blurred edge, a background point is visible from such an
+// area of the lens.
 std::vector<Region> halfPlanes() {
     std::vector<Region> regions;
     for (int direction = 0; direction < 32; ++direction)
@@ -135,7 +136,7 @@ std::vector<Region> halfPlanes() {
     return regions;
 }
 
-// Returns boxes in the pixel that share the pixel's lower left corner.
+// Returns rectangles in the pixel whose lower left corner is the pixel's lower left corner.
 std::vector<Region> boxes() {
     std::vector<Region> regions;
     for (int x = 1; x <= 16; ++x)
@@ -146,10 +147,12 @@ std::vector<Region> boxes() {
     return regions;
 }
 
+// Errors of a point set as an estimate of the areas of regions. The area error of a region is the fraction of the
+// points inside it, minus its area.
 struct Discrepancy {
-    double all = 0;     // RMS over the regions of the area error, with all points
-    double prefix = 0;  // max area error over all regions and all sets of the first n ≥ 16 points
-    double suffix = 0;
+    double all = 0;     // RMS of the area errors of all regions
+    double prefix = 0;  // max |area error| of all regions, using only the first n points, for any n ≥ 16
+    double suffix = 0;  // max |area error| of all regions, using only the last n points, for any n ≥ 16
 };
 
 double largestOfPrefixes(const std::vector<LensSample>& samples, const Region& region) {

@@ -85,7 +85,7 @@ struct Plan {
     LevelVertices levelVertices = LevelVertices::fitted;
     double blurThreshold = 0;   // target edge length relative to the blur diameter
     double sizeThreshold = 0;   // min target edge length, px
-    double lightThreshold = 0;  // limit in px; see Request::lightThreshold
+    double lightThreshold = 0;  // max edge length · shading error, px; see Request::lightThreshold
     // Shadow maps and their sampling.
     std::vector<PlannedShadowMap> shadowMaps;  // empty: no shadows
     int shadowMapSize = 0;                     // side of each shadow map, px

@@ -1,16 +1,15 @@
-// Computes tent-weighted means for one blur class of lens cells (include/cells.glsl). Each mean is centred on a square
-// of pixels, and its tent extends to the centres of the neighbouring squares. Squares of one pixel are centred at pixel
-// corners. One output is the mean per pixel of the samples in the class (summed radiance and number); the other is the
-// mean number of samples that nearer classes do not hide. The first output divided by the second uses only samples in
-// which no nearer class hides the class. A blurred surface therefore keeps its colour and coverage up to the edges of
-// its occluders.
+// Reduces one blur class of lens cells (include/cells.glsl) to one tent-weighted mean per square of side × side px. The
+// tent extends to the centres of the neighbouring squares. Squares of one pixel are centred at pixel corners. meanOut
+// is the mean per pixel of the class's lens samples: their summed radiance and their number. openOut is the mean number
+// of samples that no nearer class hides. The quotient meanOut / openOut is the colour and coverage of the class where
+// it is not hidden. A blurred surface therefore keeps its colour and coverage up to the edges of its occluders.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;
 layout(binding = 1) uniform sampler2D blockSum;
 layout(binding = 2) uniform usampler2D spreadClasses;
-// Index of the blur class. With nearestClass, the class is the most blurred one in front of the focus plane, which no
-// other class hides.
+// Index of the blur class. With nearestClass, the class is the most blurred one in front of the focus plane. No other
+// class hides this class.
 layout(location = 0) uniform int classIndex;
 // Side of the squares in px, a power of 2.
 layout(location = 1) uniform int side;

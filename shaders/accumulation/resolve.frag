@@ -2,7 +2,7 @@
 // is stored in alpha.
 layout(binding = 0) uniform sampler2D frameSum;
 layout(binding = 1) uniform sampler2D frameCompensation;
-layout(location = 0) uniform float sampleCount;   // number of samples; 0: divide by alpha
+layout(location = 0) uniform float sampleCount;   // number of samples in the sum; 0: divide by alpha
 
 layout(location = 0) out vec4 mean;
 

@@ -8,10 +8,10 @@
 layout(binding = 2) uniform sampler2D farBlurred;    // blurred far field; with combinedFields, the sum of both fields
 layout(binding = 3) uniform sampler2D nearBlurred;
 layout(binding = 4) uniform sampler2D nearRadii;     // radii at which the near field was gathered, in field px
-layout(location = 2) uniform float perNearDiameter;  // 1 / max diameter in front of the focus plane (px)
+layout(location = 2) uniform float perNearDiameter;  // 1 / (largest CoC diameter in front of the focus plane in px)
 // 0: there is no near field. ≥ 1: factor by which the near field's coverage is multiplied.
 layout(location = 0) uniform float blendBias;
-layout(location = 1) uniform float perFarDiameter;   // 1 / max diameter behind the focus plane (px)
+layout(location = 1) uniform float perFarDiameter;   // 1 / (largest CoC diameter behind the focus plane in px)
 
 layout(location = 0) out vec4 image;
 
@@ -33,8 +33,8 @@ float coverageOf(float weight, vec2 place) {
     return clamp(weight, 0.0, 1.0);
 }
 
-// Returns the factor on the coverage with which a near field of radiance `before` is composited over a background of
-// radiance `behind`.
+// Returns the factor by which the near field's coverage is multiplied before compositing. `before` is the radiance of
+// the near field, and `behind` the radiance of the image behind it.
 float biasOf(float coverage, vec3 before, vec3 behind) {
     if (!biasByLuminance) return blendBias;
     // blendBias applies fully where the near field covers most of the pixel and is brighter than the background.

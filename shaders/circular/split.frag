@@ -6,9 +6,9 @@
 #include "include/pinhole.glsl"
 #include "circular/clear_image.glsl"
 
-layout(location = 0) uniform float largestRadius;   // max radius of the blur, in image px
-layout(location = 1) uniform float perFarDiameter;  // 1 / max diameter behind the focus plane (px)
-layout(location = 2) uniform float perNearDiameter; // 1 / max diameter in front of the focus plane (px)
+layout(location = 0) uniform float largestRadius;   // max blur radius, in image px
+layout(location = 1) uniform float perFarDiameter;  // 1 / (largest CoC diameter behind the focus plane in px)
+layout(location = 2) uniform float perNearDiameter; // 1 / (largest CoC diameter in front of the focus plane in px)
 
 layout(location = 0) out vec4 farField;             // far field; with combinedFields, the sum of both fields
 layout(location = 1) out float farRadius;

@@ -20,8 +20,8 @@ const int besideSpread = 16;   // index of the first bit of the second mask in s
 // −1 is unblurred.
 float classVariance(int k) { return k < 0 ? 0.0 : exp2(float(2 * k)) / 3.0 + 1.0 / 6.0; }
 
-// Returns the fraction of a sample with blur variance `variance` that is assigned to blur class k and the more blurred
-// classes.
+// Returns the total weight, 0 … 1, with which a lens sample of blur variance `variance` is counted in blur class k and
+// all more blurred classes. It increases linearly from 0 at the variance of class k − 1 to 1 at that of class k.
 float reachOfClass(float variance, int k) {
     return clamp((variance - classVariance(k - 1)) * (1.0 / (classVariance(k) - classVariance(k - 1))), 0.0, 1.0);
 }

@@ -5,9 +5,9 @@
 layout(location = 0) uniform vec4 kernel[kernelSize];   // per component: a, b of F; weights A, B
 
 struct Taps {
-    int count;      // taps on each side of the centre
+    int count;      // number of taps on each side of the centre
     float radius;   // radius of the disk, in taps
-    float spacing;  // px
+    float spacing;  // distance between taps, px
 };
 
 Taps tapsOf(float radius) {

@@ -10,7 +10,7 @@ layout(std140, binding = 0) uniform FrameBlock {
     // zw: coefficients A of astigmatism and B of coma (src/lens/aberrations.h).
     vec4 cocOther;
     vec4 window;          // xy: position in the image of the layers' pixel (0, 0); zw: image size (px)
-    mat4 worldFromView;   // rotation
+    mat4 worldFromView;   // rotation from view space to world space
     vec4 lightPositions[maxLights];  // xyz: m from the camera along the world's axes; w: range (m), 0: unlimited
 } frame;
 
@@ -28,11 +28,11 @@ struct Object {
     // x: max deviation of the drawn levels from full detail (m); y: max number of parts of an edge (refined.tesc).
     vec2 levels;
 };
-layout(location = 96) uniform Object object;   // locations 96 to 100
+layout(location = 96) uniform Object object;   // uniform locations 96 to 100
 
 layout(std140, binding = 2) uniform MaterialBlock {
     vec4 baseColor;
-    vec4 emissiveCutoff;  // rgb: emissive radiance; w: cutoff of alpha
+    vec4 emissiveCutoff;  // rgb: emissive radiance; w: alpha cutoff
     vec4 surface;         // metallic, roughness, normal scale, occlusion strength
     vec4 reflectance;     // rgb: dielectric reflectance at normal incidence, before the factor in w (specularFactor)
     vec4 transmission;    // fraction, thickness (object units), 1/ior, blur of the background per roughness

@@ -109,8 +109,8 @@ float coarseSpread(SurfacePoint point) {
 // Variance σ² of the slopes of all normals that a sample represents, in two perpendicular directions along the surface.
 struct Spread {
     vec3 axis;            // unit vector of the direction with the larger variance; 0 if the variances are equal
-    float along;          // 2σ² along the axis
-    float across;         // 2σ² across the axis
+    float along;          // 2σ² of the slopes along `axis`
+    float across;         // 2σ² of the slopes across `axis`
 };
 
 // Variance of the normals within a pixel, which widens highlights. The equations follow Kaplanyan et al. 2016

@@ -24,13 +24,13 @@ layout(binding = 29) uniform sampler2DArray shadowMaps;
 
 struct Facet {
     vec3 place;     // position in m from the camera along the world's axes
-    vec3 normal;    // unit vector
+    vec3 normal;    // unit normal of the surface
 };
 
 // Returns the change of depth along the facet's plane from the position `clip` to the centre of its shadow map texel,
 // at offset `toMiddle` (NDC). `width` is the size of a texel at this depth, in m.
 float depthAlongFacet(int texel, vec4 clip, vec3 normal, float width, vec2 toMiddle) {
-    const float farthest = 4.0;   // max distance along the facet, texels
+    const float farthest = 4.0;   // max distance along the facet over which depth is extrapolated, texels
     vec3 across = normalize(cross(normal, abs(normal.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
     vec4 stepA = shadowDirection(texel, across * width);
     vec4 stepB = shadowDirection(texel, cross(normal, across) * width);

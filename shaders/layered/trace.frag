@@ -14,7 +14,7 @@ in Sky {
 #include "include/sky_varyings.glsl"
 } sky;
 
-layout(binding = 0) uniform sampler2DArray layerColors;     // premultiplied
+layout(binding = 0) uniform sampler2DArray layerColors;     // premultiplied colours of the depth layers
 layout(binding = 1) uniform sampler2DArray layerSurfaces;   // surfaceOut of layered/peel.frag
 layout(binding = 2) uniform sampler2DArray layerReach;      // min and max blur from layered/reach.comp
 layout(location = 0) uniform int layerCount;
@@ -35,9 +35,9 @@ struct Hit {
 
 // A ray as a line in the pinhole image, parameterised by the signed blur of the surfaces that it meets.
 struct Ray {
-    vec2 start;      // px
+    vec2 start;      // position in px at blur 0
     vec2 slope;      // change of position in px per px of blur
-    vec2 perSlope;   // 1 / slope
+    vec2 perSlope;   // 1 / slope, for x and y
     float shift;     // blur in px that is added to all surfaces
 };
 

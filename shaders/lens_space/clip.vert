@@ -8,7 +8,7 @@
 
 layout(location = 0) uniform vec3 moment;   // index of a shutter time, fraction of the way to the next, time in [0, 1]
 
-layout(xfb_buffer = 0, xfb_offset = 0) out vec4 clipOut;       // x, y, w of clip space; C
+layout(xfb_buffer = 0, xfb_offset = 0) out vec4 clipOut;       // x, y, w in clip space, and the signed CoC C
 #ifdef PASSES_OWN_BLUR
 layout(xfb_buffer = 1, xfb_offset = 0) out vec2 ownBlurOut;    // the vertex's blur modifiers (include/lens.glsl)
 #endif

@@ -12,7 +12,7 @@ layout(std430, binding = 0) buffer ClipBlock { vec4 clips[]; };
 layout(std430, binding = 1) readonly buffer BaseBlock { uvec4 bases[]; };
 layout(std430, binding = 2) readonly buffer OwnBlock { vec2 ownBlurs[]; };   // per vertex: blur modifiers (lens.glsl)
 
-layout(location = 0) uniform uint firstBase;     // undivided triangles [firstBase, firstBase + baseCount)
+layout(location = 0) uniform uint firstBase;     // triangles to divide: [firstBase, firstBase + baseCount)
 layout(location = 1) uniform uint baseCount;
 layout(location = 2) uniform uint parts;
 layout(location = 3) uniform uint firstVertex;   // index of the first new vertex among the frame's vertices

@@ -8,11 +8,11 @@ layout(local_size_x = 256) in;
 layout(std430, binding = 1) readonly buffer BaseBlock { uvec4 bases[]; };
 layout(std430, binding = 2) writeonly buffer TriangleBlock { uvec4 triangles[]; };
 #ifdef LIGHTS_VERTICES
-// per vertex: the frame's first triangle with this vertex
+// per vertex: lowest index of a triangle with this vertex
 layout(std430, binding = 3) buffer FirstBlock { uint firstTriangles[]; };
 #endif
 
-layout(location = 0) uniform uint firstBase;       // undivided triangles [firstBase, firstBase + baseCount)
+layout(location = 0) uniform uint firstBase;       // triangles to divide: [firstBase, firstBase + baseCount)
 layout(location = 1) uniform uint baseCount;
 layout(location = 2) uniform uint parts;
 layout(location = 3) uniform uint firstVertex;     // index of the first new vertex among the frame's vertices

@@ -13,7 +13,7 @@ struct Ray {
     vec4 values;
 };
 
-layout(std430, binding = 6) readonly buffer RayBlock { Ray rays[]; };   // index: ray · rayVariants + variant
+layout(std430, binding = 6) readonly buffer RayBlock { Ray rays[]; };   // index of a ray: ray · rayVariants + variant
 
 layout(location = 0) uniform ivec2 imageSize;
 layout(location = 1) uniform uint firstRay;   // index of the first ray of the rays traced together (the wave)

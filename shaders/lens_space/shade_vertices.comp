@@ -14,7 +14,7 @@ layout(local_size_x = 256) in;
 layout(std430, binding = 4) readonly buffer DrawBlock { Draw draws[]; };
 // per vertex: radiance of the front, of the back
 layout(std430, binding = 5) writeonly buffer LightBlock { vec4 lights[]; };
-// per vertex: the frame's first triangle with this vertex, or noTriangle
+// per vertex: lowest index of a triangle with this vertex, or noTriangle
 layout(std430, binding = 6) readonly buffer FirstBlock { uint firstTriangles[]; };
 
 layout(location = 0) uniform uint vertexCount;

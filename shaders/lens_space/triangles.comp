@@ -6,14 +6,14 @@ layout(local_size_x = 256) in;
 layout(std430, binding = 0) readonly buffer IndexBlock { uint indices[]; };
 layout(std430, binding = 2) writeonly buffer TriangleBlock { uvec4 triangles[]; };
 #ifdef LIGHTS_VERTICES
-// per vertex: the frame's first triangle with this vertex
+// per vertex: lowest index of a triangle with this vertex
 layout(std430, binding = 3) buffer FirstBlock { uint firstTriangles[]; };
 #endif
 
 layout(location = 0) uniform uint firstIndex;
 layout(location = 1) uniform uint triangleCount;
-layout(location = 2) uniform uint firstVertex;     // first vertex of the level in the frame
-layout(location = 3) uniform uint firstTriangle;   // first triangle of the range in the frame
+layout(location = 2) uniform uint firstVertex;     // index of the level's first vertex among the frame's vertices
+layout(location = 3) uniform uint firstTriangle;   // index in `triangles` at which the range's triangles begin
 layout(location = 4) uniform uint draw;
 layout(location = 5) uniform bool mirrored;
 

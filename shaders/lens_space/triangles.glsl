@@ -29,7 +29,8 @@ vec4 clipAtEnd(uint vertex) { return clipsAtEnd[vertex]; }
 #else
 vec4 clipAtEnd(uint vertex) { return clips[vertex]; }
 #endif
-layout(std430, binding = 2) readonly buffer TriangleBlock { uvec4 triangles[]; };  // xyz: vertices; w: draw
+// xyz: vertex indices; w: index of the Draw
+layout(std430, binding = 2) readonly buffer TriangleBlock { uvec4 triangles[]; };
 
 // Returns a vertex (x, y, w, C) at the time `fraction` in the current part of the exposure. Positions and C are linear
 // in time.

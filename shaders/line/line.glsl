@@ -12,8 +12,8 @@
 struct OnLine {
     vec3 edgesAt0;
     vec3 edgeSlopes;
-    vec2 sums;         // E at p = 0, slope of E
-    vec2 determinant;  // D at p = 0, slope of D
+    vec2 sums;         // sum E of the edge functions: value at p = 0, slope in p
+    vec2 determinant;  // determinant D: value at p = 0, slope in p
 };
 
 struct Interval {

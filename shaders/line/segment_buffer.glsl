@@ -7,7 +7,6 @@
 // The paper gives no thresholds; the constants below are this program's choice. After all segments have arrived, a
 // sweep along the line finds the nearest segments. Where segments intersect, the sweep switches between them only at an
 // end of a segment.
-// Where segments intersect, the sweep switches between them only at an end of a segment.
 //
 // shortIntervals: 16 bits hold the interval of a segment, 8 for each end. Colour (16 bits) and depth are stored in
 // addition. The paper stores a segment in 16 bits; the layout here is this program's choice.
@@ -17,19 +16,19 @@ struct Piece {
     float last;
     uint triangle;
     float nextLast;      // end of the next part of the line, in which another triangle is visible
-    uint nextTriangle;   // triangle in the next part
+    uint nextTriangle;   // triangle visible in the next part of the line
 };
 
 struct Segment {
-    vec2 ends;        // positions p
+    vec2 ends;        // positions p of both ends on the line
     vec2 depths;      // 1/w at both ends
     uint triangle;
     bool front;       // true: the triangle's front is visible
     vec3 color;       // radiance in the middle of the segment, mapped to [0, 1]; set only if vertices are lit
 };
 
-const float minLength = 1.0 / 512.0;         // fraction of the line's length
-const float sameColor = 1.0 / 16.0;          // max difference of a colour channel
+const float minLength = 1.0 / 512.0;         // min length of a kept segment, as a fraction of the line
+const float sameColor = 1.0 / 16.0;          // max difference in a colour channel where two segments join
 const float sameDepth = 0.02;                // max relative difference of 1/w where two segments join
 const float sameSlope = 0.02;                // max relative difference of 1/w due to slopes, over the joined segment
 // Max gap, in position p along the line, between a segment and its continuation.

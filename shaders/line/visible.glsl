@@ -28,7 +28,7 @@ bool mayCover(vec4 corners[3], Bounds bounds, vec2 tileMin, vec2 tileMax) {
 // moves in the image.
 uint shadingPoints(uint triangle, float p1, float p2, vec2 direction) {
     if (shadingStep == 0.0) return 1u;
-    float blur = 0.0;   // C/w
+    float blur = 0.0;   // CoC diameter |C|/w, as a fraction of the image's width
     if (triangle == noTriangle) {
         if (backgroundType == 3) blur = frame.coc.w;   // only an environment map varies enough to need several points
     } else {
@@ -38,7 +38,7 @@ uint shadingPoints(uint triangle, float p1, float p2, vec2 direction) {
             blur = max(blur, abs(clip.w) / max(clip.z, frame.projection.z));
         }
     }
-    float way = 0.5 * abs(blur) * (p2 - p1) * length(direction * vec2(imageSize));   // px
+    float way = 0.5 * abs(blur) * (p2 - p1) * length(direction * vec2(imageSize));   // in px
     return uint(clamp(ceil(way / shadingStep), 1.0, float(maxShadingPoints)));
 }
 

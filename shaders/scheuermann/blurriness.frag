@@ -8,7 +8,7 @@
 #include "include/tone_map.glsl"
 
 layout(binding = 0) uniform PinholeTexture pinholeColor;
-layout(location = 0) uniform float perLargest;   // 1 / max CoC diameter (px)
+layout(location = 0) uniform float perLargest;   // reciprocal of the largest CoC diameter, 1/px
 layout(location = 1) uniform vec4 planes;        // focus (m); 1/(focus − near); 1/(far − focus); max blurriness behind
 
 layout(location = 0) out vec4 colorAndBlurriness;

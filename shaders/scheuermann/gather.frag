@@ -7,7 +7,7 @@ layout(binding = 1) uniform sampler2D smallImage;   // reduced and pre-blurred v
 layout(std140, binding = 1) uniform TapBlock {
     vec4 taps[maxDiskTaps];                           // xy: position in the unit disk
 };
-layout(location = 0) uniform float largestRadius;   // px
+layout(location = 0) uniform float largestRadius;   // max blur radius, px
 layout(location = 1) uniform bool shaped;           // taps follow the aperture's shape instead of a disk
 
 layout(location = 0) out vec4 blurred;

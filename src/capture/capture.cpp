@@ -49,7 +49,7 @@ FrameState partState(const fs::path& path, const std::string& settings) {
     }
 }
 
-// ---- sidecar --------------------------------------------------------------------------------------------------------
+// ---- sidecar file with the times of the frames ----------------------------------------------------------------------
 
 struct FrameTimes {
     double planMilliseconds = 0;

@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t longestMessage = 400;  // max length in bytes
+constexpr std::size_t longestMessage = 400;  // max length of a message, bytes
 
 }  // namespace
 

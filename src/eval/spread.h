@@ -8,8 +8,8 @@ namespace defocus::engine {
 
 struct Spread {
     double median = 0;
-    double low = 0;   // 10th percentile
-    double high = 0;  // 90th percentile
+    double low = 0;   // 10th percentile of the measurements
+    double high = 0;  // 90th percentile of the measurements
 };
 
 // Returns the value below which a fraction `share` ∈ [0, 1] of the values lies, with linear interpolation between two

@@ -16,7 +16,7 @@
 namespace defocus::engine {
 
 struct HdrFlipOptions {
-    double startExposure = -4;  // EV
+    double startExposure = -4;  // first exposure in EV
     double stopExposure = 2;    // last exposure in EV, ≥ startExposure
     int exposures = 4;          // evenly spaced from start to stop; 1 (start only) to 64
 };

@@ -285,8 +285,8 @@ struct StripReader::State {
     int channels = 0;
     bool tiled = false;
     std::function<Image(int first, int count)> read;
-    Image strip;    // rows of the latest call; the complete image if the file has tiles
-    int begin = 0;  // first row of the strip
+    Image strip;    // rows that rows() returned last; the complete image if the file has tiles
+    int begin = 0;  // row of the image with which `strip` begins
 };
 
 StripReader::StripReader(const std::filesystem::path& path) {

@@ -240,8 +240,8 @@ private:
     const CompareOptions& options_;
     ErrorSums errors_;
     int largestRow_ = -1;
-    Mean inside_;  // SSIM of pixels whose window lies inside the image
-    Mean all_;     // SSIM of all pixels
+    Mean inside_;  // mean SSIM of the pixels whose window lies inside the image
+    Mean all_;     // mean SSIM of all pixels
     Mean flip_;
 };
 

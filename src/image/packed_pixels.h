@@ -24,7 +24,7 @@ public:
     [[nodiscard]] const ImageView& view() const { return view_; }
 
 private:
-    Image copy_;  // empty if the view has no gaps
+    Image copy_;  // copy of the pixels; empty if the view has no gaps
     ImageView view_;
 };
 

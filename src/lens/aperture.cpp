@@ -32,7 +32,7 @@ double edgeRadius(const Blade& blade, double angle) {
     return (1 - blade.curvature) * std::cos(blade.halfAngle) / std::cos(angle) + blade.curvature;
 }
 
-// Returns ∫ edgeRadius(φ)² dφ from 0 to `angle`, twice the area of the sector.
+// Returns ∫ edgeRadius(φ)² dφ from the blade's middle, φ = 0, to `angle`: twice the area of this sector.
 double sectorArea(const Blade& blade, double angle) {
     const double chord = (1 - blade.curvature) * std::cos(blade.halfAngle);
     const double tangent = std::tan(angle);
@@ -40,9 +40,9 @@ double sectorArea(const Blade& blade, double angle) {
            blade.curvature * blade.curvature * angle;
 }
 
-// Returns the signed angle from the blade's middle at which the sector's area is the fraction `share` ∈ [−1, 1] of half
-// the blade's area. Newton's method starts from the straight blade's angle. It converges in three or four steps,
-// because the integrand varies by at most a factor of 4 (three straight blades).
+// Returns the angle φ for which the sector from the blade's middle (angle 0) to φ has the fraction |share| of half the
+// blade's area; φ has the sign of `share` ∈ [−1, 1]. Newton's method starts from a straight blade's angle. It converges
+// in three or four steps, because the integrand edgeRadius² varies by at most a factor of 4 (three straight blades).
 double angleOfShare(const Blade& blade, double share) {
     double angle = std::atan(share * std::tan(blade.halfAngle));
     if (blade.curvature == 0) return angle;

@@ -109,8 +109,8 @@ double largestCocAtInfinity(const ClipCircleOfConfusion& coc, int width);
 
 // Upper bounds, in px, on the CoC error if C is interpolated linearly inside a triangle.
 struct CocDeviation {
-    double kinks = 0;   // error where the slope of C jumps; cutting triangles there removes the error
-    double curved = 0;  // error from the curvature of C and from vertex blur; only smaller triangles reduce it
+    double kinks = 0;   // error at kinks, where the slope of C jumps; splitting triangles there removes the error
+    double curved = 0;  // error where C is curved, also by per-vertex blur; only smaller triangles reduce this error
 };
 
 CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, double longestEdge,

@@ -104,7 +104,7 @@ std::uint32_t owenScrambled(std::uint32_t x, std::uint32_t seed) {
 // Primitive polynomial modulo 2 and its first direction numbers, as listed by Joe and Kuo.
 struct Direction {
     std::uint32_t degree = 0;
-    std::uint32_t coefficients = 0;  // coefficients of the inner powers, highest first
+    std::uint32_t coefficients = 0;  // bits: coefficients of powers degree − 1 … 1, highest power first
     std::array<std::uint32_t, 5> first{};
 };
 

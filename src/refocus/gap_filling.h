@@ -23,13 +23,13 @@ struct DeepMovedImage {
     const HalfImage* colour = nullptr;  // image with its margin
     const Image* depth = nullptr;       // depths with the same margin
     glm::ivec2 move{0};                 // move in px, to the right and up
-    float weight = 1;                   // > 0
+    float weight = 1;                   // weight of the image in the mean, > 0
 };
 
 // Factors of the circle of confusion's diameter: diameter · (focus − 1/depth) px, > 0 behind the focus plane.
 struct DioptreBlur {
-    double diameter = 0;  // diameter in px per dioptre
-    double focus = 1;     // dioptres
+    double diameter = 0;  // CoC diameter in px per dioptre of defocus
+    double focus = 1;     // 1 / focus distance, dioptres
 };
 
 class GapFilling {

@@ -34,7 +34,7 @@ Refocusing asRendered(const LightFieldInfo& info);
 struct ShiftedImage {
     std::size_t image = 0;  // index of the image in LightFieldInfo::points
     glm::ivec2 move{0};     // move in px, to the right and up
-    double weight = 1;      // > 0
+    double weight = 1;      // weight of the image in the picture, > 0
 };
 
 // Returns by how many whole px an image moves to the right and up if the image of lens point (1, 1) moves by `shift`

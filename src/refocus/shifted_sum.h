@@ -13,7 +13,7 @@ namespace defocus::engine {
 struct MovedImage {
     const HalfImage* image = nullptr;  // image with its margin
     glm::ivec2 move{0};                // move in px, to the right and up; each component at most the margin
-    float weight = 1;                  // ≥ 0
+    float weight = 1;                  // weight of the image in the sum, ≥ 0
 };
 
 class ShiftedSum {

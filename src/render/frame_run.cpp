@@ -124,8 +124,8 @@ void FrameRun::startBlock(bool first) {
     plan_ = std::move(plan);
 }
 
-// Draws one batch (wave) of samples. With a time limit, waits until the GPU has drawn them, because a driver queues
-// draws.
+// Draws one batch (wave) of lens samples. A driver only queues draws, so with a time limit this waits until the GPU has
+// drawn them. Otherwise the measured time would be too short.
 bool FrameRun::advanceRenderer() {
     const bool more = renderer_->advance();
     if (timed_) glFinish();

@@ -26,7 +26,7 @@ struct Camera {
     std::map<std::string, double, std::less<>> lens;
     std::optional<PhysicalCamera> physical;
     std::string apertureImage;                // image path from the extras, relative to the scene file; empty: none
-    std::optional<std::string> orthographic;  // reason why an orthographic camera cannot be used; nullopt: perspective
+    std::optional<std::string> orthographic;  // why an orthographic camera is rejected; nullopt: perspective
 
     [[nodiscard]] std::optional<double> lensValue(std::string_view lensName) const {
         const auto found = lens.find(lensName);

@@ -29,7 +29,7 @@ struct VertexBlurBounds {
     float factorMax = 1;
     float addedMin = 0;  // min added blur over the exposure, mm
     float addedMax = 0;
-    bool moves = false;  // true if a vertex blur changes during the exposure
+    bool moves = false;  // true if the added blur of a vertex changes during the exposure
     bool operator==(const VertexBlurBounds&) const = default;
 };
 

@@ -24,7 +24,7 @@ struct NodeState {
     glm::dquat rotation;
     glm::dvec3 scale;
     std::vector<double> morphWeights;  // weights of the morph targets of the node's mesh
-    bool visible;                      // visibility of the node without its ancestors'
+    bool visible;                      // the node's own visibility; a hidden ancestor may still hide it
     bool hides;                        // true: an animation hides the node at some times
 };
 

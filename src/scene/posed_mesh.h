@@ -12,10 +12,11 @@
 
 namespace defocus::engine {
 
-// Returns p' = Σ w_j · M_j · (p + Σ m_t · d_t) / Σ w_j for each vertex position p, with joint weights w_j and matrices
-// M_j, and morph weights m_t and displacements d_t. Weights that are negative, NaN or infinite count as 0. Invalid
-// joint indices, and vertices without weights, use the skin's first joint.
-std::vector<glm::dvec3> posedPositions(const Mesh& mesh, const Object& object);  // world space, m
+// Returns the world-space position in m of each vertex: p' = Σ w_j · M_j · (p + Σ m_t · d_t) / Σ w_j for the mesh
+// position p, with joint weights w_j and matrices M_j, and morph weights m_t and displacements d_t. Weights that are
+// negative, NaN or infinite count as 0. Invalid joint indices, and vertices without weights, use the skin's first
+// joint.
+std::vector<glm::dvec3> posedPositions(const Mesh& mesh, const Object& object);
 
 // Returns the matrix of a vertex, Σ w_j · M_j / Σ w_j. `joints` holds the matrices M_j, at least one.
 glm::dmat4 skinMatrix(const Vertices& vertices, std::span<const glm::dmat4> joints, std::size_t vertex);

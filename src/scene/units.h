@@ -13,8 +13,9 @@ double metresOfUnit(const std::string& text);
 // Inverse of metresOfUnit: returns "m", "cm" or "mm" if `metres` is the length of that unit, else the number as text.
 std::string unitOfMetres(double metres);
 
-// Converts lengths with a suffix mm, cm or m to numbers of `unit`, which is "mm" or "m": "50cm" is "0.5" in m. Parts
-// separated by commas are converted separately. Parts that are not a number with a suffix stay unchanged.
+// Converts a length with a suffix mm, cm or m to a plain number in `unit`, which is "mm" or "m". For example,
+// lengthsIn("m", "50cm") returns "0.5". Each part of a comma-separated list is converted by itself. Parts that are not
+// a number with a suffix stay unchanged.
 std::string lengthsIn(const std::string& unit, const std::string& text);
 
 // Guesses the metres per unit of a scene from the size `extent` of the framed objects in scene units. Returns 1 for

@@ -173,7 +173,8 @@ TEST_F(Faults, aReportThatIsKilledIsWhole) {
         if (WIFSIGNALED(status))
             ++killed;
         else
-            // This run ended before the kill: the measured first run took longer, for example to scan fonts.
+            // This run ended before the kill. The delay is a random fraction of the first run's time, and the first
+            // run was slower, for example because it scanned fonts.
             lasts /= 2;
         EXPECT_TRUE(complete() || (!before && !fs::exists(folder() / "report/index.html"))) << i;
         for (const fs::directory_entry& entry : fs::directory_iterator(folder() / "report")) {

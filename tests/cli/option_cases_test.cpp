@@ -10,7 +10,8 @@
 namespace defocus::engine {
 namespace {
 
-// Options that have their own test: in the file that the comment names, or in every_own_option_gl_slow_test.cpp.
+// Options that have a test of their own instead of a case: in the file named beside the option, else in
+// every_own_option_gl_slow_test.cpp.
 const std::set<std::string> triedAlone = {
     " --version",
     " --quiet",

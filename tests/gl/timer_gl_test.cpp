@@ -30,7 +30,7 @@ TEST_F(Timer, sumsItsSpansUntilItIsReset) {
     GpuTimer timer;
     spanOf(timer, 8);
     const double first = timer.milliseconds();
-    EXPECT_GE(first, 4);  // half of the 8 ms, since the clocks of GPU and CPU differ
+    EXPECT_GE(first, 4);  // the CPU waits for 8 ms; half is enough, since the GPU's clock differs
     EXPECT_EQ(timer.milliseconds(), first) << "reading adds no time";
     spanOf(timer, 8);
     spanOf(timer, 8);
@@ -38,7 +38,7 @@ TEST_F(Timer, sumsItsSpansUntilItIsReset) {
     timer.reset();
     EXPECT_EQ(timer.milliseconds(), 0);
     spanOf(timer, 1);
-    timer.reset();  // also discards spans that were not read
+    timer.reset();  // also discards spans whose times were not read
     EXPECT_EQ(timer.milliseconds(), 0);
 }
 

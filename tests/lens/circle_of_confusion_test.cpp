@@ -169,7 +169,8 @@ TEST(CircleOfConfusion, limitHoldsUpToTheNearPlane) {
             const double linear = (1 - t) * clip(near) + t * clip(far);
             EXPECT_LE(std::abs(linear / w) * 1000, 15 * (1 + 1e-12)) << "w = " << w;
         }
-    // Without clipping at the near plane, interpolation from a vertex behind the camera exceeds the limit.
+    // On an edge that is not clipped at the near plane and starts behind the camera, at w = −1, the interpolated blur
+    // exceeds the limit.
     const double behind = -1;
     const double t = (near - behind) / (kink - behind);
     const double uncut = (1 - t) * (coc.a + coc.front * behind) + t * clip(kink);

@@ -37,7 +37,7 @@ TEST(Sequences, firstPointIsTheMiddle) {
     }
 }
 
-// ---- prefixes and suffixes ------------------------------------------------------------------------------------------
+// ---- prefixes and suffixes of the sequences -------------------------------------------------------------------------
 
 // A region of the unit square, with its area and a test for points inside.
 struct Region {
@@ -163,7 +163,7 @@ TEST(Sequences, seedZeroOfSobolIsAGoodOne) {
     EXPECT_LT(chosen, meanLogError(Sequence::halton, 0) - std::log(1.2));
 }
 
-// ---- nets -----------------------------------------------------------------------------------------------------------
+// ---- nets: point sets that fill grid cells evenly -------------------------------------------------------------------
 
 // Returns the min and max number of `points` in a cell of a grid of `columns` × `rows`.
 std::pair<int, int> cellCounts(const std::vector<glm::dvec2>& points, int columns, int rows) {

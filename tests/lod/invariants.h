@@ -46,9 +46,9 @@ inline void expectClustersHold(const Pyramid& pyramid) {
     }
 }
 
-// Expects the selected fractional level λ to grow without jumps, from level 0 to the last level, as the target (an edge
-// length or an error in px) grows. Edges grow by at least 5 % per level and errors by at least 25 %, which bounds the
-// slope of λ. For errors, the slope is largest at the end of the interval between two levels.
+// Expects the selected real-valued level λ to increase without jumps, from 0 to the coarsest level, as the target (an
+// edge length or an error in px) increases. From one level to the next, edges grow by at least 5 % and errors by at
+// least 25 %, so λ has a max slope over log(target). For errors, λ is steepest where it reaches the coarser level.
 inline void expectContinuousLevels(const Pyramid& pyramid) {
     if (pyramid.levels.size() < 2) return;
     constexpr double step = 1.0005;

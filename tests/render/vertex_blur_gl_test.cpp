@@ -9,7 +9,7 @@
 namespace defocus::engine {
 namespace {
 
-// A blur that vertex attributes add can cancel the blur of the lens.
+// A blur added by a vertex attribute can cancel the lens's blur: with the negative CoC added, the square is sharp.
 TEST_F(VertexBlurs, canBringIntoFocus) {
     const auto small = blurredSquare(5, {1, 0, 0});
     const double ofLens = blurDiameter(small->view, 5) / perMillimetre(*small);

@@ -88,7 +88,7 @@ std::vector<MeshReport> chooseMeshes(const Scene& scene, const std::string& name
     fail("there is no mesh '{}' among the {} meshes that 'defocus info' lists", name, names.size());
 }
 
-// ---- work ---------------------------------------------------------------------------------------
+// ---- building and measuring of pyramids ---------------------------------------------------------
 
 void buildOne(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers, MeshReport& report) {
     using Clock = std::chrono::steady_clock;
@@ -170,7 +170,7 @@ void measureAll(std::vector<MeshReport>& reports, std::size_t points, const Prog
     });
 }
 
-// ---- files --------------------------------------------------------------------------------------
+// ---- export of levels to files ------------------------------------------------------------------
 
 // Writes all levels to files and returns the number of files. Levels without triangles are skipped.
 std::size_t exportAll(const Scene& scene, std::vector<MeshReport>& reports, const fs::path& folder,
@@ -227,7 +227,7 @@ void drawTurntables(const std::shared_ptr<const Scene>& drawn, std::vector<MeshR
     }
 }
 
-// ---- output -------------------------------------------------------------------------------------
+// ---- printed report -----------------------------------------------------------------------------
 
 Json distancesJson(const Distances& distances) {
     return {{"mean", distances.mean}, {"percentile99", distances.percentile99}, {"maximum", distances.maximum}};

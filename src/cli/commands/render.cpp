@@ -231,7 +231,7 @@ private:
     FrameOutput& output_;
     SceneDriver& driver_;
     const std::vector<std::filesystem::path>& outputs_;
-    std::uint32_t samples_ = 0;  // samples in the latest copy
+    std::uint32_t samples_ = 0;  // number of samples in the latest copy of the image
     Clock::time_point copied_;
 };
 

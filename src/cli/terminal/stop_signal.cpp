@@ -18,7 +18,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr auto patience = std::chrono::milliseconds(500);
-constexpr int stopped = 1;  // exit code
+constexpr int stopped = 1;  // exit code of a process that a signal stopped
 
 volatile std::sig_atomic_t asked = 0;
 sem_t wake;  // posted by the signal handler, in which sem_post is safe

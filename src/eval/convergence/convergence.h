@@ -26,13 +26,13 @@ namespace defocus::engine {
 
 // Variants of a method's settings. They are measured if the user names the method without settings.
 enum class MethodForm {
-    published,  // settings of the method's paper; not measured if there is no paper
+    published,  // settings of the paper that describes the method; not measured if there is no paper
     best,       // settings in Method::best; called `standard` if these equal the defaults
     standard,
 };
 const char* methodFormName(MethodForm form);
 
-// A method with the settings of its paper, as in a preset; see frame/settings/presets.h.
+// A method to measure with the settings of its paper, taken from a preset (frame/settings/presets.h).
 struct PublishedForm {
     std::string preset;
     MethodUse use;
@@ -44,9 +44,9 @@ struct PublishedForm {
 struct ConvergenceOptions {
     std::vector<MethodUse> methods;  // methods to measure; empty: all, with default settings
     std::vector<MethodForm> forms = {MethodForm::published, MethodForm::best,
-                                     MethodForm::standard};  // variants for methods that are named without settings
-    std::vector<PublishedForm> published;                    // settings to measure as MethodForm::published
-    RenderSettings plan;                                     // settings of every case; the lists below replace some
+                                     MethodForm::standard};  // variants to measure if `methods` gives no settings
+    std::vector<PublishedForm> published;                    // the methods' settings for MethodForm::published
+    RenderSettings plan;                                     // settings of all cases; the lists below vary some of them
     std::vector<std::uint32_t> sampleCounts = {8, 16, 32, 64, 128, 256};  // for methods that use lens samples
     // Level modes for methods that draw levels of detail. Accumulation at full detail is measured even if LodMode::off
     // is not listed.
@@ -101,7 +101,7 @@ struct ConvergenceRun {
     std::uint64_t triangles = 0;
     std::uint64_t peakBytes = 0;  // peak size of the renderer's resources
     std::uint64_t imageHash = 0;
-    ImageError error;                // difference from the reference
+    ImageError error;                // difference of the image from the reference image
     std::optional<ImageError> bias;  // difference from full detail with the same lens samples; nullopt without levels
     std::string fault;               // why the image is invalid; empty if it is valid
 };

@@ -17,8 +17,9 @@ struct Crop {
     int height = 0;
 };
 
-// Returns the square with a side of `size` px that has the largest sum of values ≥ 0 in a 1-channel image. If several
-// are equal, returns the first in reading order. The square doesn't overlap `other`. Returns nullopt if no square fits.
+// Returns the square of `size` × `size` px with the largest sum of pixel values in `values`, a 1-channel image with
+// values ≥ 0. Squares that overlap `other` are excluded. Among equal sums, the first square in row-major order wins.
+// Returns nullopt if no square fits.
 std::optional<Crop> largestSquare(const Image& values, int size, const std::optional<Crop>& other = {});
 
 // Returns two square crops, each with a side of a quarter of the image's shorter side: one where the error of

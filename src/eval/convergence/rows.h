@@ -23,8 +23,8 @@ struct ConvergenceRow {
     Spread setupMilliseconds;         // set-up time of the renderer; not part of `milliseconds`
     double pyramidMilliseconds = 0;   // build time of the pyramids; not part of `milliseconds`
     double gpuMilliseconds = 0;       // median GPU time, from timer queries
-    ImageError error;                 // difference from the reference, mean over the seeds
-    std::optional<ImageError> bias;   // difference from full detail, mean over the seeds; nullopt without levels
+    ImageError error;                 // image difference from the reference image, mean over the seeds
+    std::optional<ImageError> bias;   // image difference from full detail, mean over the seeds; nullopt without levels
     std::vector<ImageError> ofSeeds;  // error of each measured seed's image
     std::uint64_t triangles = 0;
     std::uint64_t peakBytes = 0;

@@ -14,7 +14,7 @@ namespace defocus::engine {
 struct PopSummary {
     double worst = 0;
     int worstFrame = 0;
-    double percentile99 = 0;  // 99th percentile, interpolated linearly between frames
+    double percentile99 = 0;  // 99th percentile of the frames' errors, interpolated linearly
     double ofNearest = 0;     // `worst`, divided by that of LodMode::nearest; NaN if the latter is 0 or missing
 };
 
@@ -24,7 +24,7 @@ struct PoppingRow {
     PoppingMode mode = PoppingMode::nearest;
     int frames = 0;  // number of pairs of consecutive frames: number of views − 1
     double speed = 0;
-    PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // errors over the object pixels
+    PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // errors over the pixels of objects
     PopSummary changeRmseImage, changeFlipImage, stepRmseImage, stepFlipImage;
 };
 

@@ -32,7 +32,7 @@ struct LargeSceneRow {
     double worldMilliseconds = 0;  // time to build the scene and its pyramids, which may come from the cache
     Spread planMilliseconds;
     double firstImageMilliseconds = 0;  // time from plan to first image, including uploads and shader compilation
-    double frameMilliseconds = 0;       // time of a further frame with all samples
+    double frameMilliseconds = 0;       // time of the second frame: all samples, but no uploads or compilation
     std::uint64_t trianglesDrawn = 0;   // triangles drawn in all samples together
     std::uint64_t residentBytes = 0;    // resident memory of the process after drawing
     std::uint64_t gpuBytes = 0;         // peak size of the renderer's resources

@@ -18,8 +18,8 @@ std::string scalingLine(const ScalingRow& row);  // returns the table's line for
 // time.
 std::string scalingSummary(std::span<const ScalingRow> rows);
 
-// Returns the parts that take most of the frame time along one axis and mode, such as "fill up to 300 k, vertex work
-// and fill alike from 1 M".
+// Describes which part of the work takes most of the frame time in which range of an axis. `rows` have one axis and one
+// level mode. Example: "fill up to 300 k, vertex work and fill alike from 1 M".
 std::string boundsAlong(std::span<const ScalingRow> rows);
 
 struct ScalingLeftOut {
@@ -27,7 +27,8 @@ struct ScalingLeftOut {
     std::string reason;
 };
 
-std::string scalingLine(const ScalingLeftOut& leftOut);  // returns one line
+// Returns the line for an axis value that was not measured, with the reason.
+std::string scalingLine(const ScalingLeftOut& leftOut);
 
 std::string scalingCsv(std::span<const ScalingRow> rows);
 std::string scalingJson(std::span<const ScalingRow> rows, std::span<const ScalingLeftOut> leftOut,

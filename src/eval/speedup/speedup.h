@@ -67,14 +67,14 @@ struct SpeedupRow {
     double setupMilliseconds = 0;    // set-up time of the renderer; not part of `milliseconds`
     double pyramidMilliseconds = 0;  // build time of the pyramids, if levels are used; not part of `milliseconds`
     double speedUp = 1;              // median time of the settings at full detail divided by this row's median time
-    std::optional<SpeedupPart> sizeOnly, blurOnly;  // by LodCause; only for accumulation with fractional levels
+    std::optional<SpeedupPart> sizeOnly, blurOnly;  // only set for accumulation with fractional levels
     std::uint64_t triangles = 0;
-    std::uint64_t gpuBytes = 0;               // peak size of the renderer's resources
-    Difference fromFullDetail;                // from full detail with the same lens samples, for the first seed
-    std::optional<Difference> fromReference;  // from the reference, mean over the seeds
-    std::vector<SeedError> ofSeeds;           // difference from the reference, one per measured seed
+    std::uint64_t gpuBytes = 0;  // peak size of the renderer's resources
+    Difference fromFullDetail;   // difference from full detail with the same lens samples, for the first seed
+    std::optional<Difference> fromReference;  // difference from the reference image, mean over the seeds
+    std::vector<SeedError> ofSeeds;           // difference from the reference image, one per measured seed
     std::uint32_t referenceSamples = 0;       // lens samples of the reference; 0: no reference
-    Difference referenceRemaining;            // estimate of the reference's own error
+    Difference referenceRemaining;            // estimated error of the reference image itself
 };
 
 // Calls `visit` with each row as soon as it is measured. For each setting, measures full detail, nearest level and

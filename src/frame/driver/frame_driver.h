@@ -47,12 +47,12 @@ struct FrameOrder {
     View view;
     RenderSettings settings;
     StopSettings stop = {};
-    std::optional<SampleRange> samples = {};         // draw only partial sums over these samples; nullopt: all samples
+    std::optional<SampleRange> samples = {};         // draw only the partial sum of these samples; nullopt: all samples
     std::optional<std::vector<RowRange>> rows = {};  // draw only these rows, in tiles; nullopt: all rows
-    RowSink takeRows = {};                           // receives finished rows of tiles; if empty, image() returns them
+    RowSink takeRows = {};                           // receives the rows of finished tiles; empty: image() has them
     SampleSink takeSample = {};                      // receives each lens sample's image; if set, no mean is computed
     std::string untiledReason = {};                  // reason why tiles are forbidden; empty: tiles are allowed
-    bool shortDraws = false;                         // advance() draws few samples; implied by a time limit
+    bool shortDraws = false;                         // advance() draws few samples per call; implied by a time limit
 };
 
 class FrameDriver {
@@ -73,8 +73,8 @@ public:
 
     // Returns whether a frame was started. All functions below require a started frame.
     [[nodiscard]] bool started() const { return drawing_ != nullptr; }
-    [[nodiscard]] std::uint32_t samples() const;      // samples so far; in tiles: mean over all rows, rounded down
-    [[nodiscard]] std::uint32_t sampleTotal() const;  // expected total when the frame is complete
+    [[nodiscard]] std::uint32_t samples() const;  // samples drawn so far; in tiles: mean over all rows, rounded down
+    [[nodiscard]] std::uint32_t sampleTotal() const;  // expected number of samples of the complete frame
     [[nodiscard]] double share() const;               // finished fraction of the work, 0 … 1; never decreases
     [[nodiscard]] const FramePlan& plan() const;      // plan of the complete frame
     [[nodiscard]] RenderStats stats() const;

@@ -49,8 +49,8 @@ std::string nothingBlurred(const FramePlan& plan) {
 // fill the gaps), the σ in px of the blur of a cell instead.
 struct Gaps {
     double size = 0;
-    double max = 16;  // largest distance without a warning
-    double good = 8;
+    double max = 16;  // largest distance without a warning, px
+    double good = 8;  // distance that the warning's advice aims for, px
 };
 
 Gaps gapsOf(const FramePlan& plan, const MethodUse& use, double blur, std::uint64_t samples) {

@@ -71,7 +71,7 @@ LensSettings lensOf(const RenderCommandText& text) {
     return given;
 }
 
-// Returns the request for which `defocus render` makes the picture of the view.
+// Returns the request that makes `defocus render` reproduce the picture that the view shows.
 Request requestOf(const RenderCommandText& text) {
     Request request = text.options;
     request.size = {text.view.width, text.view.height};

@@ -11,8 +11,8 @@ namespace defocus::engine {
 
 std::span<const Preset> presets() {
     static const std::vector<Preset> all = {
-        // Jeong, Kim and Lee 2011 print no constant of proportionality; blurThreshold is this program's choice
-        // (proportionalLevels in level_selection.h).
+        // Jeong, Kim and Lee 2011 give no constant of proportionality for their rule "level ∝ blur / object size". The
+        // constant, blurThreshold, is this program's choice (proportionalLevels in level_selection.h).
         {"jeong2011",
          "accumulation with levels of detail by size (Jeong et al. 2011)",
          {{"method", "accumulation"},

@@ -60,7 +60,7 @@ void planeThrough(std::span<const glm::dvec3, 3> points, Lens& lens, const std::
 // κ/s·r². r is the distance from the image's centre in units of half the image width, κ the field curvature. A small
 // term on the diagonal of the normal equations sets undetermined unknowns to 0.
 void surfaceNear(std::span<const glm::dvec3> points, Lens& lens, const std::string& what) {
-    constexpr double raised = 1e-12;  // addition to the matrix's diagonal for each point
+    constexpr double raised = 1e-12;  // added to the diagonal of the normal equations for each point
     const double tanX = tanHalfHorizontalFov(lens);
     glm::dmat4 matrix(raised * static_cast<double>(points.size()));
     glm::dvec4 right(0);

@@ -46,8 +46,8 @@ double largestBlur(const PreparedFrame& frame) {
     return circleOfConfusionRange(coc, all, view.width).largest;
 }
 
-// Returns how often one lens sample draws an average triangle: the mean number of objects that use a mesh, weighted by
-// the mesh's triangles.
+// Returns how often one lens sample draws a triangle of a mesh, on average over the triangles of all meshes. A triangle
+// is drawn once for each object that uses its mesh.
 double drawsPerSample(const PreparedFrame& frame) {
     double built = 0;
     for (const Mesh& mesh : frame.scene->meshes) built += static_cast<double>(mesh.triangleCount());

@@ -15,9 +15,9 @@ constexpr LodThresholds referenceSize{0.25, 3.3};     // blur and size at 64 sam
 constexpr LodThresholds referenceError{0.018, 0.18};  // blur and size at 64 samples, for target errors in px
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double sampleErrorExponent = 0.65;
-constexpr double lightOfSampleError = 6.7;   // default of LodThresholds::light for one sample, px
-constexpr double sampleErrorShareMax = 0.3;  // max level error / sampling error; raises the total RMS by at most 4.4 %
-constexpr double largestFactor = 2;          // max factor on the blur threshold for few samples; limits outline errors
+constexpr double lightOfSampleError = 6.7;   // default LodThresholds::light of an image with one lens sample, px
+constexpr double sampleErrorShareMax = 0.3;  // max ratio of level error to sampling error; adds ≤ 4.4 % to the RMS
+constexpr double largestFactor = 2;          // max factor on the blur threshold at few samples; limits outline errors
 
 // Returns whether the metric compares the levels' edge lengths with the target.
 bool bySize(LodMetric metric) {

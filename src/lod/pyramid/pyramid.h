@@ -164,7 +164,8 @@ std::uint64_t trianglesOf(std::span<const Mesh> meshes);
 // is proportional to the mesh's triangle count. `all` is the total triangle count of all meshes.
 std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all);
 
-// Builds one pyramid per mesh, in the order of buildLargestFirst (build_memory.h).
+// Returns one pyramid per mesh, in the order of `meshes`. Builds the pyramids of the largest meshes first
+// (buildLargestFirst in build_memory.h).
 std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options = {},
                                    const Progress& progress = {});
 

@@ -61,7 +61,7 @@ double largeDistance(const Surface& from, const Surface& to, std::size_t count, 
 
 struct Distances {
     double mean = 0;
-    double percentile99 = 0;  // 99th percentile by the nearest-rank method
+    double percentile99 = 0;  // 99th percentile of the distances, by the nearest-rank method
     double maximum = 0;
 };
 

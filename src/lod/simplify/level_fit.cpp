@@ -15,18 +15,19 @@ namespace defocus::engine {
 
 namespace {
 
-// Lower bound of the length of a mean normal and of the mean cosine between normals. Below this value, the mean normal
-// is meaningless.
+// Min length of a mean normal, and min mean cosine between normals. A shorter mean of unit normals has no meaningful
+// direction.
 constexpr float minAgreement = 0.125f;
 
-// Sums for the least-squares fits, at each level vertex over the anchors (points that represent vertices of level 0) on
-// its triangles. The terms are share · weight and share · weight · value, in the notation of least_squares.h.
+// Right-hand sides and weights of the least-squares fits. An anchor is the point on the level that represents a vertex
+// of level 0. Each level vertex sums, over the anchors on its triangles, share · weight · value, and share · weight in
+// `weights`. share is the anchor's weight, and weight the barycentric weight of the level vertex (least_squares.h).
 struct AnchorSums {
     using Three = std::array<double, 3>;
     Numbered<LevelVertexNumber, double> weights;
-    Numbered<LevelVertexNumber, Three> gaps;  // offsets from the anchors to the vertices of level 0
+    Numbered<LevelVertexNumber, Three> gaps;  // value: offset from the anchor to its vertex of level 0
     Numbered<LevelVertexNumber, Three> normals;
-    Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // sums for colours; empty without colours
+    Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // value: RGBA vertex colour; empty without colours
     Numbered<TriangleNumber, TriangleSums> triangles;
 
     template <std::size_t channels>

@@ -303,7 +303,7 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
             followNormals();
             damping *= 10;
         } else {
-            return;  // The difference from `target` is NaN.
+            return;  // the first round's squared error is NaN: keep the given normals
         }
         turn(best, groups, smallestChange(at, wanted, damping), normals);
     }

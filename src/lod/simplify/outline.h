@@ -23,10 +23,10 @@ std::array<glm::dvec3, outlineDirections> directionsOfOutlines();
 std::vector<CoverGrid> outlinesOf(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices,
                                   const Bounds& box);
 
-// Moves vertices along the outlines of a level until the level covers approximately the area that level 0 covers in
-// `outlines`. Does nothing if the areas already agree within 0.5 % in every direction. Displacements are as small as
-// possible and stay within `box`. Vertices with equal values in `places` (below positions.size()) have the same
-// position before and after. No triangle rotates by more than 60°.
+// Moves the vertices on a level's outlines outwards or inwards until the level covers approximately the same area as
+// level 0, whose covered cells are `outlines`. Does nothing if the areas already agree within 0.5 % in every direction.
+// Displacements are as small as possible, and vertices stay within `box`. Vertices with equal values in `places` (below
+// positions.size()) have the same position before and after. No triangle rotates by more than 60°.
 void fitOutlines(std::span<glm::vec3> positions, std::span<const std::uint32_t> indices,
                  std::span<const std::uint32_t> places, std::span<const CoverGrid> outlines, const Bounds& box);
 

@@ -20,11 +20,12 @@ struct LensTriangle {
     std::array<double, 3> coc{};       // circle of confusion C at each corner
 };
 
-// Returns the largest determinant over all lens points in the disk of `radius`. The triangle faces away from all these
-// points if the result is ≤ 0.
+// Returns the largest determinant of the triangle's three corners (x, y, w), as seen from any lens point in the disk of
+// `radius`. The triangle faces away from all these lens points if the result is ≤ 0.
 double largestDeterminant(const LensTriangle& triangle, double aspect, double radius = 1);
 
-// Returns an upper bound of the determinant over all lens points while the triangle moves linearly from `from` to `to`.
+// Returns an upper bound of this determinant, over the same lens points, while the triangle moves linearly from `from`
+// to `to`.
 double largestDeterminant(const LensTriangle& from, const LensTriangle& to, double aspect, double radius = 1);
 
 // Returns the triangle interpolated linearly between `from` (share 0) and `to` (share 1).

@@ -384,8 +384,8 @@ public:
 private:
     VisibleLevel* level_;
     std::vector<IndexRange>* runs_;
-    std::uint32_t away_ = 0;  // number of culled triangles since the last range
-    std::uint32_t outside_ = 0;
+    std::uint32_t away_ = 0;     // number of triangles after the last range in runs_ that face away
+    std::uint32_t outside_ = 0;  // number of triangles after the last range in runs_ that lie outside the image
 };
 
 VisibleLevel levelWithoutHidden(const ObjectViews& views, const ObjectPlan& object, std::uint32_t number,

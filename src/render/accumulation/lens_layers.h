@@ -18,7 +18,8 @@
 
 namespace defocus::engine {
 
-// Data layers of a batch (wave) of samples, which are drawn in the same pass as the colours.
+// Textures for the data layers (depth, normals and other outputs) of a batch (wave) of samples. The pass that draws the
+// colours also draws the data layers.
 class WaveDataLayers {
 public:
     // `picture` holds the colours and depths of the batch (wave). `countsSamples`: the number of samples differs

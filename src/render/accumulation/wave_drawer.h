@@ -23,7 +23,7 @@ struct WaveFrame {
     std::optional<LayerWindow> window;  // rectangle of the layers to draw; nullopt: all pixels
     bool skipsHidden = false;           // hidden triangles are skipped
     bool countsSamples = false;         // the number of samples differs between pixels
-    bool marksBlended = false;          // see SurfacePass::markBlended
+    bool marksBlended = false;          // blended surfaces add to alpha; see SurfacePass::markBlended
     bool drawsSky = false;              // the environment is drawn into the layers
 };
 

@@ -25,7 +25,7 @@ struct WaveShape {
 };
 
 struct DrawnWave {
-    std::uint32_t first = 0;  // index of the first sample in the plan
+    std::uint32_t first = 0;  // index of the batch's first sample in FramePlan::samples
     std::uint32_t count = 0;
     std::uint64_t hiddenTriangles = 0;  // triangles that were skipped because they are hidden
     const WaveTargets* layers = nullptr;
@@ -52,8 +52,9 @@ public:
     [[nodiscard]] std::vector<PassTime> times();
     void resetTimes();
     [[nodiscard]] std::size_t bytes() const { return bytes_; }       // graphics memory of all threads, after prepare()
-    [[nodiscard]] std::uint32_t threads() const { return active_; }  // threads that draw the frame
-    [[nodiscard]] std::uint32_t layers() const { return active_ * shape_.targets * shape_.samples; }  // layers in use
+    [[nodiscard]] std::uint32_t threads() const { return active_; }  // number of threads that draw the frame
+    // Returns the number of layers in use by all threads.
+    [[nodiscard]] std::uint32_t layers() const { return active_ * shape_.targets * shape_.samples; }
 
 private:
     class Lane;

@@ -40,13 +40,13 @@ struct DisplaySettings {
 
 // Textures to draw, stretched to the output. All except `first` may be null if the settings do not use them.
 struct DisplayInputs {
-    const GlTexture* first = nullptr;  // linear RGBA, premultiplied
+    const GlTexture* first = nullptr;  // the only or left image, linear premultiplied RGBA
     const GlTexture* second = nullptr;
     const GlTexture* coc = nullptr;  // `coc`, `level` and `wireframe` are from AovPass
     const GlTexture* level = nullptr;
     const GlTexture* wireframe = nullptr;
-    const GlTexture* work = nullptr;  // result of WorkPass
-    std::uint32_t workSamples = 1;    // lens samples in `work`
+    const GlTexture* work = nullptr;  // triangles per pixel, summed over lens samples; from WorkPass
+    std::uint32_t workSamples = 1;    // number of lens samples summed in `work`
 };
 
 class DisplayPass {

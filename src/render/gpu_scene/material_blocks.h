@@ -57,7 +57,7 @@ private:
     };
     UniformBlocks<GpuMaterial> plain_;
     UniformBlocks<GpuTransformedMaterial> transformed_;
-    std::vector<Place> places_;  // position of each material's block
+    std::vector<Place> places_;  // for each material, where its uniform block is stored
 };
 
 }  // namespace defocus::engine

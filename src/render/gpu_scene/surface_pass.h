@@ -152,10 +152,10 @@ private:
     const GpuScene* scene_;
     SubmissionPacer* pacer_;
     SurfacePassInfo info_;
-    std::map<std::string, Programs> programs_;  // programs, keyed by the defines of the pass
+    std::map<std::string, Programs> programs_;  // all programs, keyed by the defines of their pass
     std::array<ShaderDefines, 2>
-        passDefines_;  // defines of the frame's pass; index 1: no geometry shader selects the layer
-    std::array<Programs*, 2> passPrograms_{};  // programs with passDefines_
+        passDefines_;  // defines of this frame; index 0: with a geometry shader that selects the layer; 1: without
+    std::array<Programs*, 2> passPrograms_{};  // programs compiled with passDefines_, at the same index
     Bound bound_;
     Program sky_;
     ShaderDefines skyDefines_;  // defines of sky_

@@ -199,17 +199,17 @@ private:
     RendererOptions options_;
     std::uint32_t wave_;  // requested number of samples drawn together; 0: as many as fit into waveBytes
     GpuScene scene_;
-    FramePlan plan_;      // positions in the pixel are relative to the layers of the sample's pinhole
-    FramePlan pinholes_;  // one sample per pinhole; image widened by the border
+    FramePlan plan_;      // lens samples; their positions in the pixel are relative to the pinhole image they read
+    FramePlan pinholes_;  // pinhole images: one sample each, larger than the frame by borderOf() px on each side
     std::uint32_t pinholeCount_ = 1;
-    std::uint32_t run_ = 1;  // number of consecutive samples with the same pinhole; divides blockSamples
+    std::uint32_t run_ = 1;  // number of consecutive samples that read the same pinhole image; divides blockSamples
     FrameUniforms pinholeFrame_, frame_;
     std::optional<DepthLayers> layers_;
     std::optional<LensRays> rays_;
     std::optional<WaveLayers> waveLayers_;
     std::optional<LayerSum> sum_;
     std::optional<SurfacePass> sky_;
-    std::optional<std::uint32_t> peeled_;  // index of the pinhole of the current layers
+    std::optional<std::uint32_t> peeled_;  // index of the pinhole image whose layers are in layers_
     std::uint32_t maxLayers_ = 0;
     mutable FrameClock clock_;
     RenderStats stats_;

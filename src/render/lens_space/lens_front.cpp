@@ -13,10 +13,10 @@ namespace {
 constexpr std::size_t clipBytes = 4 * sizeof(float);
 constexpr std::size_t ownBlurBytes = 2 * sizeof(float);
 // Mesa's software driver ends the loops of a thread after a total of 65,535 iterations.
-constexpr std::uint32_t maxTilesAtOnce = 50'000;   // max tiles against which a thread tests a triangle
-constexpr std::uint32_t maxSortedAtOnce = 65'536;  // max list entries that one dispatch sorts: 136 x 256 iterations
-constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // element size in shaders/lens_space/shade_vertices.comp
-constexpr std::size_t attributeBytes = 20 * sizeof(float);   // element size in shaders/lens_space/attributes.vert
+constexpr std::uint32_t maxTilesAtOnce = 50'000;   // max tiles that a thread tests for one triangle
+constexpr std::uint32_t maxSortedAtOnce = 65'536;  // max list length that one dispatch sorts: 136 · 256 iterations
+constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // per vertex; see LightBlock of shade_vertices.comp
+constexpr std::size_t attributeBytes = 20 * sizeof(float);   // per vertex; output of shaders/lens_space/attributes.vert
 
 // Returns the end of the range of rays for which a level of an object is drawn. If two levels share a boundary sample,
 // the level with more of the sample's pixels gets the sample's ray.

@@ -84,7 +84,7 @@ public:
     [[nodiscard]] bool lightsVertices() const { return lightsVertices_; }
     [[nodiscard]] std::uint32_t vertexCount() const { return vertexCount_; }
     [[nodiscard]] std::uint32_t triangleCount() const { return triangleCount_; }
-    [[nodiscard]] std::uint32_t parts() const { return parts_; }  // number of parts of the exposure
+    [[nodiscard]] std::uint32_t parts() const { return parts_; }  // number of parts into which the exposure is divided
     [[nodiscard]] const BinStatistics& statistics() const { return statistics_; }
     [[nodiscard]] std::size_t bytes() const;
 
@@ -95,7 +95,7 @@ private:
         std::uint32_t triangles = 0;
         std::uint32_t firstVertex = 0;
         std::uint32_t draw = 0;
-        std::uint32_t parts = 1;  // number of parts per edge
+        std::uint32_t parts = 1;  // number of parts into which each edge is divided; 1: undivided
     };
     struct Vertices {  // the vertices of an object at one level of detail
         std::uint32_t object = 0;
@@ -154,7 +154,7 @@ private:
     std::uint32_t triangleCount_ = 0;
     std::uint32_t parts_ = 1;
     Buffer clips_, clipsAtEnd_, attributes_, triangles_, draws_;
-    Buffer bases_;                         // undivided triangles of divided objects
+    Buffer bases_;                         // triangles of divided objects before the division
     Buffer ownBlurs_;                      // blur modifiers of the vertices; only with divided objects
     Buffer firstTriangles_, vertexLight_;  // used only with per-vertex lighting
     Buffer depths_;                        // sort key of each triangle

@@ -16,8 +16,8 @@ public:
     // Adds the radiance of the next `count` rays of each pixel. The records (ray hits) must be bound.
     void add(std::uint32_t count);
     [[nodiscard]] std::uint32_t rays() const { return rays_; }
-    // Returns the mean of all rays so far, at least one, as RGBA with row 0 at the bottom. The texture is valid until
-    // the next call of mean().
+    // Returns the mean radiance of the rays added since reset() as an RGBA texture, with row 0 at the bottom. Throws
+    // Error if no rays were added. The next call of mean() overwrites the texture.
     [[nodiscard]] const GlTexture& mean();
     [[nodiscard]] std::size_t bytes() const { return sums_.bytes() + mean_.bytes(); }
 

@@ -167,7 +167,7 @@ private:
     struct Places {  // offsets in `ranges` of shaders/line/kernel.glsl
         std::uint64_t jobs = 0;
         std::uint64_t states = 0;
-        std::uint64_t slots = 0;  // number of states
+        std::uint64_t slots = 0;  // number of elements of the array of states
     };
     struct Totals {
         std::uint64_t records = 0;

@@ -54,12 +54,12 @@ private:
     std::filesystem::path shaderFolder_;
     PinholeImage image_;
     PinholeImage multisampled_;       // multisampled image; empty without multisampling
-    Target target_, resolvedTarget_;  // targets of the drawn image and, with multisampling, of image_
+    Target target_, resolvedTarget_;  // target to draw into; with multisampling, target for the resolved image_
     bool transparent_ = false;        // true if the background is transparent
     ShadowMaps shadows_;
     SurfacePass surfaces_;
     std::vector<ObjectSet> buckets_;
-    std::vector<TexelRectangle> reaches_;  // rectangle of each bucket; see reachOf
+    std::vector<TexelRectangle> reaches_;  // per bucket: rectangle that contains its blurred image; see reachOf
     ObjectSet inNoBucket_;
     std::optional<BucketPass> bucketPass_;
 };

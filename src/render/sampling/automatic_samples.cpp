@@ -97,7 +97,8 @@ bool fourPositionsSuffice(const FramePlan& plan, double samples) {
     const double pixels = static_cast<double>(plan.view.width) * plan.view.height;
     const bool fits = std::max(plan.view.width, plan.view.height) <= maxDoubledSide && pixels <= maxDoubledPixels;
     const double triangles = static_cast<double>(plan.trianglesDrawn) / static_cast<double>(plan.samples.size());
-    const double gap = plan.largestBlur * std::sqrt(std::numbers::pi / samples);  // px, with a quarter of the samples
+    // Distance in px between a blurred point's images in neighbouring samples, for a quarter of the samples.
+    const double gap = plan.largestBlur * std::sqrt(std::numbers::pi / samples);
     return onlyLens && fits && triangles >= payingTriangles * pixels && gap <= gapOfPositions;
 }
 

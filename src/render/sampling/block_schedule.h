@@ -25,10 +25,10 @@ const char* stopReasonText(StopReason reason);
 // as a power law in that count, through two measurements.
 struct LevelError {
     static constexpr std::uint32_t drawn = 16;    // lens samples drawn for each measurement
-    static constexpr std::uint32_t coarse = 128;  // sample count of the thresholds for `atCoarse`
-    static constexpr std::uint32_t fine = 2048;
-    double atCoarse = 0;
-    double atFine = 0;
+    static constexpr std::uint32_t coarse = 128;  // sample count whose default thresholds apply to `atCoarse`
+    static constexpr std::uint32_t fine = 2048;   // sample count whose default thresholds apply to `atFine`
+    double atCoarse = 0;                          // measured RMSE, with the thresholds for `coarse` samples
+    double atFine = 0;                            // measured RMSE, with the thresholds for `fine` samples
 
     [[nodiscard]] double at(double thresholdSamples) const;
     // Returns the smallest sample count, at least `min`, whose default thresholds give an RMSE of at most `error`.
@@ -63,7 +63,7 @@ public:
     // Ends the frame within a block that has `drawn` complete samples.
     void endWithinBlock(std::uint32_t drawn);
 
-    [[nodiscard]] std::uint32_t samples() const { return samples_; }  // samples in complete blocks
+    [[nodiscard]] std::uint32_t samples() const { return samples_; }  // number of samples in complete blocks
     // Returns the predicted final sample count, which is refined after each block.
     [[nodiscard]] std::uint32_t expectedSamples() const;
     [[nodiscard]] std::optional<StopReason> stopped() const { return stopped_; }
@@ -84,10 +84,10 @@ private:
     StopSettings stop_;
     std::optional<LevelError> levels_;
     std::optional<double> targetFlip_;  // target FLIP for an automatic number of samples
-    double levelErrorSum_ = 0;          // level errors of blocks, weighted by their samples
-    ErrorEstimate estimate_;            // error due to sampling only
+    double levelErrorSum_ = 0;          // sum of the blocks' level errors, weighted by their samples
+    ErrorEstimate estimate_;            // estimate of the sampling error, without the level error
     std::uint32_t samples_ = 0;
-    std::uint32_t nextEstimate_ = 0;  // sample count of the next estimate
+    std::uint32_t nextEstimate_ = 0;  // sample count at which the error is estimated next
     double expected_ = 0;             // expected final sample count, not rounded
     double secondsBefore_ = 0;
     std::optional<StopReason> stopped_;

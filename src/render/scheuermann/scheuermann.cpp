@@ -183,7 +183,7 @@ private:
     MethodSettings settings_;
     std::vector<glm::vec2> points_;  // taps in the unit disk
     bool shaped_ = false;            // true if the aperture is not a disk
-    float largestRadius_ = 0;        // px
+    float largestRadius_ = 0;        // max blur radius, px
     GlTexture sharp_, reduced_, small_;
     Target sharpTarget_, reducedTarget_, smallTarget_;
     ShaderDefines defines_;  // defines of the compiled programs

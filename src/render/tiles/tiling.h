@@ -40,8 +40,8 @@ struct Tiling {
 
 // Bytes per pixel of the accumulation buffers on the device, and of a tile and a band on the host.
 inline constexpr std::uint64_t sumPixelBytes = 9 * 16;
-inline constexpr std::uint64_t tilePixelBytes = 16;  // RGBA, read back
-inline constexpr std::uint64_t bandPixelBytes = 16;  // RGBA, with the full width of the image
+inline constexpr std::uint64_t tilePixelBytes = 16;  // RGBA floats of a tile, read back
+inline constexpr std::uint64_t bandPixelBytes = 16;  // RGBA floats of a band, with the image's full width
 // Bytes per pixel on the host of an image without tiles: read back, encoded, and written.
 inline constexpr std::uint64_t wholePixelBytes = 16 + 16 + 16;
 

@@ -29,11 +29,11 @@ public:
     // Raises the limit for a file of `fileBytes` bytes that is read. Call it once per file.
     void grant(std::uint64_t fileBytes);
     [[nodiscard]] std::uint64_t fileBytes() const { return fileBytes_; }  // total size of the files passed to grant()
-    // Reserves memory for `count` elements of `elementBytes` each. Returns false if the memory exceeds the remaining
-    // limit.
+    // Counts `count` elements of `elementBytes` each as used memory. Returns false, and counts nothing, if the total
+    // would exceed the limit.
     [[nodiscard]] bool take(std::uint64_t count, std::uint64_t elementBytes);
-    [[nodiscard]] std::uint64_t limit() const { return limit_; }  // bytes
-    [[nodiscard]] std::uint64_t taken() const { return taken_; }  // bytes reserved so far
+    [[nodiscard]] std::uint64_t limit() const { return limit_; }  // current limit in bytes
+    [[nodiscard]] std::uint64_t taken() const { return taken_; }  // bytes counted by take() so far
 
 private:
     static constexpr std::uint64_t floorBytes = 512ull << 20;
@@ -46,8 +46,8 @@ private:
 struct Source {
     Document document;
     tinygltf::Model model;                                             // result of readStructure
-    std::vector<std::optional<std::vector<std::byte>>> buffers;        // nullopt: fallback buffer without data
-    std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // of views with EXT_meshopt_compression
+    std::vector<std::optional<std::vector<std::byte>>> buffers;        // bytes; nullopt: a fallback buffer without data
+    std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // bytes of views with EXT_meshopt_compression
     UnpackBudget budget;
     std::set<std::filesystem::path> files;  // external files whose size was added to the budget
     std::vector<Ignored> ignored;

@@ -24,7 +24,7 @@ FocusRange keptRange(const View& view, const FramePlan& plan);
 class KeptImages {
 public:
     static constexpr std::uint32_t maxImages = ImageStack::maxImages;
-    static constexpr std::uint32_t minImages = 16;  // with fewer, blurred surfaces look like overlapping copies
+    static constexpr std::uint32_t minImages = 16;  // with fewer images, blurred surfaces look like overlapping copies
 
     // `world` must outlive this object. `software`: OpenGL runs on the CPU. Needs a current GL context.
     KeptImages(const World& world, RendererOptions options, bool software);

@@ -14,10 +14,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto settleTime = 120ms;            // time without change after which the image accumulates samples
-constexpr std::uint32_t minShownSamples = 4;  // with fewer samples, an image looks worse than the last moving frame
-constexpr double visibleGrowth = 1.08;        // growth of the sample count (a factor) at which the window is updated
-constexpr double softwareGrowthTime = 60;     // min time per frame for adding samples if OpenGL runs on the CPU, ms
+constexpr auto settleTime = 120ms;            // time without changes until a view counts as at rest and accumulates
+constexpr std::uint32_t minShownSamples = 4;  // an image with fewer samples looks worse than the last moving frame
+constexpr double visibleGrowth = 1.08;        // update the window when the sample count has grown by this factor
+constexpr double softwareGrowthTime = 60;     // min ms per frame for adding samples if OpenGL runs on the CPU
 constexpr auto psnrInterval = 700ms;
 
 // Returns the numeric values of a request that affect its images, in addition to settings, sides, aperture image and

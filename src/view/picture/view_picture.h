@@ -71,13 +71,14 @@ public:
     [[nodiscard]] bool refocused() const { return refocused_.has_value(); }
     // Returns the stored lens images; null before the view first comes to rest.
     [[nodiscard]] const KeptImages* keptImages() const { return images_ ? &*images_ : nullptr; }
-    // Returns whether the first image of a view at rest has reached its target error.
+    // Returns whether the image of a view at rest (the left side of a comparison) has reached its target error.
     [[nodiscard]] bool converged() const { return growing_ && first().converged(); }
     [[nodiscard]] std::optional<double> estimatedError() const {
         return growing_ && !refocused_ ? first().estimatedError() : std::nullopt;
     }
-    [[nodiscard]] Image image() { return readBack(firstTexture(), 4); }  // first image, linear RGBA
-    [[nodiscard]] const FramePlan& plan() const;  // plan of the first image; an empty plan without an image
+    // Returns the image of the view, or of the left side of a comparison, as linear RGBA.
+    [[nodiscard]] Image image() { return readBack(firstTexture(), 4); }
+    [[nodiscard]] const FramePlan& plan() const;  // plan of the image that image() returns; empty without an image
     // Returns the right side of a comparison; null without a comparison.
     [[nodiscard]] const PictureSide* secondSide() const { return sides_.size() > 1 ? &sides_[1]->shows : nullptr; }
     [[nodiscard]] const PictureSide& firstSide() const { return sides_[0]->shows; }
@@ -96,7 +97,7 @@ private:
         ProgressiveImage image;
     };
 
-    // Picture computed from stored lens images, shown instead of the first image.
+    // Picture computed from stored lens images, shown instead of the image of sides_[0].
     struct Refocused {
         FramePlan plan;
         std::uint32_t images = 0;
@@ -104,8 +105,8 @@ private:
 
     [[nodiscard]] const ProgressiveImage& first() const { return sides_[0]->image; }
     [[nodiscard]] const GlTexture& firstTexture();
-    [[nodiscard]] std::uint32_t minSamples() const;                    // smaller of the two sides' sample counts
-    [[nodiscard]] double growthTime(const FrameBudget& budget) const;  // time of one call of grow(), ms
+    [[nodiscard]] std::uint32_t minSamples() const;                    // smallest sample count of the sides
+    [[nodiscard]] double growthTime(const FrameBudget& budget) const;  // time in ms that one call of grow() may take
     bool prepareSides(const PictureRequest& request);
     void drawMoving(const PictureRequest& request, FrameBudget& budget);
     bool drawRefocused(const PictureRequest& request);

@@ -32,7 +32,8 @@ ViewCamera panned(const ViewCamera& camera, double right, double up);
 // Multiplies the distance to the pivot by `factor`; < 1 moves the camera closer.
 ViewCamera zoomed(const ViewCamera& camera, double factor);
 
-// Moves the camera and its pivot by metres to the right, along world up, and ahead.
+// Moves the camera and its pivot by `rightUpAhead`, in m: x along the camera's right axis, y along the world's up axis,
+// z along the viewing direction.
 ViewCamera flown(const ViewCamera& camera, const glm::dvec3& rightUpAhead);
 
 // Moves the camera, without rotating it, so that the bounding sphere of `bounds` fills the image; the sphere's centre

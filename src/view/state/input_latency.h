@@ -47,7 +47,7 @@ private:
     static constexpr std::size_t maxAnswers = 256;
 
     std::optional<Time> waiting_;
-    std::deque<double> answers_;  // latencies of these events, ms
+    std::deque<double> answers_;  // latencies of the latest events whose effect was shown, ms
 };
 
 }  // namespace defocus::engine

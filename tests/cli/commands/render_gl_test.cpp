@@ -351,7 +351,7 @@ TEST_F(Render, sweptWorkIsOfBoundsOverTheLens) {
     EXPECT_NE(outcome.err.find("swept work: "), std::string::npos) << outcome.err;
     EXPECT_TRUE(fs::exists(folder() / "a.swept-work.png"));
     const Image work = readImage(folder() / "a.swept-work.exr");
-    EXPECT_EQ(*work.at(63, 21), 2);  // both triangles of the square Near have the square's bounding box
+    EXPECT_EQ(*work.at(63, 21), 2);  // both triangles count, since each has the square's bounding rectangle
     EXPECT_EQ(*work.at(10, 80), 0);
 }
 

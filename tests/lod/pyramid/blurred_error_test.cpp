@@ -207,8 +207,8 @@ TEST(BlurredError, normalsCountByTheLight) {
     EXPECT_NEAR(squaredError(turned(0.1f), 1, 0) / squaredError(turned(0.05f), 1, 0), 4, 0.4);
 }
 
-// Under patches far larger than the mesh, the error is inversely proportional to the width of the blur, as for a single
-// point of light.
+// In patches far larger than the mesh, the error E is inversely proportional to the patch side, like the error of a
+// single point of light: a patch with ten times the side has a hundredth of E².
 TEST(BlurredError, fallsAsASpotBeyondTheMesh) {
     const Pyramid pyramid = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1.25f); });
     EXPECT_NEAR(squaredError(pyramid, 1, 100) / squaredError(pyramid, 1, 1000), 100, 1e-6);

@@ -116,8 +116,8 @@ TEST(BlendOrder, lensOnBothSidesOfAPaneHasNoOrder) {
     EXPECT_EQ(std::ranges::count(plan.blendOrder, true, &BlendRun::stochastic), 1);
 }
 
-// Each of three bars lies over the next bar at one end and under the previous bar at the other, so the bars form a
-// cycle. Any two bars have an order, because the plane of each bar is parallel to the next bar.
+// Each of three flat bars covers the next bar at one end and is covered by the previous bar at the other end, so no
+// drawing order of all three is correct. Any two bars can be ordered, because the plane of one does not cut the other.
 TEST(BlendOrder, cyclesAreBroken) {
     const auto turned = [](int i, const glm::dvec3& vector) {
         return glm::dvec3(glm::rotate(glm::dmat4(1), i * 2 * std::numbers::pi / 3, {0, 0, 1}) * glm::dvec4(vector, 0));

@@ -22,7 +22,7 @@ inline RenderSettings raySettings(std::uint32_t samples) {
     RenderSettings settings;
     settings.sampleCount = samples;
     settings.lod = LodMode::off;
-    settings.keepAll = true;  // keeps the lens in the plan even if nothing is blurred
+    settings.keepAll = true;  // samples the lens even if nothing is visibly blurred; no culling
     return settings;
 }
 

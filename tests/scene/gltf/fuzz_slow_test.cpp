@@ -22,7 +22,7 @@ public:
     explicit Damage(std::uint32_t seed) : random_(seed) {}
 
     // Damages a file in one of four ways: flipped bits, changed digits in the JSON, a removed range, or truncation.
-    // Then corrects the lengths in a GLB file's header, so that the loader reads beyond the header.
+    // Then writes the file's new length into the GLB header. Otherwise the loader would reject the file at once.
     std::string apply(std::string file) {
         const bool glb = file.starts_with("glTF");
         switch (below(4)) {
