@@ -17,8 +17,8 @@
 // select it, and compared with level 0 under the same blur. meshoptimizer's levels keep the attributes of the surviving
 // vertices; its meshopt_simplify ignores attributes (version 0.18).
 //
-// Normals. Compares our levels with three kinds of normals: fitted; area-weighted means over the level's faces at each
-// position; and copied from the surviving vertices.
+// Normals. Compares our levels with three kinds of normals: fitted normals, area-weighted means over the level's faces
+// at each position, and normals copied from the surviving vertices.
 
 #include <fmt/format.h>
 #include <malloc.h>

@@ -1,12 +1,14 @@
 // Compares the rasteriser's accumulation with the Embree ray tracer at full image size. Held constant: geometry at full
-// detail, baked unlit colours, view, lens, size, samples per pixel; RGBA32F layers. Deliberately different: the code
-// for sampling, projection and visibility. A second comparison uses the plan's lens points for both renderers, so that
-// only geometry and visibility can differ. It gives the PSNR, and by how many px the image is shifted or scaled. Prints
-// one line of JSON per scene. The exit code is 1 if the first PSNR of a scene is below 45 dB.
+// detail, baked unlit colours, view, lens, image size and samples per pixel. Deliberately different: the code for
+// sampling, projection and visibility. The rasteriser draws RGBA32F layers. Prints one line of JSON per scene.
 //
-// With --shadows ANGLE, diffuse surfaces are lit by a sun with this angular diameter in degrees, which casts shadows. A
-// second pair of images without shadows gives the time of the shadows in each renderer and their contribution to the
-// error. The error is not limited then, because shadow maps have a finite resolution.
+// In a second comparison, the ray tracer also uses the rasteriser's lens samples, so that only geometry and visibility
+// can differ. Its results are the PSNR ("psnrAtEqualLensPoints"), and the shift and growth of the rasteriser's image in
+// px. The exit code is 1 if "psnr", from the first comparison, is below 45 dB for any scene.
+//
+// With --shadows ANGLE, diffuse surfaces are lit by a sun with this angular diameter in degrees, which casts shadows.
+// Images without shadows show how much time the shadows take in each renderer and how much error they add. In this
+// mode, no PSNR is required, because shadow maps have a finite resolution.
 //
 //   defocus_truth_bench [--samples 1024] [--size 1024x768] [--sequence sobol] [--foreground-limit 8] [--shadows 5]
 //   [--output FOLDER] [SCENE.glb …]

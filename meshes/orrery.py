@@ -11,8 +11,8 @@ SECONDS = 5.0
 KEYS = 8  # key frames per second
 TURN = 2 * math.pi
 
-# Each planet: name; radius, distance from the sun and height in m; angle about the sun at the start, and rotation about
-# the sun during the animation, in degrees; turns about the planet's own axis.
+# Columns: name, radius (m), distance from the sun (m), height (m), angle about the sun at the start (degrees), rotation
+# about the sun during the animation (degrees), number of turns about the planet's own axis.
 PLANETS = [
     ("Mercury", 0.006, 0.042, 0.100, 200, 330, 2),
     ("Venus", 0.010, 0.067, 0.094, 330, 190, 1),

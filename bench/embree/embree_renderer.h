@@ -3,8 +3,8 @@
 // ray tracer takes from a FramePlan only the view and the sample count, seed and offset. It has its own lens model
 // (lens_rays.h) and sampling, and traces the loaded meshes without any culling.
 //
-// Pixel filter: box of 1 px. Output: linear RGBA, premultiplied; summed in double. Surfaces are opaque and shaded as in
-// traced_shading.h. Throws Error for environment maps.
+// The pixel filter is a box of 1 px. The output is linear premultiplied RGBA, summed in double. Surfaces are opaque and
+// shaded as in traced_shading.h. Throws Error for environment maps.
 //
 // Optimised, because benches also compare its speed: rays are traced in packets (ray_packet.h), with several samples of
 // a tile one after another. If all pixels share a lens sample, Embree traces packets as coherent. The image doesn't

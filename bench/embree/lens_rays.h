@@ -50,8 +50,8 @@ struct LensRay {
 // Returns the ray from lens point `lens` (unit disk) for image point `image` ([-1, 1]², right and up).
 LensRay lensRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
 
-// For cameras with a foreground limit: eyeRay returns the ray from the eye to the lens at lensDepth; refractedRay
-// returns the ray's continuation behind that lens.
+// Functions for cameras with a foreground limit. eyeRay returns the ray from the eye to the lens at lensDepth.
+// refractedRay returns the ray's continuation behind that lens.
 LensRay eyeRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
 LensRay refractedRay(const LensCamera& camera, const glm::dvec2& image, const LensRay& eye);
 

@@ -36,8 +36,8 @@ private:
         std::vector<float> red, green, blue;          // by geometry: components of baseColorFactor
         std::vector<glm::vec3> cornerColors;          // three vertex colours per triangle
     };
-    // Sky radiance for a ray at elevation e: horizon + |sin e|·(zenith − horizon); below the horizon, with nadir
-    // instead of zenith.
+    // The sky's radiance for a ray at elevation e is horizon + |sin e|·(zenith − horizon). Below the horizon, nadir
+    // replaces zenith.
     struct Sky {
         glm::vec3 horizon{0.0f}, zenith{0.0f}, nadir{0.0f};
         glm::vec3 up{0.0f};  // world up, in camera space

@@ -5,8 +5,8 @@
 
 namespace defocus {
 
-// Exposure from the lens's exposure time and ISO if an exposure time is set; otherwise metered if the scene has lights;
-// otherwise 0 EV.
+// Exposure from the lens's exposure time and ISO if an exposure time is set. Otherwise, scenes with lights are metered,
+// and other scenes have 0 EV.
 struct DefaultExposure {
     bool operator==(const DefaultExposure&) const = default;
 };

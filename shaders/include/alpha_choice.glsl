@@ -22,9 +22,9 @@ uint mixed(uint bits) {
 }
 
 // Returns the threshold for the alpha of this fragment. A lens sample shows the fragment if alpha exceeds the
-// threshold, so the samples are the van der Corput sequence in a random order, so that the error of the mean falls as
-// 1/N. The order differs between triangles and between front and back, so that overlapping surfaces are independent.
-// Over neighbouring pixels, the thresholds of a triangle are evenly distributed.
+// threshold. The samples' thresholds are the van der Corput sequence in a random order, so that the error of the mean
+// falls as 1/N. The order differs between triangles and between front and back, so that overlapping surfaces are
+// independent. Over neighbouring pixels, the thresholds of a triangle are evenly distributed.
 float alphaThreshold(uvec2 pixel) {
     uint surfaceSeed = mixed(uint(object.values.z) * 0x9e3779b9u + uint(surface.facet) * 2u + uint(gl_FrontFacing));
     uint seed = mixed(surfaceSeed + pixel.x * 0x85ebca6bu + pixel.y * 0xc2b2ae35u);

@@ -11,7 +11,7 @@ layout(std140, binding = 0) uniform FrameBlock {
     vec4 cocOther;
     vec4 window;          // xy: position in the image of the layers' pixel (0, 0); zw: image size (px)
     mat4 worldFromView;   // rotation from view space to world space
-    vec4 lightPositions[maxLights];  // xyz: m from the camera along the world's axes; w: range (m), 0: unlimited
+    vec4 lightPositions[maxLights];  // xyz: relative to the camera, in m, world axes; w: range (m), 0: unlimited
 } frame;
 
 // Plain uniforms instead of a block, because most draws change the object. llvmpipe copies 33 KB of state for each draw

@@ -52,22 +52,25 @@ struct SurfacePoint {
     float film;           // thickness of the film (nm)
     vec3 filmBase;        // F0 with which Schlick's term gives the film's reflectance towards the eye
     vec3 through;         // albedo of the diffuse light from behind; set only if diffusesThrough
-    vec3 hidden;          // occluded irradiance of the environment, divided by π; set only if shadowed
+    // Irradiance from the environment that occluders keep from the surface, divided by π. Set only if `shadowed`.
+    vec3 hidden;
 };
 
-vec3 lightShares[lightCount + 1];   // fraction of each light that reaches the surface; set only if shadowed
+vec3 lightShares[lightCount + 1];   // fraction of each light that reaches the surface; set only if `shadowed`
 
-// Sums over all lights. E: illuminance; D: distribution of normals; V: masking / (4·(n·l)·(n·v)); g: (1 − v·h)⁵.
+// Reflected light, summed over all lights, without the factors F0 and albedo. n, l, v, h: unit vectors of the normal,
+// to the light, to the eye, and halfway between l and v. E: illuminance of a surface that faces the light.
+// D: distribution of normals. V: masking / (4·(n·l)·(n·v)). g: weight (1 − v·h)⁵ of Schlick's Fresnel term.
 struct LightSums {
-    vec3 diffuse;         // Σ E·(n·l)·(1 − g) / π
-    vec3 specular;        // Σ E·(n·l)·D·V
-    vec3 grazing;         // Σ E·(n·l)·D·V·g
-    vec3 matt;            // Σ E·(n·l) / π
-    vec3 sheen;           // Σ E·(n·l)·D·V of the sheen lobe
+    vec3 diffuse;         // diffuse part beneath the Fresnel reflection: Σ E·(n·l)·(1 − g) / π
+    vec3 specular;        // specular part at reflectance 1: Σ E·(n·l)·D·V
+    vec3 grazing;         // specular part at reflectance g: Σ E·(n·l)·D·V·g
+    vec3 matt;            // diffuse part without Fresnel loss: Σ E·(n·l) / π
+    vec3 sheen;           // sheen of colour 1: Σ E·(n·l)·D·V, with D and V of the sheen
     // The next two sums are for iridescent surfaces. F: the film's reflectance at v·h.
-    vec3 film;            // Σ E·(n·l)·D·V·F
-    vec3 beneathFilm;     // Σ E·(n·l)·(1 − max F) / π
-    vec3 behind;          // Σ E·max(−n·l, 0) / π; set only if diffusesThrough
+    vec3 film;            // specular part of the film: Σ E·(n·l)·D·V·F
+    vec3 beneathFilm;     // diffuse part beneath the film: Σ E·(n·l)·(1 − max F) / π
+    vec3 behind;          // diffuse light from behind: Σ E·max(−n·l, 0) / π; set only if diffusesThrough
 };
 
 // Returns the mean of max(n·l, 0) over the normals n that a coarse level's normal represents. `mean` is the mean of
@@ -327,8 +330,8 @@ vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusio
     return light * (occlusion * environmentLighting);
 }
 
-// Returns the radiance towards the eye without the clear coat. `position`, in m from the camera, is used only for point
-// and spot lights. `occlusion` scales the environment's light.
+// Returns the radiance towards the eye without the clear coat. `position` (relative to the camera, in m, world axes) is
+// used only for point and spot lights. `occlusion` scales the environment's light.
 vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
     float nv = dot(point.normal, point.toEye);   // may be negative: an interpolated normal can face away
     Spread spread = slopeSpread(point);

@@ -8,13 +8,13 @@ int shadowTexel(int layer, int slot) {
     return ((firstShadowSample + layer) * (shadowPoints * shadowMapCount) + slot) * 6;
 }
 
-// Returns the clip-space coordinates of a vector that is in m along the world's axes.
+// Returns the change in clip-space coordinates along the vector `direction` (in m, world axes).
 vec4 shadowDirection(int texel, vec3 direction) {
     return vec4(dot(texelFetch(shadowProjections, texel).xyz, direction), dot(texelFetch(shadowProjections, texel + 1).xyz, direction),
                 dot(texelFetch(shadowProjections, texel + 2).xyz, direction), dot(texelFetch(shadowProjections, texel + 3).xyz, direction));
 }
 
-// Returns the clip-space coordinates of a position that is in m from the camera along the world's axes.
+// Returns the clip-space coordinates of the position `place` (relative to the camera, in m, world axes).
 vec4 shadowPosition(int texel, vec3 place) {
     vec4 at = vec4(place, 1.0);
     return vec4(dot(texelFetch(shadowProjections, texel), at), dot(texelFetch(shadowProjections, texel + 1), at),

@@ -23,7 +23,7 @@
 layout(binding = 29) uniform sampler2DArray shadowMaps;
 
 struct Facet {
-    vec3 place;     // position in m from the camera along the world's axes
+    vec3 place;     // position relative to the camera, in m, world axes
     vec3 normal;    // unit normal of the surface
 };
 

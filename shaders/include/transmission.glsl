@@ -10,9 +10,9 @@ vec2 ndcThroughLens(vec3 viewPosition) {
     return clip.xy / clip.w;
 }
 
-// Returns the background colour at the surface's position plus `offset` (m, along the world's axes). `roughness` (0 …
-// 1) blurs the background as in Khronos's glTF Sample Viewer; 1 blurs over the entire image. The lookup is jittered per
-// lens sample, so that the blocky texels of coarse mip levels average out over the samples.
+// Returns the background colour at the surface's position plus `offset` (in m, world axes). `roughness` (0 … 1) blurs
+// the background as in Khronos's glTF Sample Viewer; 1 blurs over the entire image. The lookup is jittered per lens
+// sample, so that the blocky texels of coarse mip levels average out over the samples.
 vec4 seenBehind(vec3 offset, float roughness) {
     if (chromatic) bandShift = surface.bandShift;
     ivec2 size = textureSize(backdrop, 0).xy;

@@ -7,7 +7,7 @@
 
 layout(location = 0) uniform vec3 moment;   // index of a shutter time, fraction of the way to the next, time in [0, 1]
 
-layout(xfb_buffer = 0, xfb_offset = 0) out vec4 positionOut;   // position in m from the camera along the world's axes
+layout(xfb_buffer = 0, xfb_offset = 0) out vec4 positionOut;   // position relative to the camera, in m, world axes
 // xyz: normal in world axes; w: length of the mesh's normal
 layout(xfb_buffer = 0, xfb_offset = 16) out vec4 normalOut;
 layout(xfb_buffer = 0, xfb_offset = 32) out vec4 colorOut;

@@ -1,7 +1,7 @@
 // Shades surfaces of one material in compute shaders, which interpolate the attributes of vertices themselves.
 
 struct Attributes {
-    vec4 position;   // position in m from the camera along the world's axes
+    vec4 position;   // position relative to the camera, in m, world axes
     vec4 normal;     // w: length of the mesh's normal; 1 except in coarse levels of detail
     vec4 color;
     vec4 uv;

@@ -10,7 +10,8 @@ struct Piece {
 
 // Double buffer of the list of pieces: each new segment reads one list and writes the other.
 vec2 pieceEnds[2 * segmentCapacity];
-vec4 pieceDepths[2 * segmentCapacity];   // 1/w = E/D (line.glsl): E at p = 0, slope of E; D at p = 0, slope of D
+// 1/w = E/D (line.glsl). x: E at p = 0; y: slope of E; z: D at p = 0; w: slope of D.
+vec4 pieceDepths[2 * segmentCapacity];
 uint pieceTriangles[2 * segmentCapacity];
 uint pieceCount = 0u;
 uint current = 0u;                // index of the first piece of the current list: 0 or segmentCapacity

@@ -30,7 +30,8 @@ struct Segment {
 const float minLength = 1.0 / 512.0;         // min length of a kept segment, as a fraction of the line
 const float sameColor = 1.0 / 16.0;          // max difference in a colour channel where two segments join
 const float sameDepth = 0.02;                // max relative difference of 1/w where two segments join
-const float sameSlope = 0.02;                // max relative difference of 1/w due to slopes, over the joined segment
+// Max difference of the slopes d(1/w)/dp where two segments join, times their joint length, relative to 1/w.
+const float sameSlope = 0.02;
 // Max gap, in position p along the line, between a segment and its continuation.
 const float continuation = shortIntervals ? 1.0 / 127.0 : 1e-3;
 

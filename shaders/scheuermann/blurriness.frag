@@ -9,7 +9,8 @@
 
 layout(binding = 0) uniform PinholeTexture pinholeColor;
 layout(location = 0) uniform float perLargest;   // reciprocal of the largest CoC diameter, 1/px
-layout(location = 1) uniform vec4 planes;        // focus (m); 1/(focus − near); 1/(far − focus); max blurriness behind
+// x: focus (m); y: 1/(focus − near); z: 1/(far − focus); w: max blurriness behind the focus.
+layout(location = 1) uniform vec4 planes;
 
 layout(location = 0) out vec4 colorAndBlurriness;
 

@@ -78,7 +78,9 @@ void checkStop(const Request& request) {
 namespace {
 
 void checkValue(const Setting& setting, const Request& request, Request& scratch) {
-    if (setting.lensField && setting.name != "focusDistance") {  // checked as a number: infinity has no text form
+    // Check lens values as numbers, because their text form clamps infinity to a valid value. The focus distance
+    // belongs to Request::focus and is checked as text.
+    if (setting.lensField && setting.name != "focusDistance") {
         const LensField& field = *lensFieldNamed(setting.name);
         giveLensValue(scratch.lens, field, givenLensValue(request.lens, field));
     } else if (setting.repeated) {

@@ -68,8 +68,8 @@ constexpr ShaderConstant constants[] = {
     {"int", "textureCount", "1"},
     {"int[19]", "textureUnits", "int[](-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1)"},
     {"bool", "passesOwnBlur", "false", "PASSES_OWN_BLUR"},  // the fragment stage reads the blur modifiers
-    {"bool", "coarseShare", "false"},  // sample that mixes two levels of detail: draws the coarser level's pixels
-    {"bool", "fineShare", "false"},    // sample that mixes two levels of detail: draws the finer level's pixels
+    {"bool", "coarseShare", "false"},  // true: draws only the coarser level's pixels of a sample that mixes two levels
+    {"bool", "fineShare", "false"},    // true: draws only the finer level's pixels of a sample that mixes two levels
 
     // Constants of poses, in which vertex shaders place moving, skinned and morphed objects
     {"bool", "moving", "false", "MOVING"},

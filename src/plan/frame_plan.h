@@ -100,8 +100,8 @@ struct BlendRun {
     std::uint32_t level = 0;      // level whose triangles are listed in `triangles`
     // Ranges in Pyramid::indices, back to front. Empty: the entire primitive, at all levels that are drawn.
     std::vector<IndexRange> triangles;
-    // true: each lens sample draws or drops a blended fragment by its alpha, so that the position in the order doesn't
-    // matter. false: fragments are blended over what is behind them.
+    // true: each lens sample draws a fragment with probability alpha, else discards it, so that the drawing order
+    // doesn't matter. false: fragments are blended over the surfaces behind them.
     bool stochastic = false;
 };
 
@@ -119,7 +119,7 @@ struct ShadowPlan {
     int size = 0;                     // width and height of each map, px
     std::uint32_t points = 1;         // sample points on each light per lens sample
     std::vector<ObjectPlan> casters;  // each caster draws one level, ObjectPlan::fine, in all samples
-    // Corners of boxes that contain all casters, in m along the world's axes; the camera is the origin.
+    // Corners of boxes that contain all casters (relative to the camera, in m, world axes).
     std::vector<glm::dvec3> corners;
     // Corners of the volume that is visible in the entire frame, in the coordinates of `corners`. Shadow maps need not
     // extend beyond this volume.

@@ -15,8 +15,8 @@ double distanceAt(double from, double to, int i, int count);
 // Returns `count` focus distances over a range in m, evenly in 1/distance, the nearest first.
 std::vector<double> stackDistances(const FocusRange& range, int count);
 
-// Returns the depths in m of the surfaces that are visible from the lens's centre: one channel, cropped to the picture
-// without the margin of lens images; +∞ where no surface writes depth.
+// Returns the depths in m of the surfaces that are visible from the lens's centre, +∞ where no surface writes depth.
+// The image has one channel and the size of the picture, without the margin of lens images.
 Image centralDepth(LightField& field);
 
 // Returns the signed diameters in px of the circles of confusion of the surfaces that are visible from the lens's

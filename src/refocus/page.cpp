@@ -91,7 +91,8 @@ std::vector<std::string> encodedImages(LightField& field, std::size_t count, dou
     return images;
 }
 
-// Returns the depths seen from the lens's centre, at a lower resolution, as 16-bit fractions of the largest 1/depth.
+// Returns the inverse depth map (1/depth) seen from the lens's centre, at a lower resolution. Values are 16-bit
+// fractions of the largest 1/depth.
 nlohmann::json depthsOf(LightField& field) {
     const PartSize& size = field.info().size;
     const Image depth = field.depth(field.central());

@@ -76,9 +76,9 @@ void FrameRun::startAbout(double samples) {
     renderer_->start(plan_);
 }
 
-// Measures the error due to levels of detail: renders a few samples at coarse levels, at fine levels and at full
-// detail, and compares the images. Returns nullopt with --lod off, or if the measurement takes more than half of the
-// time limit. The cheapest images come first, so that a short limit ends the measurement before full detail is drawn.
+// Measures the error of levels of detail: renders a few samples at coarse levels, at fine levels and at full detail,
+// and compares the images. Returns nullopt with --lod off, or if the measurement takes more than half of the time
+// limit. The cheapest images come first, so that a short limit ends the measurement before full detail is drawn.
 std::optional<LevelError> FrameRun::measuredLevels(const RenderSettings& settings, const StopSettings& stop) {
     if (settings.lod == LodMode::off) return {};
     const auto drawn = [&](const RenderSettings& with) -> std::optional<Image> {

@@ -23,9 +23,9 @@ public:
     // `world` and `renderer` must outlive this object; `renderer` must have been made for `world`.
     FrameRun(const World& world, Renderer& renderer) : world_(&world), renderer_(&renderer) {}
 
-    // Starts a new frame. `stop` must pass checkStop. An automatic number of samples also needs a method that sums
-    // blocks (Method::sumsBlocks), and motion must not need one pose per sample. A time limit needs a current GL
-    // context.
+    // Starts a new frame. `stop` must pass checkStop. checkStop ignores StopSettings::automatic: if it is set, the
+    // method must sum blocks (Method::sumsBlocks), and motion must not need one pose per sample. With a time limit, a
+    // GL context must be current.
     void start(const View& view, const RenderSettings& settings, const StopSettings& stop);
     // Draws one wave, a batch of lens samples. Returns false once the frame is complete.
     bool advance();

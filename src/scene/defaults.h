@@ -18,9 +18,9 @@ struct PlacedCamera {
     bool tracked = false;  // true: camera of Pose::tracked; if false and node is −1: the default framing camera
 };
 
-// Returns the camera that `choice` selects. NamedCamera is the name of a camera or of its node. FirstCamera selects
-// the scene's camera track; without a track, the first camera that is not orthographic; without such a camera, the
-// default camera. The default camera shows `pose.bounds` from a three-quarter view in an image of `aspect` = width /
+// Returns the camera that `choice` selects. NamedCamera is the name of a camera or of its node. FirstCamera selects the
+// scene's camera track. Without a track, it selects the first camera that is not orthographic, or the default camera if
+// there is none. The default camera shows `pose.bounds` from a three-quarter view in an image of `aspect` = width /
 // height, with matching focusDistance and znear. `tanHalfHorizontal` is the tangent of half the default camera's
 // horizontal angle of view; nullopt: a 50 mm lens on 36 mm film along the longer side of the image. Throws Error if the
 // named camera is orthographic or the name is unknown; the message lists the known names.

@@ -20,8 +20,8 @@ std::size_t repairAttributes(VertexBlock& block, std::span<std::vector<std::uint
 // Returns the entry of Scene::ignored that tells users about `count` normals replaced by repairAttributes.
 Ignored replacedNormalsNote(std::size_t count);
 
-// Returns the texture coordinate set to which tangents must be aligned: that of the first normal map or anisotropic
-// material of the primitives; −1 without such a material.
+// Returns the texture coordinate set to which tangents must be aligned: the set of the first normal map or anisotropic
+// material of the primitives. Returns −1 without such a material.
 int tangentUvSet(std::span<const Primitive> primitives, std::span<const Material> materials);
 
 // Adds flat normals if normals are missing, as glTF requires. Adds missing tangents aligned to the texture coordinate

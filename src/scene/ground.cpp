@@ -12,7 +12,7 @@ namespace {
 constexpr double reach = 30;  // radius of the disk relative to the radius of the scene
 constexpr float reflectance = 0.36f;
 constexpr std::uint32_t sectors = 96;  // number of sectors; enough for a horizon without visible corners
-constexpr std::uint32_t rings = 12;    // number of rings; limits triangle sizes: blur is not linear within a triangle
+constexpr std::uint32_t rings = 12;    // number of rings; enough that blur is nearly linear within each triangle
 
 // Returns a triangulated unit disk in the plane y = 0, facing +y. Its rings of vertices are denser towards the centre.
 Mesh disk(int material) {

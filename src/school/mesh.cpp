@@ -18,7 +18,7 @@ constexpr float eyeEdge = 0.75f;  // edge length in the eyes relative to edges o
 // ---- body of the fish ------------------------------------------------------------------------------
 
 struct Rings {
-    std::vector<float> at;  // position of each ring of vertices; body: 0 (snout) to 1 (tail), eye: angle from the pole
+    std::vector<float> at;  // position of each ring: along a body from 0 (snout) to 1 (tail), on an eye the polar angle
     std::vector<std::uint32_t> counts;
 };
 

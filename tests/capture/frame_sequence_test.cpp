@@ -281,8 +281,8 @@ TEST(ShardFrames, shareTheRangeWithoutRestAndWithoutOverlap) {
     EXPECT_EQ(std::set<int>(all.begin(), all.end()).size(), 34u);
 }
 
-// Exposure time and ISO are interpolated geometrically, and the exposure of each frame follows from its lens. An
-// exposure in EV applies to all frames.
+// The exposure time is interpolated geometrically. Each frame's exposure follows from its exposure time, f-number and
+// ISO. If the request sets an exposure in EV, this exposure applies to all frames instead.
 TEST_F(FrameSequence, exposureFollowsTheLens) {
     const char* text = R"({"output": "x/####.png", "lens": {"fStop": 2, "iso": 400, "exposureTime":
         {"interpolation": "linear", "keys": [{"frame": 0, "value": 0.01}, {"frame": 2, "value": 0.04}]}}})";

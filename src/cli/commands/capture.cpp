@@ -59,7 +59,7 @@ struct CaptureArguments {
     bool resume = false;
     bool overwrite = false;
     bool dryRun = false;
-    bool check = false;    // true: measure image changes due to levels of detail
+    bool check = false;    // true: measure image changes caused by levels of detail
     bool refocus = false;  // true: compute frames from lens images where possible
 };
 

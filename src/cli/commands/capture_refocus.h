@@ -17,8 +17,8 @@ RefocusRuns chosenRuns(const Shot& shot, const SequenceBase& base, const FilmSet
 // Returns a line that states how many lens samples --refocus saved.
 std::string savedText(const FilmSettings& settings, const FilmFigures& figures);
 
-// Returns a line that states how many lens samples --refocus would save for frames that were rendered one by one; empty
-// if none.
+// Returns a line that states how many lens samples --refocus would have saved for the frames in `film`, which were
+// rendered without it. Returns an empty text if it would have saved none.
 std::string possibleSaving(const Shot& shot, const SequenceBase& base, const FilmSettings& settings,
                            const std::vector<FilmFrame>& film);
 

@@ -2,10 +2,10 @@
 // Measures how a frame's time and memory grow with triangles, instances, lens samples, pixels and blur, one at a time,
 // at full detail and with fractional levels. Also finds which part of the work limits the frame time.
 //
-// Three versions of each frame are timed: the complete frame; an empty frame, which only clears and adds the layers;
-// and the same levels drawn into an image of 1/40 the width and height, which leaves the work per vertex and triangle.
-// The rest of the complete frame's time is fill, the work per pixel of a surface. On a GPU these parts overlap, so they
-// show which part limits a frame, not the cost of each part.
+// Three versions of each frame are timed. The first is the complete frame. The second is an empty frame, which only
+// clears and adds the layers. The third draws the same levels into an image of 1/40 the width and height, which leaves
+// the work per vertex and triangle. The rest of the complete frame's time is fill, the work per pixel of a surface. On
+// a GPU these parts overlap, so they show which part limits a frame, not the cost of each part.
 //
 // Along an axis, all parameters that it doesn't vary (see scalingPoints) stay constant; all points are measured in one
 // process. Runs alternate between modes. Times are medians of the wall-clock time between finished frames, after one

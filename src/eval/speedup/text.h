@@ -9,8 +9,8 @@
 
 namespace defocus::engine {
 
-std::string speedupHeader();                     // returns the table's header, two lines
-std::string speedupLine(const SpeedupRow& row);  // returns the table's line for a row
+std::string speedupHeader();                     // returns the two header lines of the text table
+std::string speedupLine(const SpeedupRow& row);  // returns one row of the text table, as a line
 std::string speedupCsv(std::span<const SpeedupRow> rows);
 
 std::string speedupJson(std::span<const SpeedupRow> rows, const BenchSubject& subject);

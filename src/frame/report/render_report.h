@@ -31,7 +31,7 @@ struct RenderReport {
 Metadata renderMetadata(const RenderReport& report);
 
 // Returns a JSON object. Key names state milliseconds and bytes; memoryLimit is also in bytes. largestBlur is a
-// diameter in pixels, null if unbounded; date is in UTC; peakBytes is the peak memory of the process.
+// diameter in pixels, null if unbounded. date is in UTC. peakBytes is the peak memory of the process.
 std::string statsJson(const RenderReport& report);
 
 // Returns a text such as "error about 0.0047", or "error not estimated".

@@ -13,9 +13,10 @@
 namespace defocus::engine {
 
 // Sets the focus distance of `view`'s lens. A focus on three points also sets tilt and swing; more points also set the
-// field curvature. All other members of `view` must be set. Uses the first that exists of: the request's focus, the
-// camera's own distance, the median depth of the surfaces near the image's centre, the depth of the scene's centre.
-// Throws Error if a pixel shows no surface, if a node lies behind the camera, and in the same cases as focusThrough.
+// field curvature. All other members of `view` must be set. If the request sets no focus, uses the camera's own focus
+// distance. If the camera has none, uses the median depth of the surfaces near the image's centre, else the depth of
+// the scene's centre. Throws Error if a requested pixel shows no surface, if the requested node lies behind the camera,
+// and if focusThrough rejects the requested points.
 void chooseFocus(const Request& request, const Camera& camera, const Scene& scene, const Pose& pose, View& view);
 
 // Sets focus distance, tilt and swing so that the plane of focus contains three points in view space (m; the camera

@@ -45,11 +45,11 @@ inline constexpr double shownWhite = 4;
 double squaredError(const Pyramid& pyramid, std::size_t level, double side, Surround surround = Surround::black);
 double squaredContrast(const Pyramid& pyramid, double side, Surround surround = Surround::black);
 
-// Returns the real-valued level λ at which the ratio E/V equals measuredLimit(light, edge), on the background where the
-// ratio is larger. E is the level's error and V the contrast of level 0, both as RMS over patches of the given sides
-// (object units). Returns the coarsest level if the ratio stays below the limit, and 0 if no errors were measured.
-// `edge` is the level's mean edge length in px, at `pixelsPerUnit` (> 0) px per object unit. λ is continuous in all
-// arguments.
+// Returns the real-valued level λ at which the relative error E/V reaches its limit, measuredLimit(light, edge), on the
+// background with the larger E/V. E is the level's error and V the contrast of level 0, both as RMS over patches of the
+// given sides (object units). `edge` is the level's mean edge length in px, at `pixelsPerUnit` (> 0) px per object
+// unit. Returns the coarsest level if E/V stays below the limit, and 0 if `light` is 0 or no errors were measured. λ is
+// continuous in all arguments.
 double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides, double pixelsPerUnit, double light);
 
 }  // namespace defocus::engine

@@ -214,8 +214,8 @@ TriangleNumber seedElsewhere(ClusterGrowth& g, const glm::vec3& place) {
     return g.unseen;
 }
 
-// Finishes the growing cluster. From each list, keeps at most `seedsAhead` unassigned neighbours as first triangles of
-// later clusters, because a vertex can have any number of triangles.
+// Finishes the growing cluster. From each list of triangles beside the cluster, keeps at most `seedsAhead` unassigned
+// ones as seeds (first triangles) of later clusters. The limit is needed because many triangles can share a vertex.
 void close(ClusterGrowth& g) {
     for (auto* const list : {&g.touching, &g.beside, &g.hanging, &g.closed}) {
         keepOpen(g, *list);

@@ -72,7 +72,9 @@ struct Growth {
 
 struct LevelMesh {
     TriangleSet<LevelVertexNumber> triangles;
-    Numbered<LevelVertexNumber, MeshVertexNumber> sources;  // mesh vertex with the original attributes; never a copy
+    // Mesh vertex with the original attributes of each level vertex. If the level vertex is a duplicate, made for the
+    // back of a thin plate, this is the mesh vertex that was duplicated.
+    Numbered<LevelVertexNumber, MeshVertexNumber> sources;
     // 1: the vertex is on the back of a thin plate, such as a fin, and the other vertices at its position are on the
     // front; else 0. A back vertex shares its normal and colour only with other back vertices.
     Numbered<LevelVertexNumber, std::uint8_t> apart;

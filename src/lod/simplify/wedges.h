@@ -24,8 +24,8 @@ namespace defocus::engine {
 constexpr float normalWeight = 0.003f;
 constexpr float colorWeight = 0.005f;  // weight for colours in [0, 1]
 constexpr float uvWeight = 0.05f;
-// Weight of per-vertex blur, relative to the mesh's range of blur values. It is four times the colour weight, so that
-// blur on a coarse level appears at the same positions as in the file.
+// Weight of a vertex's blur values, each divided by its range over the mesh. This weight is four times the colour
+// weight, so that coarse levels keep blur where the file's vertices have it.
 constexpr float blurWeight = 0.02f;
 
 class WedgeTable {

@@ -1,8 +1,8 @@
 #pragma once
-// Chooses between the two methods that "auto" can use: "multirate", which blurs the image of each lens sample
-// (lens_cells.h), if a visible part of the image has a large blur; else "accumulation", whose samples cost less. The
-// choice depends on the view and the scene, not on the number of samples or the machine. All machines that share a
-// frame therefore make the same choice.
+// Chooses between the two methods that "auto" can use. If a visible part of the image has a large blur, "multirate" is
+// chosen, which blurs the image of each lens sample (lens_cells.h). Else "accumulation" is chosen, whose samples cost
+// less. The choice depends on the view and the scene, not on the number of samples or the machine. All machines that
+// share a frame therefore make the same choice.
 
 #include <string>
 

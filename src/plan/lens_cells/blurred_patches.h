@@ -1,5 +1,6 @@
 #pragma once
-// Computes the size of the surface patch that a single pixel averages over, due to the blur and the pixel's own width.
+// Computes the size of the surface patch that a single pixel averages over. The size follows from the blur and the
+// pixel's own width.
 
 #include <array>
 #include <cstddef>

@@ -10,7 +10,7 @@ namespace defocus::engine {
 
 // Estimated position of a visible surface: the surface passes `place` at a distance of at most `spread` m.
 struct SeenPoint {
-    glm::dvec3 place{0.0};  // position in m from the camera along the world's axes
+    glm::dvec3 place{0.0};  // position relative to the camera, in m, world axes
     double depth = 0;       // depth in m along the view axis
     double spread = 0;
     double blur = 0;  // CoC diameter, px

@@ -21,7 +21,7 @@ inline constexpr int surroundings = -1;  // value of ShadowMap::light for the en
 // samples, spare maps give each light several points.
 inline constexpr std::size_t maxShadowMaps = 8;
 
-// Projection of a shadow map. Positions are in metres from the camera along the world's axes.
+// Projection of a shadow map. Positions are relative to the camera, in m, in world axes.
 struct ShadowProjection {
     std::array<glm::vec4, 4>
         clipRows{};            // matrix rows to clip space, reversed depth; w is 1 for parallel light, else depth in m

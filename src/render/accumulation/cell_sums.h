@@ -41,8 +41,8 @@ public:
     void bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur, bool startsBlock,
                        int to) const;
     // Blurs each blur class of the block's sum and writes the result to `target`; the target's compensation attachment
-    // becomes 0. `sum` is the block's sum without blur. If `samples` > 0, the result is divided by `samples`; if 0, by
-    // the pixel's alpha; if < 0, it is not divided.
+    // becomes 0. `sum` is the block's sum without blur. The result is divided by `samples` if > 0, and by the pixel's
+    // alpha if `samples` is 0. A negative value leaves it undivided.
     void blurInto(const Target& target, const GlTexture& sum, float samples = -1);
     [[nodiscard]] bool fits(const LensCells& cells) const {
         return cells.inFront == inFront_ && cells.behind == behind_;

@@ -24,9 +24,9 @@ struct LineSets {
     std::vector<glm::vec4> strips;
 };
 
-// Returns the lines for a plan. If `turned` is false, all pixels have the same wheel and positions, as published.
-// Groups of `linesPerPosition` lines share a position in the pixel (Figure 2 of the paper); the angles of each group
-// are evenly spread. Throws Error if the lens has an aperture image.
+// Returns the lines of a frame's pixels. If `turned` is false, the lines have the same angles and positions in all
+// pixels, as in the paper. Groups of `linesPerPosition` lines share a position in the pixel (Figure 2 of the paper).
+// The angles of each group are evenly spread. Throws Error if the lens has an aperture image.
 LineSets lineSets(const FramePlan& plan, bool turned, std::uint32_t linesPerPosition = 1);
 
 // Returns the distance from the aperture's centre to its rim at `angle` in radians, without blade rotation and

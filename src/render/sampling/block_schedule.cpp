@@ -10,10 +10,10 @@ namespace defocus::engine {
 
 namespace {
 
-// Max error due to levels of detail, relative to the intended error. The total error is then at most √(1 + 0.5²) = 1.12
+// Max error of levels of detail, relative to the intended error. The total error is then at most √(1 + 0.5²) = 1.12
 // times the intended error.
 constexpr double levelShare = 0.5;
-// Factor on the expected number of samples if the error due to levels is unknown.
+// Factor on the expected number of samples if the error of levels of detail is unknown.
 constexpr double withoutLevelError = 4;
 constexpr double blockTolerance = 0.7;  // s after the time limit at which an unfinished block is stopped
 constexpr double maxThresholdSamples = 1e8;
@@ -94,8 +94,8 @@ double BlockSchedule::thresholdSamples() const {
     return levels_->samplesFor(levelShare * *aim, expected);
 }
 
-// Returns the total error from a sampling error and the mean error due to levels of detail so far, which are assumed to
-// be independent.
+// Returns the total error from a sampling error and the mean error of levels of detail so far. Both are assumed to be
+// independent.
 double BlockSchedule::withLevels(double sampleError) const {
     return std::hypot(sampleError, levelErrorSum_ / std::max(samples_, 1u));
 }
@@ -125,7 +125,7 @@ void BlockSchedule::predict() {
         if (const double flip = estimatedFlip().value_or(0); flip > 0)
             expected_ = samples_ * std::pow(flip / *targetFlip_, 1 / lensSampleExponent);
     } else if (const double error = estimate_.error().value_or(0); stop_.targetError && error > 0) {
-        // The squares of the sampling error and of the error due to levels of detail sum to the square of the target.
+        // The squares of the sampling error and of the error of levels of detail sum to the square of the target.
         // The sampling error is allowed to be at least 44 % of the target.
         const double levels = std::min(withLevels(0), 0.9 * *stop_.targetError);
         const double aim = std::sqrt(*stop_.targetError * *stop_.targetError - levels * levels);

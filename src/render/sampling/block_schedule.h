@@ -3,9 +3,9 @@
 // it decides whether another block follows and with which settings. The schedule holds no image and makes no OpenGL
 // calls; still images and the window both use it.
 //
-// The error due to levels of detail cannot be estimated from differences between blocks that draw the same levels, so
-// it is measured before the first block (LevelError). The thresholds that select levels are chosen so that this error
-// is less than half the intended error: the target, or the error at the expected number of samples. Without this
+// The error of levels of detail cannot be estimated from differences between blocks that draw the same levels. It is
+// therefore measured before the first block (LevelError). The thresholds that select levels are chosen so that this
+// error is less than half the intended error: the target, or the error at the expected number of samples. Without this
 // measurement, thresholds are the defaults for four times the expected samples.
 
 #include <functional>
@@ -20,9 +20,9 @@ namespace defocus::engine {
 // Returns a description such as "the estimated error is below the target".
 const char* stopReasonText(StopReason reason);
 
-// RMSE due to levels of detail, as in ErrorEstimate: the difference between images with levels and at full detail, for
-// the same few lens samples. The levels depend on a sample count through its default thresholds. The RMSE is modelled
-// as a power law in that count, through two measurements.
+// RMSE of levels of detail, as in ErrorEstimate: the difference between images with levels and at full detail, for the
+// same few lens samples. The levels depend on a sample count through its default thresholds. The RMSE is modelled as a
+// power law in that count, through two measurements.
 struct LevelError {
     static constexpr std::uint32_t drawn = 16;    // lens samples drawn for each measurement
     static constexpr std::uint32_t coarse = 128;  // sample count whose default thresholds apply to `atCoarse`
@@ -38,8 +38,8 @@ struct LevelError {
 class BlockSchedule {
 public:
     BlockSchedule() = default;
-    // `settings` are the settings of the frame; their number of samples is ignored. `levels` is nullopt if the error
-    // due to levels of detail was not measured, or if level of detail is off.
+    // `settings` are the settings of the frame; their number of samples is ignored. `levels` is nullopt if the error of
+    // levels of detail was not measured, or if level of detail is off.
     BlockSchedule(const RenderSettings& settings, const StopSettings& stop, std::optional<LevelError> levels = {});
     // Returns the schedule of a frame with an automatic number of samples. It ends once the estimated FLIP is below the
     // FLIP of `quality`. `expected`: first prediction of the number of samples. Level-of-detail thresholds are the

@@ -33,8 +33,8 @@ std::uint64_t pixelsOf(int width, int height) {
     return std::uint64_t(width) * std::uint64_t(height);
 }
 
-// Returns the bytes that a software driver needs for the plan's meshes and the scene's textures, and that the occlusion
-// test needs for the meshes.
+// Returns the memory in bytes that the scene needs with a software driver: the plan's meshes, the scene's textures, and
+// the triangles that the occlusion test stores.
 std::uint64_t sceneBytes(const World& world, const FramePlan& plan) {
     std::uint64_t bytes = 0;
     for (std::size_t mesh = 0; mesh < world.pyramids.size(); ++mesh) {

@@ -5,8 +5,8 @@
 //
 // Missing data is completed as glTF requires. Primitives without normals are flat-shaded with unshared vertices;
 // missing tangents are generated for normal maps. Unused vertices are dropped, so a mesh may have fewer vertices than
-// its accessors. The nodes of the default scene are loaded; without a default scene, those of the first scene; without
-// scenes, all nodes.
+// its accessors. The nodes of the default scene are loaded. Without a default scene, the nodes of the first scene are
+// loaded. Without scenes, all nodes are loaded.
 
 #include <filesystem>
 #include <string>

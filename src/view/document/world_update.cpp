@@ -42,8 +42,8 @@ void apply(const Part& part, Document& document, ViewState& state, const Update&
     }
 }
 
-// Returns the state's request with a camera of the file. Omits the request's camera position, and its focus if that
-// depends on the image.
+// Returns the state's request with the given camera of the file, without a camera position set by the request. If the
+// request's focus depends on pixels of the image, the camera's own focus replaces it.
 Request cameraRequest(const ViewState& state, const CameraChoice& camera) {
     Request request = state.options;
     request.camera = camera;

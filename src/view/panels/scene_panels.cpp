@@ -1,4 +1,4 @@
-// Draws the panel sections for the scene: opening, cameras, undo; saved views; animation.
+// Draws the panel sections for the scene: opening files, cameras, undo, saved views and animation.
 
 #include <fmt/format.h>
 #include <imgui.h>

@@ -48,8 +48,8 @@ TEST(Meter, aSingleFireflyCountsForNothing) {
 }
 
 TEST(Meter, darkObjectBeforeALightBackgroundStaysDark) {
-    // If the meter ignored the background, it would expose the object, with a grey of 2 %, to middle grey. The
-    // background, with 80 %, would then be far above white.
+    // The object has a luminance of 2 %, and the background 80 %. A meter that ignored the background would raise the
+    // object to 40 % of white, and the background to 16 times white.
     EXPECT_NEAR(meteredExposure(stripes({0.8f, 0.8f, 0.02f, 0.02f}, 2)), std::log2(0.5 / 0.8), 1e-6);
     EXPECT_NEAR(meteredExposure(stripes({0.1f, 1, 0.09f, 0.36f, 1.44f}, 2)), -1, 1e-6) << "a dark background";
 }

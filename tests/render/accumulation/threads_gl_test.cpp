@@ -170,7 +170,7 @@ TEST_F(DrawingThreads, keepToTheLimitOfLayers) {
     for (const std::uint32_t layers : {1u, 3u, 4u, 9u}) {
         const RenderStats stats = statsWith(4, layers);
         EXPECT_EQ(stats.threads, std::min(layers, 4u));
-        // Each thread also has uniform buffers, which are smaller than the layer of one sample.
+        // statsWith(1, 1) already contains one layer. The bound thus leaves one layer for the threads' uniform buffers.
         EXPECT_LE(stats.peakBytes, statsWith(1, 1).peakBytes + layers * layerBytes) << layers;
     }
 }

@@ -119,13 +119,13 @@ TEST(CircularKernel, energyIsTheDisks) {
     }
 }
 
-// Half floats round by 2⁻¹¹ = 0.05 %. If the kernel amplifies rounding by less than 5, the error stays below 0.25 % of
-// the brightest pixel.
+// Half floats have a relative rounding error of 2⁻¹¹ = 0.05 %. If the kernel amplifies it by less than 5, the blurred
+// image's error stays below 0.25 % of the brightest pixel.
 TEST(CircularKernel, halfFloatsSuffice) {
     for (int n = 1; n <= circularKernelLimit; ++n) {
         EXPECT_LT(roundingAmplification(circularKernel(n), circularKernelExtent, 1), 5) << n;
     }
-    for (int n = 1; n <= 3; ++n)  // Niemitalo's kernels of 4 and more components use 32-bit floats
+    for (int n = 1; n <= 3; ++n)  // 32-bit floats store the results of Niemitalo's kernels of 4 or more components
         EXPECT_LT(roundingAmplification(publishedCircularKernel(n), circularKernelExtent, 1), 5) << n;
 }
 
