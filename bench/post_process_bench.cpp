@@ -205,7 +205,8 @@ struct Measured {
 };
 
 // Draws `frame` `repeats` times with each method. The methods run alternately.
-std::vector<Measured> measured(const PreparedFrame& frame, const std::vector<std::string>& methods, int repeats = runs) {
+std::vector<Measured> measured(const PreparedFrame& frame, const std::vector<std::string>& methods,
+                               int repeats = runs) {
     const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
     std::vector<Measured> all;
     std::vector<std::unique_ptr<Renderer>> renderers;
@@ -235,8 +236,8 @@ std::vector<Measured> measured(const PreparedFrame& frame, const std::vector<std
 void printDifferences(const Image& reference, const std::vector<Measured>& all) {
     for (const Measured& one : all) {
         const Difference difference = compareImages(reference, one.image);
-        fmt::print("{:<132} {:>9.2f} {:>9.5f} {:>9.5f} {:>8.1f} {:>9.1f}\n", one.method, difference.psnr, difference.flip,
-                   difference.maxError, one.megabytes, one.milliseconds);
+        fmt::print("{:<132} {:>9.2f} {:>9.5f} {:>9.5f} {:>8.1f} {:>9.1f}\n", one.method, difference.psnr,
+                   difference.flip, difference.maxError, one.megabytes, one.milliseconds);
     }
 }
 
@@ -274,19 +275,20 @@ void storages() {
 void slideOfPerformance() {
     PreparedFrame frame = school({});
     constexpr std::uint32_t samples = 1024;
-    fmt::print("As on the slide on performance, school of fish at {} x {} px, f/{}, against accumulation with {} samples\n",
-               frame.view.width, frame.view.height, frame.view.lens.fStop, samples);
+    fmt::print(
+        "As on the slide on performance, school of fish at {} x {} px, f/{}, against accumulation with {} samples\n",
+        frame.view.width, frame.view.height, frame.view.lens.fStop, samples);
     printHead();
     const std::string common =
         "circular:near-components=1,far-components={},resolution={},kernel=published,max-coc=published,"
         "transparency-buckets=0,pinholes=1,{}";
     const std::string published = "kernel-taps=eight,storage=r10g10b10a2";
-    const std::vector<Measured> all =
-        measured(frame, {fmt::format(fmt::runtime(common), 1, "half", published),
-                         fmt::format(fmt::runtime(common), 2, "quarter", published),
-                         fmt::format(fmt::runtime(common), 1, "half", "convolution=direct"),
-                         fmt::format(fmt::runtime(common), 2, "quarter", "convolution=direct"),
-                         "circular:near-components=1,kernel=published,transparency-buckets=0,pinholes=1,convolution=direct"});
+    const std::vector<Measured> all = measured(
+        frame, {fmt::format(fmt::runtime(common), 1, "half", published),
+                fmt::format(fmt::runtime(common), 2, "quarter", published),
+                fmt::format(fmt::runtime(common), 1, "half", "convolution=direct"),
+                fmt::format(fmt::runtime(common), 2, "quarter", "convolution=direct"),
+                "circular:near-components=1,kernel=published,transparency-buckets=0,pinholes=1,convolution=direct"});
     frame.settings.sampleCount = samples;
     printDifferences(measured(frame, {"accumulation"}, 1).front().image, all);
 }

@@ -21,10 +21,9 @@ void addMesh(tinygltf::Model& model, const Mesh& mesh) {
     if (!mesh.morphTargets.empty()) fail("mesh \"{}\" has morph targets, which are not written", mesh.name);
     // Write normals, although unlit materials don't need them, because importers give each triangle vertices of its own
     // if there are no normals.
-    const std::map<std::string, int> attributes = {
-        {"POSITION", gltf::appendPositions(model, mesh.vertices.positions)},
-        {"NORMAL", gltf::appendVectors(model, mesh.vertices.normals)},
-        {"COLOR_0", gltf::appendVectors(model, mesh.vertices.colors)}};
+    const std::map<std::string, int> attributes = {{"POSITION", gltf::appendPositions(model, mesh.vertices.positions)},
+                                                   {"NORMAL", gltf::appendVectors(model, mesh.vertices.normals)},
+                                                   {"COLOR_0", gltf::appendVectors(model, mesh.vertices.colors)}};
     std::vector<tinygltf::Primitive> primitives;
     for (const Primitive& primitive : mesh.primitives) {
         tinygltf::Primitive& written = primitives.emplace_back();
@@ -51,10 +50,10 @@ tinygltf::Camera cameraOf(const View& view) {
     camera.type = "perspective";
     camera.perspective.yfov = 2 * std::atan(tanHalfHorizontalFov(lens) * view.height / view.width);
     camera.perspective.znear = view.nearPlane;
-    camera.extras = tinygltf::Value(
-        tinygltf::Value::Object{{"fStop", tinygltf::Value(lens.fStop)},
-                                {"focusDistance", tinygltf::Value(lens.focusDistance)},
-                                {"horizontalAperture", tinygltf::Value(lens.horizontalAperture)}});
+    camera.extras =
+        tinygltf::Value(tinygltf::Value::Object{{"fStop", tinygltf::Value(lens.fStop)},
+                                                {"focusDistance", tinygltf::Value(lens.focusDistance)},
+                                                {"horizontalAperture", tinygltf::Value(lens.horizontalAperture)}});
     return camera;
 }
 

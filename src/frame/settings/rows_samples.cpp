@@ -12,6 +12,7 @@
 #include "frame/settings/rows.h"
 #include "lens/lens_samples.h"
 #include "lod/pyramid/level_selection.h"
+#include "plan/frame_plan.h"
 #include "render/sampling/automatic_samples.h"
 
 namespace defocus::engine {
@@ -48,9 +49,10 @@ Row presetRow() {
 
 Row samplesRow() {
     return rows::integer("samples", "--samples", 1, maxSamples, MEMBER(samples),
-                         fmt::format("Number of lens samples. auto: the number that --quality needs, at most {}. "
-                                     "With --target-error or --time-limit: the maximum number, {} by default",
-                                     maxAutomaticSamples, maxSamples))
+                         fmt::format("Number of lens samples. Without visible blur, shadows and motion, at most {} are "
+                                     "drawn, unless --keep-all is given. auto: the number that --quality needs, at "
+                                     "most {}. With --target-error or --time-limit: the maximum number, {} by default",
+                                     antialiasingSamples, maxAutomaticSamples, maxSamples))
         .metavar("N|auto")
         .choices({"auto"})
         .values(

@@ -245,8 +245,7 @@ struct Sight {
         std::vector<Patches> full(surrounds.size(), Patches(eye));
         Patches seen(eye);
         const auto backgroundOf = [&](std::size_t b) { return surrounds[b] == Surround::grey ? unit : 0; };
-        for (std::size_t b = 0; b < surrounds.size(); ++b)
-            full[b].measure(before(backgroundOf(b), cells, shifted[b]));
+        for (std::size_t b = 0; b < surrounds.size(); ++b) full[b].measure(before(backgroundOf(b), cells, shifted[b]));
         seen.measure(points);
         addSquares(nullptr, seen, dark, brightest, light);
         LargeVector<glm::vec3> onGrey;

@@ -91,8 +91,7 @@ private:
 
     [[nodiscard]] bool fullQuality() {
         const ViewPicture& image = picture_.image();
-        return image.refocused() || image.finished() ||
-               (!image.moving() && image.samples() >= KeptImages::maxImages);
+        return image.refocused() || image.finished() || (!image.moving() && image.samples() >= KeptImages::maxImages);
     }
 
     ViewState& state_;
