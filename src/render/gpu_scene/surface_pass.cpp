@@ -114,7 +114,7 @@ void SurfacePass::addDraws(const FramePlan& plan) {
 // Adds the draws of a primitive. If `run` lists triangles of one level, adds only these, and appends their indices to
 // `partIndices`.
 void SurfacePass::addPrimitive(const FramePlan& plan, const BlendRun& run, std::vector<std::uint32_t>& partIndices) {
-    const ObjectPlan& object = plan.objects[run.object];
+    const ObjectPlan& object = plan.objects.at(run.object);
     const Mesh& mesh = scene_->world().scene->meshes[static_cast<std::size_t>(object.mesh)];
     Draw draw;
     draw.mesh = object.mesh;

@@ -184,6 +184,7 @@ private:
                                          .shaderFolder = options_.shaderFolder});
         FramePlan empty = plan_;
         empty.objects.clear();
+        empty.blendOrder.clear();
         empty.shadows = {};
         sky_->prepare(empty, frame_);
     }

@@ -6,6 +6,7 @@
 
 #include "bokeh.h"
 #include "core/error.h"
+#include "image/metrics.h"
 #include "render/layered/layered_images.h"
 
 namespace defocus::engine {
@@ -58,6 +59,19 @@ TEST_F(Layered, apertureZeroIsThePinholeImage) {
     // A uniform sky is the same in all lens samples. The default sky varies within a pixel.
     small->world.environment = {EnvironmentType::uniform, glm::vec3(0.4f), {}, {}, nullptr, 1};
     EXPECT_LT(maxBetween(seenBy(*small, "accumulation", 1), seenBy(*small, "layered:pinholes=1", 32)), 2e-3);
+}
+
+// An environment map is drawn by a plan without objects, which must not have blended primitives either.
+TEST_F(Layered, anEnvironmentMapIsSeenThroughBlendedObjects) {
+    const auto small = fiveSpheres();
+    small->scene.materials[0].alphaMode = AlphaMode::blend;
+    small->scene.materials[0].baseColorFactor.a = 0.5f;
+    small->view.lens.blurScale = 0;
+    auto map = std::make_shared<Image>(16, 8, 3);
+    for (std::size_t i = 0; i < map->pixels.size(); ++i) map->pixels[i] = static_cast<float>(i % 48) / 48;
+    small->world.environment.type = EnvironmentType::map;
+    small->world.environment.map = map;
+    EXPECT_GT(compareImages(seenBy(*small, "accumulation", 16), seenBy(*small, "layered", 16)).psnr, 30);
 }
 
 TEST_F(Layered, aConstantSceneStaysConstant) {
