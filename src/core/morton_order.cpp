@@ -1,5 +1,6 @@
 #include "core/morton_order.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <numeric>
@@ -16,10 +17,14 @@ std::uint32_t spread(std::uint32_t bits) {
     return (bits | bits << 2) & 0x09249249u;
 }
 
+std::uint32_t cellAt(double coordinate) {
+    return coordinate > 0 ? static_cast<std::uint32_t>(std::min(coordinate, maxMortonCell)) : 0;
+}
+
 }  // namespace
 
-std::uint32_t mortonCode(const glm::uvec3& cell) {
-    return spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2;
+std::uint32_t mortonCode(const glm::dvec3& point) {
+    return spread(cellAt(point.x)) | spread(cellAt(point.y)) << 1 | spread(cellAt(point.z)) << 2;
 }
 
 void sortByMortonCode(LargeVector<std::uint64_t>& keys) {

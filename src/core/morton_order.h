@@ -9,10 +9,11 @@
 
 namespace defocus::engine {
 
-inline constexpr std::uint32_t maxMortonCell = 1023;  // max index of a grid cell per axis: 10 bits
+inline constexpr double maxMortonCell = 1023;  // max index of a grid cell per axis: 10 bits
 
-// Returns the Morton code of a grid cell, 30 bits. Each index must be at most maxMortonCell.
-std::uint32_t mortonCode(const glm::uvec3& cell);
+// Returns the Morton code, 30 bits, of the grid cell that contains `point`, which is in units of the cell size.
+// Coordinates are clamped to [0, maxMortonCell]; NaN counts as 0.
+std::uint32_t mortonCode(const glm::dvec3& point);
 
 // Sorts the keys by the Morton code in their upper 32 bits (radix sort). Keys with equal codes keep their order.
 void sortByMortonCode(LargeVector<std::uint64_t>& keys);

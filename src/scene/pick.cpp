@@ -71,24 +71,16 @@ struct TriangleGroups {
 constexpr std::size_t groupSize = 16;
 constexpr std::size_t minRaysForGroups = 8;  // for fewer rays, sorting takes longer than it saves
 
-// Returns the index of the grid cell that contains `offset`, a distance from the start of the grid along one axis.
-std::uint32_t cellAt(double offset, double cellsPerMetre) {
-    const double cell = offset * cellsPerMetre;
-    return cell >= 0 && cell <= maxMortonCell ? static_cast<std::uint32_t>(cell) : 0;
-}
-
 // Sorts the triangles in Morton order. `place(index)` returns the position of vertex `index`.
 template <typename Place>
 void sortInSpace(TriangleGroups& groups, const Place& place) {
     const glm::dvec3 size = groups.bounds.size();
-    const double scale = maxMortonCell / std::max({size.x, size.y, size.z});
+    const double cells = maxMortonCell / std::max({size.x, size.y, size.z});  // grid cells per unit of length
     LargeVector<std::uint64_t> keys;  // Morton code in the upper 32 bits, index of the triangle in the lower 32 bits
     keys.reserve(groups.triangles.size());
     for (const Corners& corners : groups.triangles) {
         const glm::dvec3 centre = (place(corners[0]) + place(corners[1]) + place(corners[2])) / 3.0;
-        const glm::dvec3 offset = centre - glm::dvec3(groups.bounds.minimum);
-        const std::uint32_t code =
-            mortonCode({cellAt(offset.x, scale), cellAt(offset.y, scale), cellAt(offset.z, scale)});
+        const std::uint32_t code = mortonCode((centre - glm::dvec3(groups.bounds.minimum)) * cells);
         keys.push_back(std::uint64_t{code} << 32 | keys.size());
     }
     sortByMortonCode(keys);

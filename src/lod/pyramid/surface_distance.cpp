@@ -71,9 +71,7 @@ LargeVector<Triangle> inMortonOrder(std::size_t count, const TriangleAt& triangl
     for (std::uint64_t& key : keys) {
         const Triangle t = triangle(key);
         const glm::dvec3 centre = (glm::dvec3(t[0]) + glm::dvec3(t[1]) + glm::dvec3(t[2])) / 3.0;
-        const glm::uvec3 cell(glm::clamp((centre - glm::dvec3(bounds.minimum)) * (maxMortonCell / longest),
-                                         glm::dvec3(0), glm::dvec3(maxMortonCell)));
-        key |= std::uint64_t{mortonCode(cell)} << 32;
+        key |= std::uint64_t{mortonCode((centre - glm::dvec3(bounds.minimum)) * (maxMortonCell / longest))} << 32;
     }
     sortByMortonCode(keys);
     LargeVector<Triangle> sorted;
