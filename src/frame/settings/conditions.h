@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 using Condition = std::string (*)(const SettingContext&);
 
-// Where the name does not say it, the comment states the condition under which the function returns a reason.
+// A comment beside a function states when the function returns a reason, unless its name says that.
 std::string methodWithoutSamples(const SettingContext& context);     // the method draws no lens samples
 std::string methodWithoutPositions(const SettingContext& context);   // the method draws one position per sample
 std::string methodWithoutShapes(const SettingContext& context);      // the method supports only round or oval apertures

@@ -91,8 +91,8 @@ TEST(WedgeModule, drawingAVertexOfAnotherPrimitiveIsBad) {
     EXPECT_EQ(wedges.collapse_priority(CollapseInfo(surface.mesh(), surface.edge(4, 1))), 0);
 }
 
-// Where a crease ends below, corners use the surviving vertex with the most similar normal. The crease runs upwards
-// from vertex 4, where the right column has other normals; below it, vertex 1 has a single normal.
+// At the lower end of a crease, corners use the surviving vertex with the most similar normal. The crease runs upwards
+// from vertex 4; there, the right column has other normals. Below vertex 4, vertex 1 has a single normal.
 TEST(WedgeModule, whereACreaseBeginsCornersTakeTheMostSimilarNormal) {
     for (const bool likeTheRight : {false, true}) {
         Vertices vertices = tornGrid(0);

@@ -176,7 +176,7 @@ TEST(LensCells, blurFallsWithTheSamplesUntilThereIsNone) {
         ASSERT_LT(glm::distance(none.middles[i], before.middles[i]), 1e-6f) << i;
 }
 
-// As the blur grows, the resolution that a sample's image needs falls without a jump to 1/16 of full resolution.
+// While the blur grows, the resolution that a sample's image needs falls to 1/16 of full resolution, without a jump.
 TEST(LensCells, pixelRateIsContinuous) {
     const auto small = muchBlurred();
     const LensCells cells = lensCellsOf(*small, 64);

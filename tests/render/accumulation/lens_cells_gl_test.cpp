@@ -355,8 +355,8 @@ TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
     }
 }
 
-// As samples are added, the blur of lens cells vanishes and the image converges to the reference. Compared with method
-// accumulation at the same number of samples, the error is below 60 % with 16 samples and never above 105 %.
+// With more samples, the blur of lens cells vanishes and the image converges to the reference. The error is compared
+// with that of method accumulation at the same number of samples: below 60 % with 16 samples, never above 105 %.
 TEST_F(LensCellImages, convergesToTheReference) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = blurredSpheres();
