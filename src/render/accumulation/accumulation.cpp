@@ -35,7 +35,7 @@ constexpr std::uint32_t maxSharedWave = 4;
 // batch in memory and frees this memory after each batch. The page faults of the next batch can take longer than
 // drawing it.
 constexpr std::uint64_t maxWaveTriangles = 400'000;
-constexpr std::uint64_t minWaveOfTriangles = 4;  // min samples per batch, because each batch needs a pass that sums it
+constexpr std::uint64_t minWaveOfTriangles = 4;  // min samples per batch, because summing takes one pass per batch
 
 // Returns the max number of layers in memory, each the image of one sample: the number set by `limit` or by `options`,
 // else as many as fit into RendererOptions::waveBytes.
@@ -79,7 +79,7 @@ WaveShape chosenShape(const FramePlan& plan, const RendererOptions& options, con
     return shape;
 }
 
-// Returns the values at the top left position within each pixel. `axis`: number of positions along each axis.
+// Returns the values at the top left subpixel position of each pixel. A pixel has `axis` x `axis` subpixel positions.
 Image ofFirstPositions(Image drawn, int axis) {
     if (axis == 1) return drawn;
     Image result(drawn.width / axis, drawn.height / axis, 1);
@@ -259,7 +259,7 @@ private:
     GpuScene scene_;
     FramePlan plan_;
     LensCells cells_;                  // lens cells of plan_; with 0 blur classes, samples' images are not blurred
-    std::uint32_t samplesBefore_ = 0;  // samples in the sum when plan_ was started
+    std::uint32_t samplesBefore_ = 0;  // number of samples in the sum before those of plan_
     FrameUniforms frame_;
     WaveShape shape_;
     std::optional<LayerSum> sum_;

@@ -11,9 +11,9 @@ namespace defocus::engine {
 
 class BlockMerge {
 public:
-    // Adds the sum of the frame's next block; blocks must be added in sample order. All sums are RGBA of equal size, of
-    // 64 samples, except for the last, which may be of fewer. Needs a current OpenGL 4.5 context. Throws Error for a
-    // wrong size or number of samples.
+    // Adds the sum of the frame's next block; blocks must be added in sample order. All sums are RGBA images of equal
+    // size. Each contains 64 samples; the last may contain fewer. Needs a current OpenGL 4.5 context. Throws Error for
+    // a wrong size or number of samples.
     void add(const BlockSum& block);
     // Returns the mean of all samples of the blocks added so far, at least one block.
     [[nodiscard]] Image image();

@@ -48,7 +48,8 @@ public:
 
     // Returns the defines of the surface pass whose fragment shader is accumulation/layers.frag.
     [[nodiscard]] static ShaderDefines defines(const std::vector<Layer>& layers, bool countsSamples);
-    // Both functions return bytes per pixel: of the data layers of one lens sample, and of the sums over all samples.
+    // Both functions return bytes per pixel: layerBytes() for the data layers of one lens sample, sumBytes() for their
+    // sums over all samples.
     [[nodiscard]] static std::uint64_t layerBytes(const std::vector<Layer>& layers);
     [[nodiscard]] static std::uint64_t sumBytes(const std::vector<Layer>& layers);
     // Returns whether the layers count objects or materials. If so, the surface pass writes their indices.
@@ -89,7 +90,7 @@ private:
     std::filesystem::path shaderFolder_;
     std::map<std::string, SlotSum> slots_;  // sums of the outputs, keyed by macro
     std::map<Layer, Table> tables_;
-    Target sums_;  // framebuffer of the summing passes; its colour is never written
+    Target sums_;  // framebuffer of the summing passes, which never write its colour attachment
     GlTexture unused_;
     std::map<std::string, Program> programs_;
     Fullscreen fullscreen_;

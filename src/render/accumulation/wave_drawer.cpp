@@ -94,7 +94,7 @@ std::uint64_t WaveDrawer::drawOpaque(std::uint32_t first, std::uint32_t count, c
     return surfaces_->drawOpaqueVisible(first, count, to.picture.depths(), layer, *occlusion_, visibility);
 }
 
-// Draws the sky into the layers of colours, but not into the data layers.
+// Draws the sky into the colour layers, but not into the data layers.
 void WaveDrawer::drawSky(std::uint32_t first, std::uint32_t count, const WaveTargets& to) {
     if (to.data) to.picture.target().bind();
     surfaces_->drawSky(first, count);

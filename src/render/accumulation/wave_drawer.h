@@ -21,10 +21,10 @@ struct WaveFrame {
     const FrameUniforms* uniforms = nullptr;
     WaveLayersInfo layers;
     std::optional<LayerWindow> window;  // rectangle of the layers to draw; nullopt: all pixels
-    bool skipsHidden = false;           // hidden triangles are skipped
-    bool countsSamples = false;         // the number of samples differs between pixels
-    bool marksBlended = false;          // blended surfaces add to alpha; see SurfacePass::markBlended
-    bool drawsSky = false;              // the environment is drawn into the layers
+    bool skipsHidden = false;
+    bool countsSamples = false;  // the number of samples differs between pixels
+    bool marksBlended = false;   // blended surfaces add to alpha; see SurfacePass::markBlended
+    bool drawsSky = false;       // the environment is drawn into the layers
 };
 
 // Layers of one batch (wave) of samples. `data` is set only if RenderSettings::layers names data layers.

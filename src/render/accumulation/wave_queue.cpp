@@ -80,7 +80,7 @@ void WaveQueue::prepare(const WaveFrame& frame, const WaveShape& shape) {
     started_ = returned_ = 0;
     abandoned_ = std::make_shared<std::atomic<bool>>(false);
     places_ = std::vector<Place>(std::size_t{active_} * shape.targets);
-    if (lanes_.front()->hasThread()) waitForGpu();  // the scene's buffers must be complete for other contexts
+    if (lanes_.front()->hasThread()) waitForGpu();  // finish uploads before other contexts read the scene's buffers
     std::vector<std::future<std::size_t>> prepared;
     for (std::size_t i = 0; i < lanes_.size(); ++i)
         prepared.push_back(lanes_[i]->run([&drawer = lanes_[i]->drawer(), &frame, &shape, used = i < active_] {
@@ -137,8 +137,8 @@ void WaveQueue::draw(std::uint32_t wave) {
         });
 }
 
-// Returns a batch's (wave's) access to the classification of hidden triangles that all batches of a block share.
-// `firstSample`: first sample of the batch. Must be called in the order of samples.
+// Returns the WaveVisibility of the batch (wave) whose first sample is `firstSample`. Through it, a block's first batch
+// tells the block's other batches which triangles are hidden. Must be called in the order of samples.
 WaveVisibility WaveQueue::visibilityFor(std::uint32_t firstSample) {
     if (firstSample % blockSamples != 0) return {{}, blockVisibility_};
     std::promise<WaveVisibility::Value> made;

@@ -1,8 +1,8 @@
 #pragma once
 // Draws the samples of a frame in batches (waves), in the caller's OpenGL context or in several threads with contexts
 // of their own, and returns the batches in the order of their samples. Software drivers process vertices in the thread
-// that calls OpenGL, so that several threads use more cores. The layers of a batch do not depend on the thread that
-// draws it.
+// that calls OpenGL, so several threads use more cores. The layers of a batch do not depend on the thread that draws
+// it.
 
 #include <atomic>
 #include <cstdint>
