@@ -30,8 +30,8 @@ SumLevel shownTexels(const TextureImage& image, float cutoff) {
     return level;
 }
 
-// Returns the sums over squares of twice the side. If a side has an odd number of squares, those at its border count
-// twice.
+// Returns the sums over squares with twice the side length. If the number of columns or rows of `fine` is odd, the last
+// column or row counts twice.
 SumLevel halved(SumLevel& fine) {
     SumLevel coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}};
     for (int y = 0; y < coarse.height; ++y)

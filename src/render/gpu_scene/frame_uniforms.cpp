@@ -97,7 +97,7 @@ GlTexture specularAlbedoTexture() {
     return texture;
 }
 
-// Returns whether shaders may contain the lighting as constants: whether the lighting is the same in every frame, and
+// Returns whether shaders may contain the lighting as constants: true if the lighting is the same in every frame and
 // there are few lights. Constants for many lights would make shaders too long.
 bool staysLitAlike(const World& world) {
     return world.lights.size() <= maxConstantLights && (world.scene->clips.empty() || world.pose.lights.empty());
@@ -230,8 +230,8 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
 
     // Compute the sky's offset per lens sample, in units of the image plane at distance 1. The circle of confusion is C
     // = a + b·w at depth w, so C/w = b at infinity, and lens point and jitter shift the sky by a fixed offset. With
-    // blur controls, C/w depends on the pixel, and the shader multiplies it with the lens point. The buffer is padded
-    // to complete blocks, which are bound one at a time.
+    // blur controls, C/w depends on the pixel, and the shader multiplies it by the lens point. The buffer is padded to
+    // complete blocks, which are bound one at a time.
     const glm::vec2 imagePlane(plan.tanHalfHorizontal, plan.tanHalfHorizontal * plan.view.height / plan.view.width);
     const double dioptres = plan.coc.chromatic > 0 ? plan.view.lens.axialChromaticAberration : 0;
     std::vector<float> bandShifts(samples.size());

@@ -17,7 +17,7 @@ inline constexpr std::uint32_t blockSamples = 64;  // lens samples per block; th
 // Lens sample as per-instance vertex attributes.
 struct GpuSample {
     glm::vec4 lensAndJitter;  // xy: lens point (u, k·v), k = image width / height; zw: subpixel jitter (NDC)
-    glm::vec4 eyeAndSample;   // xy: lens point in m; z: index of the sample in the frame; w: layer it is drawn into
+    glm::vec4 eyeAndSample;   // xy: lens point in m; z: index of the sample in the frame; w: layer to draw into
 };
 
 class FrameUniforms {

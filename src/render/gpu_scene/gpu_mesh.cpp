@@ -13,9 +13,9 @@ namespace defocus::engine {
 
 namespace {
 
-// Max bytes of a mesh that shares buffers; larger meshes do not.
+// Max size in bytes of a mesh that shares buffers with other meshes.
 constexpr std::size_t largestSharing = std::size_t{1} << 16;
-constexpr std::size_t sharedBytes = std::size_t{1} << 20;  // bytes from which shared buffers accept no further mesh
+constexpr std::size_t sharedBytes = std::size_t{1} << 20;  // size in bytes at which shared buffers are full
 
 // A mesh is far from its origin on an axis if the coordinate of its bounding box's centre is at least this multiple of
 // half the box's largest side.
@@ -103,7 +103,7 @@ AttributeSet attributesOf(const Pyramid& pyramid, const std::vector<bool>& level
     return set;
 }
 
-// Returns a mesh whose data are placed in shared buffers behind the vertices and indices counted in `extent`. Adds the
+// Returns a mesh whose data are placed in shared buffers after the vertices and indices counted in `extent`. Adds the
 // counts of the mesh to `extent`.
 GpuMesh placed(const Pyramid& pyramid, const std::vector<bool>& levels, Extent& extent) {
     GpuMesh mesh;

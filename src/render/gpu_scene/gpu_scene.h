@@ -46,8 +46,8 @@ public:
 
 private:
     void addMissing(std::size_t mesh, const std::vector<bool>& used, std::vector<MeshUpload>& missing);
-    // Returns a texture, or nullptr if it is not used. With a cutoff > 0, mip levels ≥ 1 hold in alpha the fraction of
-    // their full-size texels whose alpha is at least the cutoff (cut_out.h).
+    // Returns a texture, or nullptr if it is not used. With a cutoff > 0, the alpha of a texel in mip levels ≥ 1 is the
+    // fraction of its full-size texels whose alpha is at least the cutoff (cut_out.h).
     const GlTexture* texture(const TextureUse& use, bool srgb, float cutoff = 0);
     // Uploads the textures that a material uses, if they are missing, and returns them.
     GpuMaterialTextures texturesOf(const Material& material);
@@ -55,7 +55,7 @@ private:
 
     const World* world_;
     SubmissionPacer pacer_;
-    std::vector<GpuMesh> meshes_;  // per mesh of the world; without levels until a frame uses the mesh
+    std::vector<GpuMesh> meshes_;  // one per mesh of the world, without levels until a frame uses the mesh
     std::map<std::tuple<int, bool, float>, GlTexture> textures_;  // textures, keyed by the arguments of texture()
     std::set<GpuMaterialTextures> textureSets_;                   // distinct values of texturesOf()
     // Entry i: textures of material i − 1; entry 0: of the default material. Null if no frame has used the material.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr GLuint materialBinding = 2;  // binding of the material's block in shaders/include/frame.glsl
 
-constexpr float minAttenuation = 1e-6f;  // lower bound of a colour channel before its logarithm
+constexpr float minAttenuation = 1e-6f;  // lower bound of colour channels, so that their logarithms are finite
 
 GpuMaterial blockOf(const Material& material, double metresPerUnit) {
     GpuMaterial block{};
@@ -25,8 +25,8 @@ GpuMaterial blockOf(const Material& material, double metresPerUnit) {
     const float ior = material.ior;
     const float normalIncidence = ior > 0 ? (ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1)) : 1.0f;
     block.reflectance = glm::vec4(normalIncidence * material.specularColorFactor, material.specularFactor);
-    // transmission.w is the factor on the blur of the background by roughness: 0 for refractive index 1 (air), 1 for
-    // 1.5 and above.
+    // transmission.w scales the blur that roughness causes in the background: 0 for refractive index 1 (air), 1 for 1.5
+    // and above.
     block.transmission = {material.transmissionFactor, material.thicknessFactor, ior > 0 ? 1 / ior : 0.0f,
                           ior > 0 ? glm::clamp(2 * ior - 2, 0.0f, 1.0f) : 1.0f};
     const double distance = material.attenuationDistance * metresPerUnit;

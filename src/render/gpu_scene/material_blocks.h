@@ -1,8 +1,8 @@
 #pragma once
 // Uploads the uniform blocks of materials. Only materials that transform texture coordinates have a block with these
-// transforms, because few materials do and the transforms are larger than all other values. A separate block for the
-// transforms, together with the blocks of lights and shadows, would exceed the limit of Mesa 22.3's Vulkan driver
-// (lavapipe).
+// transforms, because few materials need them and they are larger than all other values. The transforms have no
+// separate block: with lights and shadows, it would be one uniform block more than Mesa 22.3's Vulkan driver (lavapipe)
+// supports.
 
 #include <array>
 #include <glm/vec4.hpp>
@@ -35,7 +35,7 @@ struct GpuTransformedMaterial {
     std::array<glm::vec4, 2 * materialTextureCount> uvRows;
 };
 
-// Returns whether a texture is read at other coordinates than UV set 0.
+// Returns whether a texture is read at coordinates other than UV set 0.
 bool transformsUv(const TextureUse& use);
 
 class MaterialBlocks {

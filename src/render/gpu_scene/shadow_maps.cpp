@@ -136,7 +136,7 @@ void ShadowMaps::draw(std::uint32_t first, std::uint32_t count) {
     if (defines_.empty()) return;
     target_.bind();
     glDepthMask(GL_TRUE);
-    constexpr float nothing[4] = {};  // depth is reversed: infinitely far from the light
+    constexpr float nothing[4] = {};  // depth is reversed: 0 is infinitely far from the light
     glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, nothing);
     if (tintedMaps_) glClearNamedFramebufferfv(target_.name(), GL_COLOR, 0, nothing);
     for (std::size_t slot = 0; slot < mapsPerSample(plan_); ++slot)

@@ -35,7 +35,7 @@ private:
     SurfacePass casters_;
     const FrameUniforms* frame_ = nullptr;
     EnvironmentDirections directions_;
-    const Image* directionsOf_ = nullptr;  // environment map of directions_; null if none
+    const Image* directionsOf_ = nullptr;  // environment map for which directions_ was computed; null if none
     FramePlan plan_;                       // plan with only the shadow casters
     ShaderDefines defines_;
     TexelBuffer projections_;

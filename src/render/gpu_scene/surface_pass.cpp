@@ -267,7 +267,7 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
         bindVertices(item, indices);
     if (otherProgram || bound_.sample != sample) {
         frame_->bindWave(sample);
-        if (shadows_ != nullptr) shadows_->bind(sample);  // also sets a uniform of the program
+        if (shadows_ != nullptr) shadows_->bind(sample);  // bind() also sets a uniform of the current program
         bound_.sample = sample;
     }
     if (otherProgram || bound_.object != item.object) {
@@ -387,7 +387,7 @@ std::uint64_t SurfacePass::drawOpaqueVisible(std::uint32_t first, std::uint32_t 
 // Draws the triangles that remain after the occlusion test. Returns the number of drawn triangles, summed over samples.
 std::uint64_t SurfacePass::drawRemaining(const RemainingDraws& remaining, std::uint32_t first, std::uint32_t count) {
     const Buffer indices = Buffer::of(std::span<const std::uint32_t>(remaining.indices));
-    bound_ = {};  // OpenGL may reuse the name of a deleted buffer for `indices`
+    bound_ = {};  // `indices` may have the OpenGL name of a deleted buffer that was bound
     std::uint64_t triangles = 0;
     for (const RemainingDraw& part : remaining.draws) {
         const SampleSpan samples = samplesOf(part, first, count);

@@ -23,7 +23,7 @@ struct SurfacePassInfo {
     std::string fragmentShader;  // path under shaders/
     ShaderDefines defines;       // defines of the pass, such as the layer format
     SurfaceLook look = SurfaceLook::seenThrough;
-    // Surfaces of BlendRun::stochastic are drawn with stochastic alpha; false: sorted and blended.
+    // true: surfaces with BlendRun::stochastic are drawn with stochastic alpha; false: they are sorted and blended.
     bool stochasticAlpha = false;
     bool readsOwnBlur = false;       // the fragment shader reads the blur modifiers of surfaces
     bool readsPosition = false;      // the fragment shader reads the positions of surfaces even without shadows
@@ -120,7 +120,7 @@ private:
         std::optional<std::size_t> materialSlot;
     };
 
-    // Programs of a pass with the same defines of the pass, keyed by the defines of their draws.
+    // Programs with the same defines of the pass, keyed by the defines of the draws that use them.
     using Programs = std::map<std::string, Program>;
 
     void uploadMaterials();
@@ -158,7 +158,7 @@ private:
     std::array<Programs*, 2> passPrograms_{};  // programs compiled with passDefines_, at the same index
     Bound bound_;
     Program sky_;
-    ShaderDefines skyDefines_;  // defines of sky_
+    ShaderDefines skyDefines_;
     VertexArrays arrays_;
     VertexArray skyArray_;
     const FrameUniforms* frame_ = nullptr;
@@ -172,7 +172,7 @@ private:
     std::vector<Draw> dissolved_;  // draws of stochastically transparent parts of primitives
     Buffer partIndices_;           // indices of BlendRun::triangles
     bool marksBlended_ = false;
-    std::vector<Draw> translucent_;  // sorted alpha-blended or transmitting; farthest first
+    std::vector<Draw> translucent_;  // draws of sorted alpha-blended or transmitting surfaces, farthest first
     std::size_t transmittingObjects_ = 0;
     bool blursBackdrop_ = false;  // true if a transmitting surface is rough
     Backdrop backdrop_;
