@@ -44,7 +44,7 @@ FramePlan widened(const FramePlan& plan, int border) {
     coc.gain *= wider * wider;
     coc.aspect = static_cast<double>(wide.view.width) / wide.view.height;
     for (LensSample& sample : wide.samples) sample.lens = glm::vec2(0);
-    for (ObjectPlan& object : wide.objects) object.refinement = Refinement::none;  // not needed without lens blur
+    for (ObjectPlan& object : wide.objects) object.refinement = Refinement::none;  // a pinhole view needs no refinement
     return wide;
 }
 

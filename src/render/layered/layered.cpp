@@ -114,8 +114,8 @@ public:
     }
 
 private:
-    // Returns the index of the pinhole image that a lens sample uses. The image changes only after run_ samples, which
-    // are well distributed over the lens.
+    // Returns the index of the pinhole image that a lens sample uses. Each image is used for run_ consecutive samples,
+    // which are well distributed over the lens.
     [[nodiscard]] std::uint32_t pinholeOf(std::uint32_t sample) const {
         return static_cast<std::uint32_t>(std::uint64_t{sample / run_ * run_} * pinholeCount_ / plan_.samples.size());
     }

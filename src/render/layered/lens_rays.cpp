@@ -10,8 +10,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int extentLevels = 6;                   // mip levels of min and max, with squares of 2 … 64 px
-constexpr int largestSquare = 1 << extentLevels;  // side in px of a texel of the coarsest of these levels
+constexpr int extentLevels = 6;                   // number of mip levels, whose texels cover squares of 2 … 64 px
+constexpr int largestSquare = 1 << extentLevels;  // side in px of the squares of the coarsest mip level
 constexpr GLuint groupSize = 8;                   // threads per side of a work group
 
 // Returns the size in texels of the finest mip level (squares of 2 px), rounded up so that all coarser levels divide it

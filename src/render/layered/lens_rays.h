@@ -3,9 +3,9 @@
 // the images of lens samples.
 //
 // Lee, Eisemann and Seidel 2010 bound the depths that a pixel's rays may hit by N-buffers: min and max depth in squares
-// around each pixel, for each power of two as side. This implementation uses mipmaps of min and max, which take a fifth
-// of the memory of N-buffers and give slightly wider bounds. The mipmaps store blurs instead of depths, so that the
-// bounds hold for all blur controls.
+// around each pixel, with all powers of two as side lengths. This implementation uses mipmaps of min and max, which
+// take a fifth of the memory of N-buffers and give slightly wider bounds. The mipmaps store blurs instead of depths, so
+// that the bounds hold for all blur controls.
 
 #include "gl/buffer.h"
 #include "gl/program.h"
@@ -34,7 +34,8 @@ public:
     // Prepares tracing of `plan`. `frame` must have been uploaded for `plan` with K layers (K samples are drawn
     // together), and must exist until the last trace().
     void prepare(const FramePlan& plan, const FrameUniforms& frame);
-    // Computes bounds of the blurs that each pixel's rays may hit in `layers`. Call it after each DepthLayers::peel.
+    // Computes, for each pixel, bounds of the blurs of the surfaces in `layers` that the pixel's rays may hit. Must be
+    // called after each DepthLayers::peel.
     void bound(const DepthLayers& layers);
     // Draws samples [first, first + count) into the bound target, each into its own layer. Colours are premultiplied;
     // pixels whose ray hits no surface are transparent. `pinhole` is the subpixel offset of the layers
@@ -49,7 +50,7 @@ private:
     GlTexture reach_;    // per pixel: range of the blurs of the surfaces that its rays may hit
     Program base_, extend_, bound_;
     Program trace_;
-    ShaderDefines traceDefines_;  // defines of trace_
+    ShaderDefines traceDefines_;
     VertexArray samples_;
     const FrameUniforms* frame_ = nullptr;
 };

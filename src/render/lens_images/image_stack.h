@@ -1,8 +1,8 @@
 #pragma once
 // Stores images of equal size as half floats and computes means of some of them, shifted by whole pixels (src/refocus).
 //
-// The images are the layers of a texture. Where OpenGL runs on the CPU, they are in the program's memory, and the
-// program computes the mean in less time than a shader needs there.
+// The images are the layers of a texture. If OpenGL runs on the CPU, they are stored in main memory instead, and C++
+// code computes the mean, because it is faster than a shader on the CPU.
 
 #include <cstdint>
 #include <filesystem>
@@ -49,9 +49,9 @@ private:
     void sumMean(std::span<const Part> parts);
 
     bool software_;
-    GlTexture images_;               // all images; or, where OpenGL runs on the CPU, the latest one
-    std::vector<HalfImage> halves_;  // all images where OpenGL runs on the CPU, with row 0 at the bottom
-    std::vector<float> sums_;        // RGBA of the mean, where OpenGL runs on the CPU
+    GlTexture images_;               // all images; if OpenGL runs on the CPU, only the latest image
+    std::vector<HalfImage> halves_;  // all images if OpenGL runs on the CPU; row 0 at the bottom
+    std::vector<float> sums_;        // RGBA of the mean, if OpenGL runs on the CPU
     GlTexture mean_;
     Target meanTarget_;
     Program store_, sum_;

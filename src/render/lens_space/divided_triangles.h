@@ -24,8 +24,8 @@ struct DividedRun {
     [[nodiscard]] std::uint64_t triangleCount() const { return std::uint64_t{baseCount} * parts * parts; }
 };
 
-// Max number of small triangles of a frame. Their vertices fit into the smallest buffer of the supported drivers
-// (Mesa's llvmpipe, 128 MiB).
+// Max number of small triangles of a frame. Their vertices fit into 128 MiB, the smallest max buffer size of the
+// supported drivers (Mesa's llvmpipe).
 inline constexpr double maxSmallTriangles = 1'000'000;
 
 // Returns the number of parts n ≤ 64 into which each edge is divided, so that the circle of confusion deviates from

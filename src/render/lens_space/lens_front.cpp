@@ -181,8 +181,8 @@ std::uint32_t LensFront::groupOf(int mesh, int material, std::uint32_t level) {
 }
 
 void LensFront::makeTriangles() {
-    // Triangles that are divided are replaced by small triangles. Convert the former first: clearing firstTriangles_
-    // then removes their entries, so that only triangles of the frame have entries.
+    // First convert the triangles that will be divided. Clearing firstTriangles_ afterwards removes their entries,
+    // because small triangles replace them in the frame.
     if (lightsVertices_) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, firstTriangles_.name());
     convertRuns(bases_, true);
     if (lightsVertices_) {

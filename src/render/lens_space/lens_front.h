@@ -47,7 +47,7 @@ struct BinStatistics {
 struct LensFrontOptions {
     std::uint32_t tileSize = 0;   // tile side in px
     bool lightsVertices = false;  // lighting is computed per vertex (RecordShading)
-    // Divides triangles in which the circle of confusion C is not linear; false: C is made linear, as published.
+    // true: divides triangles in which the circle of confusion C is not linear; false: C is made linear, as published.
     bool divides = true;
     // Max bytes of the tiles' lists of triangles. If the lists need more, the tiles are processed in several bands.
     std::uint64_t entryBytes = 0;
@@ -95,7 +95,7 @@ private:
         std::uint32_t triangles = 0;
         std::uint32_t firstVertex = 0;
         std::uint32_t draw = 0;
-        std::uint32_t parts = 1;  // number of parts into which each edge is divided; 1: undivided
+        std::uint32_t parts = 1;  // number of parts into which each triangle edge is divided; 1: undivided
     };
     struct Vertices {  // the vertices of an object at one level of detail
         std::uint32_t object = 0;
@@ -125,7 +125,7 @@ private:
     const Program& vertexProgram(const Vertices& vertices, bool attributes);
     void makeDepths();
     void countTiles();
-    void binInto(std::uint32_t firstTile, std::uint32_t endTile);  // the program and the buffers must be bound
+    void binInto(std::uint32_t firstTile, std::uint32_t endTile);  // the compute program and its buffers must be bound
     void sort(const TileBand& band);
 
     GpuScene* scene_;

@@ -10,7 +10,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t groupBytes = 4 * sizeof(std::uint32_t);     // element size in shaders/lens_space/groups.glsl
-constexpr std::size_t dispatchBytes = 3 * sizeof(std::uint32_t);  // DispatchIndirectCommand of OpenGL
+constexpr std::size_t dispatchBytes = 3 * sizeof(std::uint32_t);  // size of OpenGL's DispatchIndirectCommand
 
 }  // namespace
 

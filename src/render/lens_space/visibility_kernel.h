@@ -19,7 +19,7 @@ struct RayWave {
 class VisibilityKernel {
 public:
     virtual ~VisibilityKernel() = default;
-    [[nodiscard]] virtual std::string name() const = 0;        // name of the method
+    [[nodiscard]] virtual std::string name() const = 0;
     [[nodiscard]] virtual std::uint32_t tileSize() const = 0;  // tile side in px
     // Returns whether lighting is computed at vertices and interpolated; otherwise it is computed at the hits.
     [[nodiscard]] virtual bool lightsVertices() const = 0;

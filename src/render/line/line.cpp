@@ -17,12 +17,12 @@ namespace {
 
 constexpr std::uint32_t lineTile = 8;  // tile side in px
 constexpr std::size_t rangeBytes = 2 * sizeof(std::uint32_t);
-constexpr std::size_t jobRanges = 2;  // elements of `ranges` (kernel.glsl) per deferred job, which is a tile and a line
+constexpr std::size_t jobRanges = 2;  // elements of `ranges` (kernel.glsl) per deferred job (one line in one tile)
 // Mesa's llvmpipe ends the loops of a shader invocation after a total of 65,535 iterations. Kernels may do up to twice
 // softwareRounds iterations before they defer the rest to the next dispatch.
 constexpr std::uint32_t softwareRounds = 30'000;
 constexpr std::size_t stateBytes = 32u << 20;   // approximate bytes for the states of jobs that take several dispatches
-constexpr std::uint64_t expectedRecords = 6;    // records (ray hits) per line; the buffer grows if needed
+constexpr std::uint64_t expectedRecords = 6;    // initial buffer size in records (ray hits) per line
 constexpr std::uint32_t maxShadingPoints = 16;  // max shading points per visible interval of a line
 constexpr std::uint32_t firstCapacity = 48;     // initial max number of intervals per line, for the exact kernel
 constexpr std::uint32_t maxCapacity = 1536;
@@ -291,7 +291,7 @@ private:
     std::uint32_t maxRounds_ = 0;  // max loop iterations of a shader invocation per dispatch; 0: unlimited
     Totals totals_;
     std::uint64_t lines_ = 0;
-    std::uint64_t droppedEntries_ = 0;  // triangles dropped because a tile has more than binSize_
+    std::uint64_t droppedEntries_ = 0;  // number of triangles dropped from tiles with more than binSize_ triangles
 };
 
 }  // namespace
