@@ -1,6 +1,6 @@
 #pragma once
-// Finds the triangles that are hidden in a lens sample from the sample's depth buffer, so that a software rasterizer
-// can skip them. Without culling, a hidden triangle costs nearly as much as a visible triangle.
+// Uses the depth buffer of a lens sample to find the triangles that are hidden in the sample, so that a software
+// rasterizer can skip them. Without culling, a hidden triangle costs nearly as much as a visible triangle.
 //
 // In the first sample of a block of 64, all triangles are drawn, and each piece (a few neighbouring triangles,
 // index_pieces.h) is classified as visible or hidden. In each later sample, the pieces classified as visible are drawn
@@ -59,9 +59,10 @@ struct PieceVisibility {
     bool hidesMuch = false;                // whether enough triangles are hidden for culling to be faster
 };
 
-// Access of a batch (wave) of samples to the classification of its block. The batch with the block's first sample makes
-// the classification, and all batches of the block use it. If that batch cannot make the classification, because of an
-// error or because the frame is abandoned, it destroys `made`, and the waiting batches throw std::future_error.
+// Gives a batch (wave) access to its block's PieceVisibility, the classification of triangles as visible or hidden. The
+// batch with the block's first sample makes the classification, and all batches of the block use it. If that batch
+// cannot make the classification, because of an error or because the frame is abandoned, it destroys `made`, and the
+// waiting batches throw std::future_error.
 struct WaveVisibility {
     using Value = std::shared_ptr<const PieceVisibility>;
     std::optional<std::promise<Value>> made;  // set in the block's first batch until it has made the classification

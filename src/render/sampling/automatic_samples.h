@@ -29,10 +29,10 @@ std::uint32_t firstSamples(double blur, Quality quality);
 // above 4,096 px a side or 4 megapixels have one position, because the layers would take too much memory.
 bool fourPositionsSuffice(const FramePlan& plan, double samples);
 
-// Returns `settings` with a number of samples, a power of two up to 64 or complete blocks of 64, for the quality of
-// about `samples` samples with one pixel position each. With four positions, the number is a quarter. Four positions
-// are set if `choosesPositions` and fourPositionsSuffice(); an error estimate must then show whether the samples
-// suffice. `plan` is a plan of the frame with any number of samples.
+// Returns `settings` with a number of samples, a power of two up to 64 or complete blocks of 64, that gives about the
+// quality of `samples` samples with one pixel position each. With four positions, the number is a quarter. Four
+// positions are set if `choosesPositions` and fourPositionsSuffice(); an error estimate must then show whether the
+// samples suffice. `plan` is a plan of the frame with any number of samples.
 RenderSettings withSamples(RenderSettings settings, const FramePlan& plan, double samples, bool choosesPositions);
 
 // Returns the number of samples of a frame whose error cannot be estimated before it is complete, such as a frame in

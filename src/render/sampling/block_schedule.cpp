@@ -13,9 +13,10 @@ namespace {
 // Max error of levels of detail, relative to the intended error. The total error is then at most √(1 + 0.5²) = 1.12
 // times the intended error.
 constexpr double levelShare = 0.5;
-// Factor on the expected number of samples if the error of levels of detail is unknown.
+// If the error of levels of detail is unknown, the level thresholds are the defaults for this many times the expected
+// samples.
 constexpr double withoutLevelError = 4;
-constexpr double blockTolerance = 0.7;  // s after the time limit at which an unfinished block is stopped
+constexpr double blockTolerance = 0.7;  // seconds after the time limit at which an unfinished block is stopped
 constexpr double maxThresholdSamples = 1e8;
 constexpr double maxLevelPower = 1.4;
 // Sample count of the first error estimate, which needs two blocks.

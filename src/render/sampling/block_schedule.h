@@ -22,7 +22,7 @@ const char* stopReasonText(StopReason reason);
 
 // RMSE of levels of detail, as in ErrorEstimate: the difference between images with levels and at full detail, for the
 // same few lens samples. The levels depend on a sample count through its default thresholds. The RMSE is modelled as a
-// power law in that count, through two measurements.
+// power law in that count, fitted to two measurements.
 struct LevelError {
     static constexpr std::uint32_t drawn = 16;    // lens samples drawn for each measurement
     static constexpr std::uint32_t coarse = 128;  // sample count whose default thresholds apply to `atCoarse`

@@ -4,8 +4,8 @@
 // Blocks of a low-discrepancy sequence are not independent: each fills gaps of the earlier blocks, so the error of n
 // blocks is not the error of one block divided by √n. Model: the error of the mean of k successive blocks is
 // proportional to k^(−a). The difference of the means of two successive ranges of blocks is then a known multiple of
-// the error of their common mean, for any scene. Let s(k) = k^(−2a) and M(k) the mean of the first k blocks. For a
-// range of m blocks and the next n − m blocks, the covariance of the errors of the two means is
+// the error of their common mean, for any scene. Let s(k) = k^(−2a), and let M(k) be the mean of the first k blocks.
+// For a range of m blocks and the next n − m blocks, the covariance of the errors of the two means is
 //   c = (n² s(n) − m² s(m) − (n − m)² s(n − m)) / (2 m (n − m)).
 // Then, in units of the squared error of one block,
 //   E|M(n) − M(m)|² = ((n − m)/n)² (s(m) + s(n − m) − 2c), E|M(n) − truth|² = s(n).
@@ -43,8 +43,8 @@ inline constexpr double flipOverDifference = 7.5;
 class ErrorEstimate {
 public:
     // Adds the mean of the first `samples` samples of a frame: linear, at least 3 channels (a fourth is ignored).
-    // `samples` must increase from call to call. Uses at most about a million pixels: one of each k × k tile. Throws
-    // Error if the image size changes.
+    // `samples` must increase from call to call. Uses at most about a million pixels: one pixel of each k × k tile.
+    // Throws Error if the image size changes.
     void add(const ImageView& mean, std::uint32_t samples);
 
     // Returns the RMS error of the latest image over pixels and channels, in display-encoded values in [0, 1] at EV 0;

@@ -15,7 +15,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns a number or a text; "" for other types.
+// Returns a number or string as text; "" for other types.
 std::string valueText(const MetadataValue& value) {
     if (const auto* text = std::get_if<std::string>(&value)) return *text;
     if (const auto* integer = std::get_if<int>(&value)) return fmt::format("{}", *integer);

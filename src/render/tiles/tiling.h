@@ -38,10 +38,10 @@ struct Tiling {
     std::vector<Band> bands;  // bands from top to bottom
 };
 
-// Bytes per pixel of the accumulation buffers on the device, and of a tile and a band on the host.
+// Bytes per pixel of the accumulation buffers, in device memory.
 inline constexpr std::uint64_t sumPixelBytes = 9 * 16;
-inline constexpr std::uint64_t tilePixelBytes = 16;  // RGBA floats of a tile, read back
-inline constexpr std::uint64_t bandPixelBytes = 16;  // RGBA floats of a band, with the image's full width
+inline constexpr std::uint64_t tilePixelBytes = 16;  // bytes per pixel of a tile read back to the host: RGBA floats
+inline constexpr std::uint64_t bandPixelBytes = 16;  // bytes per pixel of a band on the host: RGBA floats
 // Bytes per pixel on the host of an image without tiles: read back, encoded, and written.
 inline constexpr std::uint64_t wholePixelBytes = 16 + 16 + 16;
 
