@@ -61,8 +61,8 @@ void FrameRun::startAutomatic(const RenderSettings& settings, const StopSettings
     startAbout(firstSamples(plan_, automatic_->quality));
 }
 
-// Starts a frame of the quality of about `samples` samples with one pixel position each. Fewer than 64 samples are
-// drawn as a trial, more in blocks of 64. plan_ must be a plan of the frame, with any number of samples.
+// Starts a frame whose quality is that of about `samples` samples with one pixel position each. Fewer than 64 samples
+// are drawn as a trial, 64 or more in blocks of 64. plan_ must be a plan of the frame, with any number of samples.
 void FrameRun::startAbout(double samples) {
     const RenderSettings settings = withSamples(automatic_->settings, plan_, samples, automatic_->choosesPositions);
     if (settings.sampleCount >= blockSamples) {

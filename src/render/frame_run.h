@@ -67,7 +67,7 @@ private:
     std::optional<Automatic> automatic_;  // nullopt: the number of samples is not automatic
     // Estimates the error of a trial: a complete frame of fewer samples than a block, with an automatic number of
     // samples. If the error exceeds the limit of the quality setting, the frame is drawn again with more samples.
-    // nullopt: the frame is no trial.
+    // nullopt: the frame is not a trial.
     std::optional<ErrorEstimate> trial_;
     FramePlan plan_;
     double planMilliseconds_ = 0;

@@ -23,7 +23,7 @@ struct NumberCounts {
 struct LayerImages {
     Image coverage;                         // 1 channel: fraction of the samples that show a surface
     std::map<Layer, Image> means;           // premultiplied means of 1 to 3 channels
-    Image nearestDepth;                     // with Layer::depth: depth in m, +∞ where no sample shows a surface
+    Image nearestDepth;                     // only with Layer::depth: min depth in m over all samples; +∞: no surface
     Image samples;                          // 1 channel: number of lens samples that contribute to the pixel
     std::map<Layer, NumberCounts> numbers;  // key: Layer::objects or Layer::materials
 };

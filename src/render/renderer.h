@@ -29,9 +29,9 @@ struct MethodFigure {
 
 struct RenderStats {
     std::uint32_t samples = 0;
-    double setupMilliseconds = 0;       // uploads and compilation of shaders
+    double setupMilliseconds = 0;       // time for uploads and for compiling shaders
     double renderMilliseconds = 0;      // time from the end of the setup until the image is complete
-    CpuTime cpuTime;                    // CPU time of the interval of renderMilliseconds
+    CpuTime cpuTime;                    // CPU time in the interval that renderMilliseconds measures
     double gpuMilliseconds = 0;         // measured by timer queries; excludes vertex work with software drivers
     std::uint64_t trianglesDrawn = 0;   // triangles in the plan, summed over all samples
     std::uint64_t trianglesHidden = 0;  // triangles of the plan that were skipped because they are hidden

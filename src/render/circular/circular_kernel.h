@@ -37,8 +37,8 @@ inline constexpr int publishedKernelLimit = 5;  // max components of the kernels
 
 // Returns the kernel of `count` components, 1 to publishedKernelLimit, with Niemitalo's constants (2010) as they are
 // printed, for offsets x = tap/8. Garcia's slides print the table of two components; the other kernels come from
-// Garcia's public generator of filters. The slides also print e^(−a·x²) with negative a, which grows with x; here a is
-// positive. The kernels approximate disks of radii 1.07 to 1.10, so that the square cuts them off. Throws Error for
+// Garcia's public filter generator. The slides also print e^(−a·x²) with negative a, which grows with x; here a is
+// positive. The kernels approximate disks of radii 1.07 to 1.10, so the square cuts these disks off. Throws Error for
 // another `count`. The data have static lifetime.
 std::span<const CircularComponent> publishedCircularKernel(int count);
 

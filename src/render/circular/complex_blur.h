@@ -40,14 +40,14 @@ enum class KernelConstants {
 struct ComplexBlurInfo {
     int width = 1;
     int height = 1;
-    // Horizontal and vertical semi-axis of an elliptical blur, relative to the radius.
+    // Horizontal and vertical semi-axes of an elliptical blur, relative to the radius.
     double across = 1;
     double upwards = 1;
     int components = 1;  // number of components: 1 … circularKernelLimit if fitted, else 1 … publishedKernelLimit
     KernelConstants constants = KernelConstants::fitted;
     ComplexStorage storage = ComplexStorage::half;
     ComplexTaps taps = ComplexTaps::exact;
-    bool direct = false;  // true: one pass over the square instead of two, with O(radius²) taps; same image
+    bool direct = false;  // true: one pass with O(radius²) taps instead of two separable passes; same image
     std::filesystem::path shaderFolder;
 };
 

@@ -55,7 +55,7 @@ private:
     PinholeImage image_;
     PinholeImage multisampled_;       // multisampled image; empty without multisampling
     Target target_, resolvedTarget_;  // target to draw into; with multisampling, target for the resolved image_
-    bool transparent_ = false;        // true if the background is transparent
+    bool transparent_ = false;
     ShadowMaps shadows_;
     SurfacePass surfaces_;
     std::vector<ObjectSet> buckets_;

@@ -17,8 +17,8 @@ public:
     virtual ~PostProcess() = default;
     // Prepares the blur for a frame; called before the frame's first draw().
     virtual void start(const FramePlan& plan, const FrameUniforms& frame) = 0;
-    // Draws `pinhole` blurred into `output`: linear radiance, alpha 1. The blur must be a linear function of the
-    // radiance, because it is also applied to coverage. Pixels outside PinholeImage::part may be omitted.
+    // Blurs `pinhole` and draws the result into `output`: linear radiance, alpha 1. The blur must be a linear function
+    // of the radiance, because it is also applied to coverage. Pixels outside PinholeImage::part may be omitted.
     virtual void draw(const PinholeImage& pinhole, const FrameUniforms& frame, const Target& output) = 0;
     // Returns whether the blur never exceeds the lens blur in the plan.
     [[nodiscard]] virtual bool blursAsTheLens() const { return true; }

@@ -54,7 +54,7 @@ std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::
     if (blended.empty()) return {};
 
     struct Step {
-        double height = 0;       // difference between the blurs of two neighbours, px
+        double height = 0;       // difference in px between the blurs of two neighbouring objects
         std::size_t behind = 0;  // index into `blended` of the first object behind this step
     };
     std::vector<Step> steps;

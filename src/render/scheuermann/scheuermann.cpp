@@ -24,7 +24,7 @@ constexpr double publishedLargest = 10;  // max blur diameter in px
 // Factors on the tap radius in the small image, whose pixels are 4 times as wide.
 constexpr float publishedSmallRadius = 0.4f;
 constexpr float trueSmallRadius = 0.25f;  // factor for taps at the same positions as in the image
-constexpr int smallReduction = 4;         // factor per side between the image and the small image
+constexpr int smallReduction = 4;         // width of a pixel of the small image in image pixels
 constexpr std::uint32_t maxTaps = 64;
 constexpr std::uint32_t candidatesPerPoint = 32;
 
@@ -235,7 +235,7 @@ BlurrinessPlanes withPlanesByHand(const BlurrinessPlanes& planes, const PlanesBy
 }
 
 std::vector<glm::vec2> poissonDisk(std::uint32_t count) {
-    std::vector<glm::vec2> points = {glm::vec2(0)};  // the centre is not a tap, but taps keep their distance to it
+    std::vector<glm::vec2> points = {glm::vec2(0)};  // the centre is not a tap, but taps keep their distance from it
     std::uint64_t next = 0;
     while (points.size() <= count) {
         glm::vec2 best(0);

@@ -50,7 +50,7 @@ BlurrinessPlanes withPlanesByHand(const BlurrinessPlanes& planes, const PlanesBy
 BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focusDistance, double largest, int width);
 
 // Returns `count` points in the unit disk with large distances to each other and to the centre (best candidates,
-// Mitchell 1991). As in the slides, the centre is no tap: only its depth is read. All calls return the same points.
+// Mitchell 1991). As in the slides, the centre is not a tap: only its depth is read. All calls return the same points.
 std::vector<glm::vec2> poissonDisk(std::uint32_t count);
 
 Method scheuermannMethod();
