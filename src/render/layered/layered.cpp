@@ -57,7 +57,7 @@ public:
         run_ = std::bit_floor(std::min(total / pinholeCount_, blockSamples));
         const int border = borderOf(plan);
         pinholes_ = pinholePlan(scene_.world(), plan, pinholeCount_);
-        // Make each sample's position in the pixel relative to the subpixel offset of its pinhole's layers.
+        // Shift each sample's position in the pixel by the subpixel offset of the pinhole image that the sample reads.
         plan_ = plan;
         plan_.moments.clear();
         for (std::uint32_t i = 0; i < total; ++i) plan_.samples[i].pixel += pinholes_.samples[pinholeOf(i)].pixel;
@@ -200,7 +200,7 @@ private:
     RendererOptions options_;
     std::uint32_t wave_;  // requested number of samples drawn together; 0: as many as fit into waveBytes
     GpuScene scene_;
-    FramePlan plan_;      // lens samples; their positions in the pixel are relative to the pinhole image they read
+    FramePlan plan_;      // lens samples; their positions in the pixel include the offset of their pinhole image
     FramePlan pinholes_;  // pinhole images: one sample each, larger than the frame by borderOf() px on each side
     std::uint32_t pinholeCount_ = 1;
     std::uint32_t run_ = 1;  // number of consecutive samples that read the same pinhole image; divides blockSamples

@@ -39,7 +39,7 @@ public:
     void bound(const DepthLayers& layers);
     // Draws samples [first, first + count) into the bound target, each into its own layer. Colours are premultiplied;
     // pixels whose ray hits no surface are transparent. `pinhole` is the subpixel offset of the layers
-    // (LensSample::pixel). The subpixel offsets of the plan's samples are relative to this offset.
+    // (LensSample::pixel). The subpixel offsets of the plan's samples include this offset.
     void trace(const DepthLayers& layers, const glm::vec2& pinhole, std::uint32_t first, std::uint32_t count);
     [[nodiscard]] const LensRaysInfo& info() const { return info_; }
     [[nodiscard]] std::size_t bytes() const { return extents_.bytes() + reach_.bytes(); }
