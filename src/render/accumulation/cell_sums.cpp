@@ -91,7 +91,7 @@ void CellSums::bindForAdding(const Program& addLayers, const GlTexture& layerDep
         glClearTexImage(held_.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
     } else {
         sums_.attach(7);
-        glTextureBarrier();  // each fragment reads only texels at its own position
+        glTextureBarrier();  // suffices, because each fragment reads only texels at its own position
     }
     glBindImageTexture(1, held_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
     glBindImageTexture(0, sums_.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA32F);

@@ -62,7 +62,7 @@ private:
         std::uint64_t hiddenTriangles = 0;
         Fence complete;
     };
-    // Memory of a batch (wave). Batch number w of a frame uses places_[w mod places_.size()].
+    // State of a batch (wave). Batch number w of a frame uses places_[w mod places_.size()].
     struct Place {
         std::future<Drawn> drawn;
         Fence summed;  // complete when the layers have been summed and may be overwritten
@@ -78,7 +78,7 @@ private:
     Occlusion occlusion_;
     std::vector<std::unique_ptr<Lane>> lanes_;
     std::uint32_t active_ = 0;      // number of elements of lanes_ that the frame uses
-    bool severalContexts_ = false;  // true: each lane has a thread and a context of its own
+    bool severalContexts_ = false;  // true: each lane (WaveDrawer) has a thread and a context
     WaveFrame frame_;
     WaveShape shape_;
     std::vector<Place> places_;

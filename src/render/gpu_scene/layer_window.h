@@ -1,7 +1,7 @@
 #pragma once
 // Rectangle of a frame's layers (images of single samples) that is drawn and summed, and position of the layers in the
-// image. Row 0 is the bottom row, as in OpenGL. All values are in pixels of the layers: a layer has one pixel for each
-// of the positions in a pixel of the image (RenderSettings::positions).
+// image. Row 0 is the bottom row, as in OpenGL. All values are in pixels of the layers. With n positions per image
+// pixel (RenderSettings::positions), a layer has n pixels per image pixel.
 
 #include "plan/frame_plan.h"
 

@@ -1,5 +1,6 @@
 #pragma once
-// Stores images of equal size as half floats and computes means of some of them, shifted by whole pixels (src/refocus).
+// Stores images of equal size as half floats and computes means of some of them, each shifted by whole pixels (used by
+// src/refocus).
 //
 // The images are the layers of a texture. If OpenGL runs on the CPU, they are stored in main memory instead, and C++
 // code computes the mean, because it is faster than a shader on the CPU.

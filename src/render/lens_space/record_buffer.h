@@ -18,9 +18,9 @@ Buffer storage(std::uint64_t bytes, const char* what);
 // Ray hits of a batch (wave) of rays, in the layout of shaders/lens_space/records.glsl.
 class RecordBuffer {
 public:
-    // Returns the max number of records that fit into a storage buffer.
+    // Returns the max number of records (ray hits) that fit into a storage buffer.
     static std::uint64_t maxRecords();
-    // Ensures that the buffer has room for `count` records. The buffer's content may be lost.
+    // Ensures that the buffer has room for `count` records (ray hits). The buffer's content may be lost.
     void reserve(std::uint64_t count);
     void bind() const;
     [[nodiscard]] std::uint64_t capacity() const;

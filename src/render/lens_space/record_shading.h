@@ -24,7 +24,7 @@ public:
     // Shades `count` records (ray hits) of the batch of rays that starts at ray `firstRay`. Rays, records and the
     // frame's uniforms must be bound.
     void shade(const LensFront& front, std::uint64_t count, std::uint32_t firstRay);
-    // Binds the textures and the uniforms of the material of group `group` of LensFront::groups().
+    // Binds the textures and the uniforms of the material of LensFront::groups()[group].
     void bindMaterial(std::size_t group) const { materials_.bind(group); }
     [[nodiscard]] std::size_t bytes() const;
 
@@ -38,8 +38,8 @@ private:
     std::map<std::string, Program> programs_;
     ShaderDefines listDefines_;
     Program countProgram_, listProgram_, placesProgram_;
-    std::vector<const Program*> groupPrograms_;   // program 0 is for the sky, program i for group i − 1
-    std::vector<const Program*> vertexPrograms_;  // one program per group; empty without per-vertex lighting
+    std::vector<const Program*> groupPrograms_;   // program 0 shades the sky, program i surface group i − 1
+    std::vector<const Program*> vertexPrograms_;  // one program per surface group; empty without per-vertex lighting
     MaterialBlocks materials_;
     Buffer groups_, dispatches_, list_;
 };

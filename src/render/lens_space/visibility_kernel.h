@@ -25,11 +25,11 @@ public:
     [[nodiscard]] virtual bool lightsVertices() const = 0;
     // Returns the rays for a plan. Throws Error if the method cannot draw the plan.
     [[nodiscard]] virtual RaySets raySets(const FramePlan& plan, std::uint32_t partsOfExposure) const = 0;
-    // Returns the defines, other than rayVariants, of shaders that read rays and records.
+    // Returns the defines, other than rayVariants, of shaders that read rays and records (ray hits).
     [[nodiscard]] virtual ShaderDefines rayDefines() const = 0;
-    // Returns the path of the shader that adds the shaded records of each pixel's rays.
+    // Returns the path of the shader that adds the shaded records (hits) of each pixel's rays.
     [[nodiscard]] virtual const char* addShader() const { return "lens_space/add.comp"; }
-    // Returns the min bytes of the records of one ray.
+    // Returns the min bytes of the records (hits) of one ray.
     [[nodiscard]] virtual std::uint64_t rayBytes() const = 0;
     // Prepares a frame; called before the frame's first rays are traced. `defines`: shader defines of LensFront and of
     // the rays.

@@ -37,8 +37,8 @@ std::vector<LineInterval> seenOnLine(const std::array<LensVertex, 3>& corners, c
         ways[i] = corners[i].c * line.direction;
     }
     std::array<Linear, 3> edges;
-    Linear sum;         // E: sum of the edge functions
-    Linear beyondNear;  // D − near·E, where D is the sum of the edge functions times w
+    Linear sum;         // sum of the edge functions
+    Linear beyondNear;  // sum of the edge functions times (w − near plane) of the opposite corner
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3;
         const std::size_t k = (i + 2) % 3;

@@ -27,7 +27,7 @@ struct LineInterval {
 };
 
 struct LensLine {
-    glm::dvec2 direction{0};  // (u, k·v) at p = 1; k = image width / height
+    glm::dvec2 direction{0};  // lens point (u, k·v) at p = 1; k = image width / height
     glm::dvec2 place{0};      // image position in normalised device coordinates
     double nearPlane = 0;
     double first = -1;  // the line is the range [first, last] of p

@@ -24,7 +24,8 @@ std::uint64_t trianglesOfSample(const FramePlan& plan) {
     return triangles;
 }
 
-// Returns whether the index ranges `runs` contain `piece`. `runs` must be sorted and must not split pieces.
+// Returns whether the index ranges `runs` contain `piece`, a group of neighbouring triangles. `runs` must be sorted and
+// must not split pieces.
 bool isIn(const std::vector<IndexRange>& runs, const IndexPiece& piece) {
     const auto after = std::ranges::upper_bound(runs, piece.indices.first, {}, &IndexRange::first);
     return after != runs.begin() && piece.indices.first < std::prev(after)->first + std::prev(after)->count;

@@ -54,7 +54,7 @@ struct RemainingDraws {
 
 // Classification of all pieces (groups of neighbouring triangles) as visible or hidden in a block's first sample.
 struct PieceVisibility {
-    std::vector<std::vector<bool>> shown;  // per draw of Occlusion::prepare: whether each piece is visible
+    std::vector<std::vector<bool>> shown;  // per draw of prepare(): whether each piece (group of triangles) is visible
     RemainingDraws draws;                  // draws of the visible pieces, and of objects that cannot be tested
     bool hidesMuch = false;                // whether enough triangles are hidden for culling to be faster
 };
@@ -92,16 +92,16 @@ public:
     // drawn into layer `layer` of `depths`.
     [[nodiscard]] PieceVisibility visibilityIn(std::uint32_t sample, const GlTexture& depths,
                                                std::uint32_t layer) const;
-    // Returns the draws of hidden pieces that may be visible in samples [first, first + count), after the pieces
-    // classified as visible have been drawn. The depths of sample `first` are in layer `layer` of `depths`, and the
-    // depths of later samples are in the layers after it.
+    // Returns the draws of pieces (groups of triangles) that are classified as hidden but may be visible in samples
+    // [first, first + count). Must be called after the pieces classified as visible have been drawn. The depths of
+    // sample `first` are in layer `layer` of `depths`, and the depths of later samples are in the layers after it.
     [[nodiscard]] RemainingDraws uncovered(const PieceVisibility& visibility, std::uint32_t first, std::uint32_t count,
                                            const GlTexture& depths, std::uint32_t layer) const;
 
 private:
     struct Tested {
         OccludableDraw draw;
-        std::vector<const IndexPiece*> pieces;  // pieces of the clusters that the plan draws
+        std::vector<const IndexPiece*> pieces;  // groups of triangles in the clusters that the plan draws
         bool canHide = false;
     };
 
@@ -115,7 +115,7 @@ private:
 
     const World* world_;
     const FramePlan* plan_ = nullptr;
-    // Pieces, keyed by mesh, level of detail and primitive.
+    // Pieces (groups of neighbouring triangles), keyed by mesh, level of detail and primitive.
     std::map<std::tuple<int, std::uint32_t, std::uint32_t>, std::vector<IndexPiece>> pieces_;
     std::vector<Tested> tested_;  // tested draws; empty if culling is off
 };

@@ -85,7 +85,7 @@ Image pixelsOf(const std::vector<const ObjectPlan*>& changed, const FramePlan& p
     for (const ObjectPlan* object : changed) {
         CocBox box{.ndcMin = glm::dvec2(-1), .ndcMax = glm::dvec2(1)};
         if (object->nearestDepth > plan.view.nearPlane) box = cocBoxOf(object->viewBox, object->own, plan);
-        const double reach = 0.5 * object->coc.largest + 1;  // edges may be half a pixel from pixel centres
+        const double reach = 0.5 * object->coc.largest + 1;  // margin: edges may be half a pixel from pixel centres
         const int left = bounded(0.5 * (1 + box.ndcMin.x) * objects.width - reach, objects.width);
         const int right = bounded(0.5 * (1 + box.ndcMax.x) * objects.width + reach + 1, objects.width);
         const int top = bounded(0.5 * (1 - box.ndcMax.y) * objects.height - reach, objects.height);

@@ -59,7 +59,7 @@ private:
     ShadowMaps shadows_;
     SurfacePass surfaces_;
     std::vector<ObjectSet> buckets_;
-    std::vector<TexelRectangle> reaches_;  // per bucket: rectangle that contains its blurred image; see reachOf
+    std::vector<TexelRectangle> reaches_;  // per bucket of objects: rectangle that contains its blurred image
     ObjectSet inNoBucket_;
     std::optional<BucketPass> bucketPass_;
 };

@@ -18,8 +18,8 @@ using TransparencyBucket = std::vector<std::size_t>;
 // the image drawn before the surface. Without lens blur, there are no buckets.
 std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::uint32_t max);
 
-// Returns a rectangle, in px from the image's lower left corner, that contains the blurred bucket; empty for an empty
-// bucket.
+// Returns a rectangle, in px from the image's lower left corner, that contains the blurred images of the bucket's
+// objects; empty for an empty bucket.
 TexelRectangle reachOf(const TransparencyBucket& bucket, const FramePlan& plan);
 
 }  // namespace defocus::engine

@@ -1,9 +1,9 @@
 #pragma once
-// Method "stochastic": each pixel has its own sample points on the lens, in the pixel and in time, and finds the
-// nearest triangle for each (Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic
-// Rasterization; for time Akenine-Möller, Munkberg and Hasselgren 2007, Stochastic Rasterization using Time-Continuous
-// Triangles). With few samples, the error is noise, whereas with method "accumulation" it consists of superimposed
-// images.
+// Method "stochastic": neighbouring pixels use different sample points on the lens, in the pixel and in time. For each
+// point, the method finds the nearest triangle (Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for
+// Stochastic Rasterization; for time Akenine-Möller, Munkberg and Hasselgren 2007, Stochastic Rasterization using
+// Time-Continuous Triangles). With few samples, the error is noise, whereas with method "accumulation" it consists of
+// superimposed images.
 
 #include "render/methods.h"
 
