@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double gridMargin = 1.04;  // grid side / diagonal of the bounding box, for levels that protrude slightly
+constexpr double gridMargin = 1.04;  // grid side / diagonal of the bounding box, with a small margin
 
 // Returns the index of the first grid cell whose centre is at or after the coordinate `place`, at most `end`. Cell i
 // has its centre at i. Returns 0 for NaN.
@@ -96,8 +96,8 @@ void CoverGrid::mark(int row, int first, int end) {
     }
 }
 
-// Returns whether all cells in rows [firstRow, endRow) and columns [first, end) are marked as covered. Returns false,
-// too, if the columns span more than one 64-bit word.
+// Returns whether all cells in rows [firstRow, endRow) and columns [first, end) are marked as covered. Also returns
+// false if the columns span more than one 64-bit word.
 bool CoverGrid::isMarked(int firstRow, int endRow, int first, int end) {
     const int word = first / wordBits;
     if ((end - 1) / wordBits != word) return false;
