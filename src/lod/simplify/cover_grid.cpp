@@ -108,8 +108,8 @@ bool CoverGrid::isMarked(int firstRow, int endRow, int first, int end) {
 }
 
 void CoverGrid::cover(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
-    // Skip triangles that contain no cell centre, or only cells that are already covered: most triangles of a fine
-    // mesh.
+    // Skip triangles that contain no cell centre, or only cells that are already covered. This skips most triangles of
+    // a fine mesh.
     const int firstRow = firstAt(std::min(std::min(a.y, b.y), c.y), resolution_);
     const int endRow = firstAt(std::max(std::max(a.y, b.y), c.y), resolution_);
     if (firstRow >= endRow) return;

@@ -177,7 +177,6 @@ void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPosi
     mesh.frame = origin->frame;
     if (!(origin->frame.inverse > 0)) return;
 
-    // Convert the mesh to a manifold.
     {
         Numbered<PositionNumber, glm::dvec3> points(positions.first.size());
         for (const PositionNumber p : points.numbers())
@@ -194,7 +193,6 @@ void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPosi
         mesh.set_point(itemAt<VertexHandle>(indexOf(v)), {p.x, p.y, p.z});
     }
 
-    // Add wedges (attributes at face corners) and quadrics.
     mesh.wedges.assign(vertices, uvScaleOf(vertices, triangles, origin->frame));
     rememberCorners(*origin, mesh);
     buildQuadrics(mesh);
