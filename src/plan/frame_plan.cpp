@@ -168,7 +168,8 @@ constexpr double maxSmallTriangles = 4e6;
 
 // Returns the approximate number of small triangles of the object's drawn levels with at most `maxParts` parts per
 // edge. The number of parts of an edge is proportional to its length; most triangles have edges of the mean length.
-// Objects that reach the near plane have no bound on the curvature, but few of their triangles are near.
+// Objects that reach the near plane have no bound on the curvature; 8 parts per edge are assumed, because few of their
+// triangles are near.
 double smallTriangles(const ObjectPlan& object, const World& world, const FramePlan& plan, double maxParts) {
     constexpr double partsNearby = 8;
     const bool bounded = std::isfinite(object.cocDeviation.curved);
@@ -356,7 +357,7 @@ void addUnseen(FramePlan& plan, const World& world, std::vector<ObjectPlan> unse
         chooseLevels(object, world.pyramids[mesh], plan);
         chooseRefinement(object, world, plan);
         object.maxParts = maxParts;
-        object.coc = {};  // no blur, because renderers take the maximum CoC over all objects
+        object.coc = {};  // an unseen object must not raise the maximum CoC that renderers use
         const std::vector<Primitive>& primitives = world.scene->meshes[mesh].primitives;
         for (std::uint32_t p = 0; p < primitives.size(); ++p) {
             const Material& material = materialOf(*world.scene, primitives[p]);
@@ -465,7 +466,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     chooseAllLevels();
     chooseBlending(plan, world);
     leaveOutSamples(plan);
-    if (plan.samples.size() < settings.sampleCount) chooseAllLevels();  // choose again for fewer samples
+    if (plan.samples.size() < settings.sampleCount) chooseAllLevels();  // fewer samples can use coarser levels
     parallelFor(plan.objects.size(), [&](std::size_t i) {
         ObjectPlan& object = plan.objects[i];
         chooseRefinement(object, world, plan);

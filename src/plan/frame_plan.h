@@ -43,7 +43,7 @@ struct VisibleLevel {
 // RenderSettings::cocTolerance. C is the circle of confusion in clip space (circle_of_confusion.h).
 enum class Refinement {
     none,       // triangles are drawn undivided
-    split,      // triangles are cut where the slope of C jumps, and at the near plane before the lens shear
+    split,      // triangles are cut where the slope of the CoC jumps, and at the near plane before the lens shear
     subdivide,  // triangles are divided into small ones because C is curved, then cut as by `split` if ObjectPlan::cuts
 };
 
@@ -138,7 +138,7 @@ struct FramePlan {
     RenderSettings settings;
     LodThresholds thresholds;  // settings.thresholds; unset values get defaults that depend on the number of samples
     double tanHalfHorizontal = 0;
-    double apertureDiameter = 0;  // diameter in m; 0 for a pinhole, also if the blur is too small to be visible
+    double apertureDiameter = 0;  // diameter in m; 0 for a pinhole, which also replaces a lens without visible blur
     // Upper bound of the CoC in px over the drawn objects and a visible background of varying colour. The bound is
     // computed from bounding boxes and is infinite if a box reaches the near plane. The value is also set if the frame
     // uses a pinhole because the blur is too small to be visible.

@@ -26,7 +26,7 @@ struct RenderSettings {
     std::uint32_t positions = 1;
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;         // selects one of many sets of sample points
-    std::uint32_t firstSample = 0;  // first index in the sequence; reference images use another first index
+    std::uint32_t firstSample = 0;  // index of the first sample in the sequence; differs for reference images
     LodMode lod = LodMode::fractional;
     LodMetric metric = LodMetric::automatic;
     LodCause lodCause = LodCause::blurAndSize;
@@ -34,12 +34,12 @@ struct RenderSettings {
     LevelVertices levelVertices = LevelVertices::fitted;
     GivenThresholds thresholds = {};
     Shadows shadows = Shadows::automatic;
-    bool multipleScattering = false;  // compensates the energy that rough specular reflection loses
-    double cocTolerance = 0.5;        // max error in px of interpolating C inside a triangle, > 0
+    bool multipleScattering = false;  // compensates for the energy that rough specular reflection loses
+    double cocTolerance = 0.5;        // max error in px of the CoC interpolated inside a triangle, > 0
     bool keepAll = false;             // disables culling, and keeps the lens even if nothing is visibly blurred
     // Range of focus distances to which the image can be refocused after rendering. Each object's levels suit the
     // smallest blur over this range, and the lens samples are kept even if nothing is blurred at the frame's own focus
-    // distance. Needs a lens with C(w) = a + b·w (circle_of_confusion.h).
+    // distance. Needs a lens whose circle of confusion at depth w is C(w) = a + b·w (circle_of_confusion.h).
     std::optional<FocusRange> refocus = {};
     std::vector<Layer> layers = {};  // data layers, such as depth and normals, to accumulate beside the image
 };

@@ -24,7 +24,7 @@ struct View {
     int height = 768;         // image height, px
     // worldFromCamera at each shutter time (see Shutter); empty if the camera doesn't move.
     std::vector<glm::dmat4> shutterCameras;
-    std::map<std::string, double> methodValues;  // settings of the method that a shot animates, by name
+    std::map<std::string, double> methodValues;  // method settings that a shot animates: values by name
 };
 
 // Returns the view with a margin of `margin` px on each side. The pixels of the original view stay the same.

@@ -22,11 +22,11 @@ constexpr int minResolution = 128;
 constexpr int maxResolution = 512;  // max cells per side of an image; BlurTable holds patches of 2, 4, … 512 cells
 static_assert(maxResolution == 1 << (blurSizes - 1));
 constexpr double minBlurredGrowth = 1.1;  // min ratio of the blurred errors of consecutive levels
-constexpr double minError = 1e-6;         // min error after blurring of level 1
+constexpr double minError = 1e-6;         // min blurred error of level 1
 // On a grey background, the error of a level may reach this fraction of the limit. A fraction of 1 would raise the FLIP
 // error of a smooth surface in focus by more than a fifth.
 constexpr double greyShare = 0.9;
-constexpr double minGreyContrast = 0.004;  // min V on a grey background, relative to the mean radiance
+constexpr double minGreyContrast = 0.004;  // min contrast V on a grey background, relative to the mean radiance
 // Max ratio of the errors of consecutive levels. Halving the triangles of a smooth surface doubles its error, because
 // the error grows with the squared edge length. This limit is twice that ratio. It gives a lower bound on the error of
 // levels whose triangles are smaller than the cells of the measured image.
@@ -112,7 +112,8 @@ private:
     std::vector<Size> sizes_;
 };
 
-// Two rows of cells or patch means, of level 0 and of another level, whose difference is measured.
+// Two corresponding rows of cells or patch means, one of level 0 and one of another level, whose difference is
+// measured.
 struct Change {
     const glm::vec3* before;
     const glm::vec3* after;
@@ -227,8 +228,8 @@ struct Sight {
     Eye eye;
     SparseCells reference;              // image of level 0
     double covered = 0, sum = 0;        // Picture::covered and Picture::sum of level 0
-    SquareSums light{};                 // sums of level 0's squared radiance on black, per patch size
-    SquareSums deviations{};            // sums of the radiance's standard deviations on grey at level 0, per patch size
+    SquareSums light{};                 // level 0 on black: sums of squared radiance, per patch size
+    SquareSums deviations{};            // level 0 on grey: sums of the radiance's standard deviations, per patch size
     std::vector<SurroundSums> changes;  // per level, sums of squared radiance differences from level 0
 
     // Measures the differences of each level from level 0. `unit` is the mean radiance of the mesh.
@@ -237,8 +238,8 @@ struct Sight {
         reference = {};
         const std::vector<glm::vec3> dark(static_cast<std::size_t>(eye.resolution), glm::vec3(0));
         const auto brightest = static_cast<float>(shownWhite) * unit;
-        // Clamp each point before averaging, because a lens sample sees a single point. All averages then stay below
-        // the clamp, too.
+        // Clamp the radiance of each cell before averaging, because a lens sample sees a single point, not an average.
+        // All averages are then below the limit, too.
         LargeVector<glm::vec3> points = cells;
         for (glm::vec3& value : points) value = glm::min(value, brightest);
         std::array<LargeVector<glm::vec3>, surrounds.size()> shifted;

@@ -38,8 +38,8 @@ struct ClusterGrowth {
 
     const Numbered<TriangleCorner, LocalNumber>& corners;
     Buckets<LocalNumber, TriangleCorner> around;
-    // Per vertex with more than maxNeighbours corners: index into the vertex's entries of `around`, before which all
-    // corners belong to assigned triangles.
+    // For each vertex with more than maxNeighbours corners: number of its first entries in `around` that are known to
+    // belong to assigned triangles.
     std::unordered_map<LocalNumber, std::size_t> firstOpen;
     Numbered<TriangleNumber, Facet> facets;
     float radius = 0;  // radius of a full cluster on a flat mesh with equal triangles
@@ -52,7 +52,8 @@ struct ClusterGrowth {
     std::uint32_t size = 0;
     glm::vec3 centres{0};
     glm::vec3 normals{0};
-    // Lists of triangles that touch the growing cluster; some of them may already be assigned to a cluster.
+    // Lists of triangles that touch the growing cluster or, in `left`, earlier clusters. Some of them may already be
+    // assigned to a cluster.
     std::vector<TriangleNumber> closed;    // triangles with all three corners in the growing cluster
     std::vector<TriangleNumber> hanging;   // triangles that are the last unassigned ones at one of their vertices
     std::vector<TriangleNumber> beside;    // triangles with two corners in the growing cluster
@@ -178,8 +179,8 @@ TriangleNumber nextInside(ClusterGrowth& g) {
     return closestMatch(g, g.touching);
 }
 
-// Returns the unassigned triangle beside the full cluster that itself has the fewest unassigned neighbours. This
-// triangle might otherwise be left isolated.
+// Among the unassigned triangles beside the full cluster, returns the one with the fewest unassigned triangles at its
+// vertices, because it might otherwise be left isolated.
 TriangleNumber seedBeside(const ClusterGrowth& g) {
     TriangleNumber best;
     std::uint32_t fewest = std::numeric_limits<std::uint32_t>::max();

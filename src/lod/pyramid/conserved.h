@@ -17,8 +17,8 @@ struct Conserved {
     double area = 0;       // surface area, object units squared
     glm::dvec3 colour{0};  // area-weighted mean colour
     LightMeans light{};    // mean reflected radiance for each light direction; textures are ignored
-    // Area of the surface's silhouette in parallel projection along each direction, in object units squared. Faces
-    // cover the same area seen from both sides, so that opposite directions give the same area.
+    // Area of the surface's silhouette in parallel projection along each direction, in object units squared. Opposite
+    // directions give the same area.
     std::array<double, outlineDirections> outline{};
 };
 

@@ -1,8 +1,8 @@
 #pragma once
 // Builds a fast preview of a mesh, which is drawn while the mesh's pyramid (its levels of detail) is built. The preview
-// is made by meshoptimizer's simplifier. If that cannot reach the target, for example because triangles share no
-// vertices, meshoptimizer's sloppy simplifier is used, which merges the vertices in each cell of a grid. Attributes are
-// neither fitted nor measured.
+// is made by meshoptimizer's simplifier. If this simplifier cannot reach the target, for example because triangles
+// share no vertices, meshoptimizer's sloppy simplifier is used, which merges the vertices in each cell of a grid.
+// Attributes are neither fitted nor measured.
 
 #include <cstdint>
 

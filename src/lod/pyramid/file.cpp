@@ -299,12 +299,10 @@ std::optional<PyramidFileHeader> pyramidHeader(std::span<const std::byte> bytes)
 }
 
 std::optional<Pyramid> decodePyramid(std::span<const std::byte> bytes, const Mesh& mesh, const PyramidKey& key) {
-    // Check the cache key and the checksum.
     const std::optional<PyramidFileHeader> header = pyramidHeader(bytes);
     if (!header || !matches(*header, mesh, key)) return {};
     if (hashBytes(bytes.subspan(checkedFrom)) != header->checksum) return {};
 
-    // Read levels and indices.
     Reader reader(bytes.subspan(sizeof *header));
     Pyramid pyramid;
     std::vector<IndexRange> ranges;

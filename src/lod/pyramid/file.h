@@ -40,7 +40,7 @@ struct PyramidFileHeader {
     std::uint64_t checksum = 0;  // hashBytes of all bytes after this field
     std::uint32_t version = expectedVersion;
     std::uint32_t levelCount = 0;
-    std::uint64_t mesh = 0;  // hash PyramidKey::mesh
+    std::uint64_t mesh = 0;  // value of PyramidKey::mesh
     std::uint32_t minTriangles = 0;
     std::int32_t maxLevels = 0;
     std::uint64_t indexCount = 0;

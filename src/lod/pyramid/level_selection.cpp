@@ -11,13 +11,13 @@ namespace defocus::engine {
 namespace {
 
 constexpr double referenceSamples = 64;
-constexpr LodThresholds referenceSize{0.25, 3.3};     // blur and size at 64 samples, for target edge lengths in px
-constexpr LodThresholds referenceError{0.018, 0.18};  // blur and size at 64 samples, for target errors in px
+constexpr LodThresholds referenceSize{0.25, 3.3};     // thresholds at 64 samples, if the target is an edge length
+constexpr LodThresholds referenceError{0.018, 0.18};  // thresholds at 64 samples, if the target is an error
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double sampleErrorExponent = 0.65;
 constexpr double lightOfSampleError = 6.7;   // default LodThresholds::light of an image with one lens sample, px
-constexpr double sampleErrorShareMax = 0.3;  // max ratio of level error to sampling error; adds ≤ 4.4 % to the RMS
-constexpr double largestFactor = 2;          // max factor on the blur threshold at few samples; limits outline errors
+constexpr double sampleErrorShareMax = 0.3;  // max level error / sampling error; total RMS error grows by ≤ 4.4 %
+constexpr double largestFactor = 2;          // max factor on the blur threshold for few samples; limits outline errors
 
 // Returns whether the metric compares the levels' edge lengths with the target.
 bool bySize(LodMetric metric) {

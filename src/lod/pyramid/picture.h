@@ -1,7 +1,7 @@
 #pragma once
-// Renders small images (pictures) of a level of detail by parallel projection, without a lens. Each cell (pixel) shows
-// the surface that is nearest to the eye at the cell's centre. The lighting is a uniform sky and the default lights of
-// scenes without lights (scene/defaults.h).
+// Renders small images of a level of detail by parallel projection, without a lens. Each cell (pixel) shows the surface
+// that is nearest to the eye at the cell's centre. The lighting is a uniform sky and the default lights of scenes
+// without lights (scene/defaults.h).
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace defocus::engine {
 
-// A rectangle of cells (pixels) of a picture; `right` and `top` are exclusive. Values of cells are stored row by row.
+// A rectangle of cells (pixels) of an image; `right` and `top` are exclusive. Values of cells are stored row by row.
 struct CellBox {
     int left = 0, right = 0;
     int bottom = 0, top = 0;
@@ -29,8 +29,8 @@ struct CellBox {
 };
 inline constexpr int boxAlignment = 32;  // sides of Eye::box are multiples of this number of cells
 
-// View direction and square grid of cells of a picture. The grid is perpendicular to the direction and covers a
-// bounding sphere of the mesh.
+// View direction of an image, and its square grid of cells (pixels). The grid is perpendicular to the direction and
+// covers a bounding sphere of the mesh.
 struct Eye {
     glm::dvec3 centre{0}, right{0}, up{0}, towards{0};  // towards: unit vector from the mesh to the eye
     double cellsPerUnit = 0;
@@ -53,8 +53,8 @@ struct Picture {
     double sum = 0;           // sum over all cells of the mean of the three colour channels
 };
 
-// Renders pictures of one level after another, with one finish (simplified material) per primitive. Reuses memory from
-// level to level.
+// Renders images of a mesh's levels, with one finish (simplified material) per primitive. Reuses memory from level to
+// level.
 class Painter {
 public:
     Painter(const Pyramid& pyramid, const Eye& eye, std::span<const Finish> finishes);
@@ -72,7 +72,7 @@ private:
     LargeVector<std::uint32_t> firsts_;  // offset of the triangle's first index in Pyramid::indices
 };
 
-// Renders one picture of level `number`, for callers that need no further level.
+// Renders one image of level `number`, for callers that need no further level.
 Picture pictureOf(const Pyramid& pyramid, std::size_t number, const Eye& eye, std::span<const Finish> finishes);
 
 }  // namespace defocus::engine

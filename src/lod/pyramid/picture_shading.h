@@ -1,5 +1,5 @@
 #pragma once
-// Shades the cells (pixels) of a picture. Private to picture.cpp. The shading model is the same as in
+// Shades the cells (pixels) of an image from picture.h. Private to picture.cpp. The shading model is the same as in
 // shaders/include/shading.glsl, which cites the sources.
 
 #include <algorithm>
@@ -24,9 +24,9 @@ namespace defocus::engine {
 
 inline constexpr float skyRadiance = 0.5f;  // approximate mean radiance of the default sky
 
-// Barycentric weights of a triangle's second and third corner, as linear functions of the position in the picture.
+// Barycentric weights of a triangle's second and third corner, as linear functions of the position in the image.
 struct Weights {
-    glm::vec2 origin{0};  // position in the picture where both weights are 0
+    glm::vec2 origin{0};  // position in the image where both weights are 0
     glm::vec2 stepB{0}, stepC{0};
     bool flat = false;  // the triangle has no area
     bool back = false;  // the triangle is back-facing
@@ -63,9 +63,9 @@ struct SurfacePoint {
 struct DistantLight {
     glm::vec3 toLight{0};
     glm::vec3 illuminance{0};  // illuminance of the light divided by π
-    // Terms that depend only on the directions to the light and to the eye. lv: cosine of the angle between both. sum2:
-    // squared length of their sum. vh: half the length of the sum. grazing: Fresnel weight of reflectance at grazing
-    // incidence.
+    // Terms that depend only on the directions to the light and to the eye. lv: cosine of the angle between the two
+    // unit vectors. sum2: squared length of their sum. vh: half the length of their sum. grazing: Fresnel weight of
+    // reflectance at grazing incidence.
     float lv = 0, sum2 = 0, vh = 0, grazing = 0;
 };
 
@@ -119,7 +119,7 @@ struct Gloss {
     float nv = 0;
     float width2 = 0, alpha2 = 0;
     float share = 0;  // fraction of the microfacet distribution that comes from the normals' spread
-    float shown = 0;  // mean cosine between eye direction and the normals in this fraction
+    float shown = 0;  // mean cosine between eye direction and visible normals
 
     Gloss(const SurfacePoint& point, const SeenNormals& seen, const glm::vec3& toEye)
         : nv(glm::dot(point.normal, toEye)), shown(seen.shown) {
@@ -171,7 +171,7 @@ inline glm::vec3 mapped(const FinishMap& map, const glm::vec2& uv0, const glm::v
     return map.image ? map.at(uv0, uv1) : glm::vec3(1);
 }
 
-// A triangle that is visible in at least one cell of the picture.
+// A triangle that is visible in at least one cell (pixel).
 struct SeenTriangle {
     const std::uint32_t* corners = nullptr;
     const Finish* finish = nullptr;
@@ -276,7 +276,7 @@ private:
 // reflection.
 class Shading {
 public:
-    // Prepares the shading of a level's picture. shade() and endRow() write the radiance to `cells`.
+    // Prepares the shading of a level's image. shade() and endRow() write the radiance to `cells`.
     Shading(const PyramidLevel& level, bool coarse, const Eye& eye, std::span<glm::vec3> cells)
         : level_(level),
           coarse_(coarse),

@@ -78,8 +78,8 @@ bool areFew(std::size_t equal, std::size_t count) {
     return equal < count / 4;
 }
 
-// Keeps duplicate vertices apart, so that each file vertex is a mesh vertex with the number that it has in the file. Of
-// several equal vertices, triangles still use only the first.
+// Keeps duplicates as separate vertices, so that all vertices have the same numbers as in the file. Triangles still use
+// only the first of several equal vertices.
 void leaveApart(WeldedVertices& unique, TriangleSet<MeshVertexNumber>& triangles, std::size_t count) {
     for (MeshVertexNumber& v : triangles.indices) v = {unique.first[v].value};
     unique.first.resize(count);
@@ -252,13 +252,14 @@ std::vector<double> vertexShares(LevelVertices vertices) {
     return vertices == LevelVertices::quarters ? std::vector{0.75, 0.5} : std::vector<double>();
 }
 
-// Approximate fraction of the work that is complete after each stage. On one core, collapsing takes half of the time.
+// Approximate fraction of the work that is complete after each stage. On one core, collapsing takes about half of the
+// time.
 constexpr double shareOfCollapses = 0.6, shareUntilFitted = 0.7, shareUntilMeasured = 0.8, shareUntilClustered = 0.85;
 
-// Returns the reason why only level 0 is built, without trying any collapse; nullopt if coarser levels may save time.
+// Returns the reason why no collapse is attempted and only level 0 is built; nullopt if coarser levels are to be made.
 std::optional<PyramidEnd> endWithoutCollapses(const Mesh& mesh, const PyramidOptions& options) {
     if (options.maxLevels <= 1) return PyramidEnd::maxLevels;
-    if (options.vertices == LevelVertices::quarters) return {};  // levels keep given fractions of the vertices
+    if (options.vertices == LevelVertices::quarters) return {};  // the vertex counts of the levels are fixed
     if (mesh.triangleCount() <= options.minTriangles) return PyramidEnd::minTriangles;
     if (mesh.triangleCount() < minTrianglesPerPrimitive * mesh.primitives.size()) return PyramidEnd::smallSaving;
     return {};

@@ -121,7 +121,7 @@ struct Pyramid {
 };
 
 struct PyramidOptions {
-    // Min triangle count at which levels stop; the last collapse may remove one triangle more.
+    // Min triangle count of simplified levels; the last collapse may remove one triangle more.
     std::uint32_t minTriangles = 64;
     int maxLevels = 24;  // max number of levels, including level 0
     LevelVertices vertices = LevelVertices::fitted;

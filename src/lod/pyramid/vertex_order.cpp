@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double maxSpread = 2;  // max mean difference of vertex indices, in units of √(vertex count)
+constexpr double maxSpread = 2;  // max mean distance between vertex indices, in units of √(vertex count)
 
 }  // namespace
 

@@ -133,7 +133,7 @@ private:
     }
 
     LargeVector<Even> even_;
-    LargeVector<std::uint32_t> changesOf_;  // index into changes_ per wedge; `none`: independent of position
+    LargeVector<std::uint32_t> changesOf_;  // per wedge, index into changes_; `none`: no dependence on position
     LargeVector<Changes> changes_;
 };
 

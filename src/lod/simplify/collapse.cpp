@@ -101,9 +101,10 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
     const WedgeTable& wedges = sides.mesh.wedges;
     const auto inPrimitive = [&](FaceHandle face, WedgeNumber) { return sides.mesh.primitive(face) == primitive; };
 
-    // The surviving vertex's wedge in a face beside the collapsing edge, on the same side of each seam as the corner.
+    // The surviving vertex's wedge (attributes) in a face beside the collapsing edge. No seam separates this face from
+    // the corner with the wedge `wedge`.
     WedgeNumber across;
-    WedgeNumber exact;     // wedge like `across`, but also on the same side of every crease
+    WedgeNumber exact;     // like `across`, but without a crease in between
     bool torn = false;     // a seam crosses the collapsing edge at the surviving vertex
     bool creased = false;  // a crease crosses the collapsing edge at the surviving vertex
     for (const EdgeSide& side : sides.both) {

@@ -23,7 +23,7 @@ constexpr double largestRatio = 1.2;  // max size ratio among components that ar
 // Max size of the neighbour that grows to replace a removed component, relative to that component.
 constexpr double maxEnlargement = 4;
 constexpr double manyShare = 0.25;        // fraction of faces above which manyAreSmallest() is true
-constexpr std::uint32_t fewestFaces = 4;  // min faces of a component after collapses: a tetrahedron
+constexpr std::uint32_t fewestFaces = 4;  // min faces of a closed component: those of a tetrahedron
 
 // Disjoint sets of vertices (union-find).
 class Forest {
@@ -210,8 +210,8 @@ public:
     CentreTree& operator=(const CentreTree&) = delete;
 
     // Returns the component with the nearest centre for which counts(component) is true, or an invalid number. `point`
-    // is in object units. The search ends after maxVisits components, so that it may find none if too many others fail
-    // the condition.
+    // is in object units. The search ends after maxVisits components, so that it finds none if too many nearer
+    // components fail the condition.
     template <typename Counts>
     [[nodiscard]] ComponentNumber nearest(const glm::dvec3& point, const Counts& counts) const {
         Search<Counts> search(centres_.numbers, counts);
@@ -254,7 +254,7 @@ private:
             : numbers(numbered), counts(counted) {}
         [[nodiscard]] double worstDist() const { return minSquared; }
         [[nodiscard]] bool full() const { return best.isValid(); }
-        // Notes the point if it is the best so far; returns false to end the search.
+        // Stores the point if it is the best so far; returns false to end the search.
         bool addPoint(double squared, std::size_t i) {
             if (squared < minSquared && counts(numbers[i])) {
                 minSquared = squared;

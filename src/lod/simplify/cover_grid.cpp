@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double gridMargin = 1.04;  // grid side / diagonal of the bounding box, for levels that protrude slightly
+constexpr double gridMargin = 1.04;  // grid side / diagonal of the bounding box, with a small margin
 
 // Returns the index of the first grid cell whose centre is at or after the coordinate `place`, at most `end`. Cell i
 // has its centre at i. Returns 0 for NaN.
@@ -96,8 +96,8 @@ void CoverGrid::mark(int row, int first, int end) {
     }
 }
 
-// Returns whether all cells in rows [firstRow, endRow) and columns [first, end) are marked as covered. Returns false,
-// too, if the columns span more than one 64-bit word.
+// Returns whether all cells in rows [firstRow, endRow) and columns [first, end) are marked as covered. Also returns
+// false if the columns span more than one 64-bit word.
 bool CoverGrid::isMarked(int firstRow, int endRow, int first, int end) {
     const int word = first / wordBits;
     if ((end - 1) / wordBits != word) return false;
@@ -108,8 +108,8 @@ bool CoverGrid::isMarked(int firstRow, int endRow, int first, int end) {
 }
 
 void CoverGrid::cover(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
-    // Skip triangles that contain no cell centre, or only cells that are already covered: most triangles of a fine
-    // mesh.
+    // Skip triangles that contain no cell centre, or only cells that are already covered. This skips most triangles of
+    // a fine mesh.
     const int firstRow = firstAt(std::min(std::min(a.y, b.y), c.y), resolution_);
     const int endRow = firstAt(std::max(std::max(a.y, b.y), c.y), resolution_);
     if (firstRow >= endRow) return;

@@ -20,14 +20,15 @@ namespace {
 constexpr float minAgreement = 0.125f;
 
 // Right-hand sides and weights of the least-squares fits. An anchor is the point on the level that represents a vertex
-// of level 0. Each level vertex sums, over the anchors on its triangles, share · weight · value, and share · weight in
-// `weights`. share is the anchor's weight, and weight the barycentric weight of the level vertex (least_squares.h).
+// of level 0. For each level vertex, the arrays hold sums over the anchors on its triangles: share · weight in
+// `weights`, share · weight · value in `gaps`, `normals` and `colors`. share is the anchor's weight, and weight the
+// barycentric weight of the level vertex (least_squares.h).
 struct AnchorSums {
     using Three = std::array<double, 3>;
     Numbered<LevelVertexNumber, double> weights;
-    Numbered<LevelVertexNumber, Three> gaps;  // value: offset from the anchor to its vertex of level 0
+    Numbered<LevelVertexNumber, Three> gaps;  // weighted offsets from anchors to vertices of level 0
     Numbered<LevelVertexNumber, Three> normals;
-    Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // value: RGBA vertex colour; empty without colours
+    Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // weighted RGBA; empty without colours
     Numbered<TriangleNumber, TriangleSums> triangles;
 
     template <std::size_t channels>

@@ -13,8 +13,8 @@
 
 namespace defocus::engine {
 
-// Directions to the lights: unit vectors to the 26 neighbours in a 3 × 3 × 3 cube. The second half is opposite to the
-// first.
+// Directions to the lights: unit vectors to the 26 neighbours in a 3 × 3 × 3 cube. Each vector of the second half is
+// opposite to one of the first half.
 inline constexpr std::size_t lightCount = 26;
 std::array<glm::dvec3, lightCount> directionsToLights();
 

@@ -289,7 +289,6 @@ TriangleSet<PositionNumber> weldedTriangles(const TriangleSet<MeshVertexNumber>&
 
 Manifold buildManifold(const TriangleSet<PositionNumber>& triangles,
                        const Numbered<PositionNumber, glm::dvec3>& points) {
-    // Keep the faces that are neither degenerate nor duplicates.
     Manifold manifold;
     const Numbered<TriangleNumber, PrimitiveNumber> primitives = primitivesOf(triangles);
     manifold.faces = properFaces(triangles, primitives, points.size());
@@ -305,7 +304,6 @@ Manifold buildManifold(const TriangleSet<PositionNumber>& triangles,
         surface.primitives.push_back(primitives[triangle]);
     }
 
-    // Orient faces consistently, pair half-edges, and create one vertex per fan of faces.
     const EdgeGroups groups = groupEdges(surface);
     orient(surface, groups);
     pairAllEdges(surface, groups);

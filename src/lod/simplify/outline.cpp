@@ -30,7 +30,7 @@ constexpr double goodEnough = 1.5e-3;
 constexpr double passable = 3.5e-3;
 constexpr std::size_t fewTriangles = 2048;
 constexpr int maxVainRounds = 4;  // max number of consecutive rounds without improvement
-constexpr double maxWay = 48;     // max distance to level 0's outline in cells; farther outlines bound other parts
+constexpr double maxWay = 48;     // max distance in cells to level 0's outline; farther outlines belong to other parts
 constexpr int maxEdgePoints = 24;
 constexpr double stiffness = 0.1;      // damping of displacements, relative to the weight of the outline points
 constexpr double maxMoveShare = 0.25;  // max displacement per round, relative to the mean length of the vertex's edges
@@ -52,7 +52,7 @@ struct Edges {
 };
 
 Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {
-    std::vector<std::uint32_t> starts(placeCount + 1, 0);  // start of each group's edges to groups with larger indices
+    std::vector<std::uint32_t> starts(placeCount + 1, 0);  // index of each group's first edge in `sides`
     const auto forEachEdge = [&](const auto& visit) {
         for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
             for (std::size_t k = 0; k < 3; ++k) {

@@ -103,8 +103,7 @@ struct AttributeQuadric {
     AttributeGradients<n> gradients{};
     AttributeRow<n> offset{};
 
-    // Adds a face at the vertex. The face has the vertex's own attributes at its corner there, so that `offset` is
-    // unchanged.
+    // Adds a face at the vertex. The corner of the face has the vertex's own attributes, so that `offset` is unchanged.
     void addFace(const AttributeGradients<n>& face, float faceWeight) {
         squares.weight += faceWeight;
         for (std::size_t j = 0; j < n; ++j) {
@@ -115,7 +114,7 @@ struct AttributeQuadric {
         }
     }
 
-    // Adds another quadric of the same vertex. Only faces were added to the other quadric, so that its offset is zero.
+    // Adds another quadric of the same vertex. `other` must be a sum of faces only, because its offset must be zero.
     void addFaces(const AttributeQuadric& other) {
         squares.add(other.squares, glm::vec3(0));
         for (std::size_t j = 0; j < n; ++j) {

@@ -18,7 +18,7 @@ namespace {
 // multiplied by the squared edge length. (The plane of a face is weighted by the face's area.)
 constexpr double borderWeight = 10;  // weight of planes at open borders and material borders
 constexpr double seamWeight = 0.5;   // weight of planes at discontinuities of uv or colour
-constexpr double rimWeight = 1;      // weight of planes at edges that bend by more than 60°; scaled by the bend
+constexpr double rimWeight = 1;      // weight where the surface bends by more than 60°; scaled by the bend
 
 glm::dvec3 faceCross(const SurfaceMesh& mesh, FaceHandle face) {
     const FaceCorners corner = cornersOf(mesh, face);
@@ -177,7 +177,6 @@ void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPosi
     mesh.frame = origin->frame;
     if (!(origin->frame.inverse > 0)) return;
 
-    // Convert the mesh to a manifold.
     {
         Numbered<PositionNumber, glm::dvec3> points(positions.first.size());
         for (const PositionNumber p : points.numbers())
@@ -194,7 +193,6 @@ void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPosi
         mesh.set_point(itemAt<VertexHandle>(indexOf(v)), {p.x, p.y, p.z});
     }
 
-    // Add wedges (attributes at face corners) and quadrics.
     mesh.wedges.assign(vertices, uvScaleOf(vertices, triangles, origin->frame));
     rememberCorners(*origin, mesh);
     buildQuadrics(mesh);

@@ -30,11 +30,11 @@ constexpr std::size_t costSample = 8192;    // number of vertices sampled to est
 // Max ratio between the triangle counts of a level and of the next finer level: each level must save a quarter of the
 // triangles.
 constexpr double largestShare = 0.75;
-// Min fraction that each level keeps of the faces in components which collapses can still simplify. If many components
-// are already as small as possible, halving the total would otherwise take too many faces from the few large
+// Components that collapses can still simplify keep at least this fraction of their faces at each level. If many
+// components are already as small as possible, halving the total would otherwise take too many faces from the few large
 // components.
 constexpr double minShareOfMovable = 0.25;
-// Fraction that components which collapses can still simplify keep of their even share of the faces (evenShare).
+// Components that collapses can still simplify keep this fraction of their even share of the faces (evenShare).
 // `keptShare` is preferred; `minKeptShare` applies if components would otherwise have to be removed.
 constexpr double keptShare = 0.5;
 constexpr double minKeptShare = 0.25;
@@ -238,8 +238,8 @@ bool isJustAbove(std::size_t faces, std::size_t min) {
     return faces > min && largestShare * static_cast<double>(faces) < static_cast<double>(min);
 }
 
-// Returns the target number of faces of the next level: half of the current number. Returns `minTriangles` if half is
-// below it, or so little above it that no further level fits between.
+// Returns the target number of faces of the next level: half of the current number. Returns `minTriangles` if half of
+// the number is below this minimum, or so little above that no further level fits in between.
 std::size_t nextTarget(const Simplifier& s, std::size_t minTriangles) {
     const std::size_t half = s.liveFaces / 2;
     return half <= minTriangles || isJustAbove(half, minTriangles) ? minTriangles : half;

@@ -72,9 +72,9 @@ void weighByAngle(const CornerPlaces& at, CornerNormal& c) {
     c.normal *= length > 0 ? angleBetween(at.next - at.own, at.previous - at.own) / length : 0;
 }
 
-// Divides corners at one vertex into two sides of a thin plate, moves those of the back side to the end of `corners`,
-// and returns the index of the first moved corner. Returns the number of corners if no split is needed. `own` is the
-// vertex's normal.
+// Divides corners at one vertex into two sides of a thin plate, moves the corners of the back side to the end of
+// `corners`, and returns the index of the first moved corner. Returns the number of corners if no split is needed.
+// `own` is the vertex's normal.
 std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
     glm::dvec3 sum(0);
     double angles = 0;
@@ -179,12 +179,12 @@ Creases creases(Simplifier& s, const Corners& corners) {
 
 constexpr std::size_t maxSteps = 12;          // max number of vertices visited on the way to the closest face
 constexpr std::size_t maxFacesAround = 1024;  // the search skips vertices with more faces around them
-constexpr double noDistance = 1e-24;          // squared distance below which a mesh of size 1 has only rounding errors
+constexpr double noDistance = 1e-24;          // smaller squared distances are rounding errors on a mesh of size 1
 // A point lies perpendicularly above a face if the squared cosine between the face's normal and the offset to the point
 // exceeds this value.
 constexpr double minUpright = 0.99;
-// Min number of mesh vertices per remaining vertex whose closest point on the level is searched. If many mesh vertices
-// collapsed onto a vertex, the search is made only for every second, fourth, … of them.
+// If many mesh vertices collapsed onto one vertex, the closest point on the level is found only for every second,
+// fourth, … of them, but at least for this number.
 constexpr std::uint32_t enoughAnchors = 16;
 
 // The level's faces, and the face corners around each vertex.

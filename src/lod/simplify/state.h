@@ -22,7 +22,7 @@ struct Origin {
     const Vertices& vertices;
     const VertexGroups& smoothing;
     Frame frame;
-    // For each mesh vertex, the first surface vertex at which faces use it; invalid if no face uses the mesh vertex.
+    // For each mesh vertex, the first surface vertex whose faces use the mesh vertex; invalid if no face uses it.
     Numbered<MeshVertexNumber, SurfaceVertexNumber> firstVertex;
     Numbered<MeshVertexNumber, PrimitiveNumber> firstPrimitive;  // primitive of each mesh vertex's first face
     Numbered<SurfaceVertexNumber, PositionNumber> places;

@@ -44,14 +44,14 @@ struct Frame {
     }
 };
 
-// Class of a collapse. A collapse waits until no collapse of a better class is left; simplify.h defines the classes.
+// Class of a collapse, defined in simplify.h. A bad collapse waits until no good or poor collapse is left.
 enum class Fit : std::uint8_t { good, poor, bad, impossible };
 
 // The planned collapse of a vertex, which removes the vertex.
 struct Candidate {
     HalfedgeHandle along;  // leads to the surviving vertex; invalid: no collapse is possible
     float cost = std::numeric_limits<float>::infinity();
-    Fit fit = Fit::good;    // worst class found by the tests of the collapse made so far
+    Fit fit = Fit::good;    // worst class that the tests made so far have found
     bool outdated = false;  // the cost has changed, or another collapse may be cheaper
 
     [[nodiscard]] bool possible() const { return along.is_valid(); }

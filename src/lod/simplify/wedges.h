@@ -25,7 +25,7 @@ constexpr float normalWeight = 0.003f;
 constexpr float colorWeight = 0.005f;  // weight for colours in [0, 1]
 constexpr float uvWeight = 0.05f;
 // Weight of a vertex's blur values, each divided by its range over the mesh. This weight is four times the colour
-// weight, so that coarse levels keep blur where the file's vertices have it.
+// weight, so that coarse levels keep the blur values at the positions of the original vertices.
 constexpr float blurWeight = 0.02f;
 
 class WedgeTable {

@@ -14,7 +14,7 @@ namespace defocus::engine {
 template <typename Vertex, typename Id>
 struct Welded {
     Numbered<Vertex, Id> id;
-    Numbered<Id, Vertex> first;  // first vertex that has each id
+    Numbered<Id, Vertex> first;  // per id, the first vertex with this id
 };
 using WeldedPositions = Welded<MeshVertexNumber, PositionNumber>;
 using WeldedVertices = Welded<FileVertexNumber, MeshVertexNumber>;

@@ -33,7 +33,7 @@ double cellClassVariance(int k);
 inline constexpr double minCellVariance = 0.01;  // px², subtracted from each blur's variance; too small to be visible
 
 struct LensCells {
-    double blur = 0;                 // σ of the blur as a fraction of |c|; 0: images are not blurred
+    double blur = 0;                 // σ of the blur as a fraction of the CoC diameter; 0: images are not blurred
     std::uint32_t firstSample = 0;   // LensSample::index of the first cell's lens sample
     std::vector<glm::vec2> middles;  // centre of each cell, in the coordinates of LensSample::lens
     glm::dvec2 pixelShift{0};        // shift in px, added to LensSample::pixel so that the mean offset is 0
@@ -57,7 +57,7 @@ LensCells lensCells(const FramePlan& plan);
 void moveToCells(FramePlan& plan, const LensCells& cells);
 
 // Returns the image resolution that a lens sample needs along each axis at a CoC of `coc` px, as a fraction of full
-// resolution. The fraction is 2^−k at the variance of class k, and 1 if images are not blurred.
+// resolution. The fraction is 2^−k for a blur with the variance cellClassVariance(k), and 1 if images are not blurred.
 double pixelRate(const LensCells& cells, double coc);
 
 }  // namespace defocus::engine

@@ -14,7 +14,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t maxConvexTriangles = 1000;  // max triangles of a primitive that isConvex() tests
-constexpr std::size_t maxParts = 5000;            // max total of parts; limits the time for comparing pairs
+constexpr std::size_t maxParts = 5000;            // max number of parts; limits the time for comparing pairs of parts
 constexpr double tolerance = 1e-4;                // allowance for rounded positions, relative to the primitive's size
 
 // An alpha-blended or transmissive primitive of an object.
@@ -158,8 +158,8 @@ void BlendSorter::relate() {
 }
 
 // Returns the indices of the nodes in an order that satisfies the constraints between sorted nodes. Where several nodes
-// could be next, the farthest object comes first. A cycle is broken by drawing one of its nodes, or a node behind it,
-// with stochastic transparency.
+// could be next, the node of the farthest object comes first. A cycle is broken by drawing one of its nodes, or a node
+// behind it, with stochastic transparency.
 std::vector<std::size_t> BlendSorter::backToFront() {
     const std::size_t count = nodes_.size();
     std::vector<std::vector<std::size_t>> later(count);

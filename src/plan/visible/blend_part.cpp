@@ -100,7 +100,8 @@ bool mayHide(const BlendPart& front, const BlendPart& behind, const FramePlan& p
         const PosedPart& p = front.poses[std::min(i, front.poses.size() - 1)];
         const PosedPart& q = behind.poses[std::min(i, behind.poses.size() - 1)];
         if (p.nearest + p.rounding >= q.farthest) continue;
-        // If C(w) isn't a + b·w, the lens shear doesn't preserve planes, so only the depths are compared.
+        // If the circle of confusion C(w) isn't a + b·w, the lens shear doesn't preserve planes, so only the depths are
+        // compared.
         if (plan.usesCocControls || mayHide(p, front.flat, q, behind.flat, 0.5 * plan.apertureDiameter)) return true;
     }
     return false;

@@ -24,8 +24,8 @@ struct LensTriangle {
 // `radius`. The triangle faces away from all these lens points if the result is ≤ 0.
 double largestDeterminant(const LensTriangle& triangle, double aspect, double radius = 1);
 
-// Returns an upper bound of this determinant, over the same lens points, while the triangle moves linearly from `from`
-// to `to`.
+// Returns an upper bound of the triangle's determinant, as seen from any lens point in the disk of `radius`, at all
+// times while the triangle moves linearly from `from` to `to`.
 double largestDeterminant(const LensTriangle& from, const LensTriangle& to, double aspect, double radius = 1);
 
 // Returns the triangle interpolated linearly between `from` (share 0) and `to` (share 1).

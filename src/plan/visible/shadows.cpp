@@ -21,9 +21,9 @@ namespace {
 
 constexpr int minMapSize = 128;               // min width and height of a shadow map, px
 constexpr int maxImageMapSize = 2048;         // max map size in px that is chosen to match the image's size
-constexpr double resolvedShare = 0.95;        // fraction of visible points with texels of at most texelPixels px
+constexpr double resolvedShare = 0.95;        // fraction of visible points whose texels are at most texelPixels wide
 constexpr double texelPixels = 2;             // texel width in px; can exceed 1, because samples shift the texels
-constexpr double minTexelLimit = 1 << 20;     // max texels of a map; for large images, twice the number of pixels
+constexpr double minTexelLimit = 1 << 20;     // max texels of a map, or twice the image's pixels if these are more
 constexpr double maxSampleTexels = 64 << 20;  // max texels of all maps of a lens sample: 256 MiB
 constexpr double minShare = 0.01;             // lights below this fraction of the visible illuminance cast no shadow
 constexpr double widestTangent = 3;           // max tan of half a map's field of view
@@ -307,8 +307,8 @@ double texelsNeeded(const FramePlan& plan, const ShadowProjection& projection, i
 }
 
 // Returns the map size that suffices for all but a small fraction of the visible surfaces, within the limits of memory
-// and time. Sizes are rounded up to a power of two or 1.5 times a power of two, because shaders are compiled for each
-// size.
+// and time. Shaders are compiled for each size. To keep the number of sizes small, a size is rounded up to a power of
+// two or 1.5 times a power of two.
 int mapSize(const World& world, const FramePlan& plan, const ShadowPlan& shadows,
             const EnvironmentDirections& directions, const std::vector<std::vector<SeenPoint>>& rays) {
     const glm::dvec3 camera(plan.view.worldFromCamera[3]);

@@ -3,8 +3,9 @@
 // every light and a shadow map rendered from that point. The mean over the samples contains the penumbrae.
 //
 // Lights are disks that face the receiver. A directional light has an angular diameter; other lights have a radius. The
-// surroundings (environment map) act as one more light if they light the scene. Their sample is a direction, chosen in
-// proportion to radiance. An occluder in that direction removes this sample's share of the surface's ambient light.
+// surroundings (environment map) act as one more light if they light the scene. For them, each lens sample has a
+// direction instead of a point, chosen in proportion to radiance. An occluder in that direction removes this sample's
+// share of the surface's ambient light.
 
 #include <array>
 #include <cstdint>

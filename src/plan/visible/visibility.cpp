@@ -29,20 +29,20 @@ constexpr std::size_t maxMoments = 64;  // max shutter times for culling; with m
 // max number of vertices per level, over all shutter times; posing them takes about 10 ms
 constexpr std::size_t maxPosedVertices = 100'000;
 constexpr double minSaving = 1.0 / 8;  // min culled fraction of a level's triangles; otherwise all are drawn
-constexpr std::uint32_t minGap = 128;  // min culled triangles between two ranges; a smaller gap costs less to draw
+constexpr std::uint32_t minGap = 128;  // min culled triangles between two ranges; fewer are drawn, not skipped
 
 // Bounds of the lens in object space during a part of the exposure.
 struct LensRange {
-    glm::dvec3 eye{0};             // centre of the lens in the middle of this part of the exposure
+    glm::dvec3 eye{0};             // centre of the lens in the middle of the time range
     glm::dmat3 viewFromNormal{1};  // inverse transpose of the object's matrix
     double inverseSize = 0;        // Frobenius norm of the object's inverse matrix
-    double motion = 0;             // max distance of a lens point from its position in the middle of this part
+    double motion = 0;             // max distance of a lens point from its position in the middle of the time range
 };
 
 // An object as seen by all samples of the frame.
 struct ObjectViews {
     std::vector<glm::dmat4> viewFromObject;  // matrix in the middle of the exposure, then at each shutter time
-    std::vector<LensRange> lenses;           // ranges over the exposure; empty: no culling of back faces
+    std::vector<LensRange> lenses;           // lens bounds for parts of the exposure; empty: no culling of back faces
     double lensRadius = 0;                   // radius in m of the disk that bounds the lens
     double shapeLoss = 1;                    // max factor by which a tilted focus plane shrinks a triangle's altitude
     double minVolume = 0;                    // min view-space volume in m³ of a unit cube of object space
@@ -186,7 +186,7 @@ bool staysWhole(const CocBox& coc, const FramePlan& plan) {
     return std::max({-coc.ndcMin.x, coc.ndcMax.x, -coc.ndcMin.y, coc.ndcMax.y}) < reach;
 }
 
-// Returns true if C is a single linear function of the position over the box.
+// Returns true if the circle of confusion C is a single linear function of the position over the box.
 bool isOneLinearPiece(const CocBox& coc, const FramePlan& plan) {
     const glm::dvec2 tanHalf = plan.tanHalfHorizontal * glm::dvec2(1, 1 / plan.coc.aspect);
     const CocDeviation deviation = cocDeviation(plan.coc, coc, 1, tanHalf, plan.view.width);
@@ -213,7 +213,7 @@ struct LevelCorners {
     std::vector<ClipVertices> moments;  // one entry per shutter time; a single entry if nothing moves
     bool apart = false;                 // true: one shutter time per sample; false: linear motion between times
     double terms = 0;                   // magnitude in m of the terms that the GPU sums to positions
-    double lensRadius = 1;              // max distance of the lens samples from the lens's centre
+    double lensRadius = 1;              // max distance of a lens sample from the lens's centre, in lens radii
     double sign = 1;                    // 1, or −1 for mirrored objects
 };
 
@@ -328,7 +328,7 @@ bool triangleFacesAway(const std::uint32_t* indices, const LevelCorners& corners
 }
 
 // Returns true if the circle of confusion C of each corner is linear in time between two shutter times. This holds for
-// the thin lens, because w is linear, and for a C that is one linear function.
+// the thin lens, because w is linear, and for a C that is a single linear function of the position.
 bool goesEvenly(const CocBox& coc, const LevelCorners& corners, const ObjectPlan& object, const FramePlan& plan) {
     if (corners.apart || corners.moments.size() == 1 || object.motion.empty()) return true;
     if (object.blurMoves) return false;
@@ -384,8 +384,8 @@ public:
 private:
     VisibleLevel* level_;
     std::vector<IndexRange>* runs_;
-    std::uint32_t away_ = 0;     // number of triangles after the last range in runs_ that face away
-    std::uint32_t outside_ = 0;  // number of triangles after the last range in runs_ that lie outside the image
+    std::uint32_t away_ = 0;     // back-facing triangles after the last range in runs_
+    std::uint32_t outside_ = 0;  // triangles outside the image after the last range in runs_
 };
 
 VisibleLevel levelWithoutHidden(const ObjectViews& views, const ObjectPlan& object, std::uint32_t number,
@@ -439,8 +439,8 @@ CocBox cocBoxOf(const Bounds& viewBox, const OwnBlur& own, const FramePlan& plan
 
 namespace {
 
-// Returns the largest |C| = |factor·(a + b·w) + added·w| of the thin lens over all wavelengths. C is linear in each
-// parameter, so the ends of the ranges bound it.
+// Returns the largest circle of confusion |C| = |factor·(a + b·w) + added·w| of the thin lens over all wavelengths. C
+// is linear in `factor` and `added`, so |C| is largest at the ends of their ranges.
 double thinLensReach(const ClipCircleOfConfusion& coc, const OwnBlur& own, double w) {
     double reach = 0;
     for (const double factor : {own.factorMin, own.factorMax})
@@ -453,8 +453,8 @@ double thinLensReach(const ClipCircleOfConfusion& coc, const OwnBlur& own, doubl
 
 // Returns true if all corners lie outside one plane of the frustum. For the left plane, at image position −1, this
 // means x/tan(θx/2) + w + |C| < 0, with half a pixel added for the jitter. The circle of confusion of a thin lens,
-// |C(w)|, is convex, so the corners bound it. Otherwise |C|/w is at most `largest` px over the image's width. Inside
-// the image, one more pixel accounts for the rounding of vertex positions.
+// |C(w)|, is convex, so the corners bound it. Otherwise |C|/w is at most `largest` px over the image's width. If a side
+// of `area` lies inside the image, one more pixel accounts for the rounding of vertex positions.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,
                            const PixelRectangle& area) {
     const View& view = plan.view;
