@@ -183,7 +183,7 @@ private:
         return usdNumber(prim(), name, time, otherwise, where_);
     }
 
-    // Returns a length of lens or sensor in mm. USD stores these lengths in tenths of the layer's unit.
+    // Returns a length of the lens or the sensor, in mm. USD stores these lengths in tenths of the layer's unit.
     [[nodiscard]] double length(const char* name, double time, double otherwise) const {
         const double value = number(name, time, otherwise) * tenthMillimetres_.value_or(stage_.metresPerUnit * 100);
         if (!(value > 0)) fail("{}: {} must be above 0", where_, name);
