@@ -181,7 +181,8 @@ private:
         context_ = eglCreateContext(display_, config, shared, attributes);
     }
 
-    // Reads the device and driver names from the current context, which uses the same driver.
+    // Reads the device and driver names from the current context. In share(), this is another context, which uses the
+    // same driver.
     void readDriver() {
         device_ = currentDevice();
         driver_ = currentDriver();

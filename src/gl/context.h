@@ -42,7 +42,7 @@ private:
     void* read_;
 };
 
-// Both functions return a string of the current context: its GL_RENDERER (device) and its GL_VERSION (driver).
+// currentDevice and currentDriver return the strings GL_RENDERER and GL_VERSION of the current context.
 std::string currentDevice();
 std::string currentDriver();
 // Returns whether the current context renders on the CPU.

@@ -11,9 +11,9 @@ namespace defocus::engine {
 class Fence {
 public:
     Fence() = default;
-    // Returns a fence after all commands of the current context so far.
+    // Returns a fence that follows all commands issued so far in the current context.
     static Fence here() { return Fence(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)); }
-    // Returns a fence and submits the commands before it, so that threads with other contexts can wait.
+    // Returns a fence and submits the commands before it, so that threads with other contexts can wait for the fence.
     static Fence forOtherContexts();
 
     Fence(Fence&& other) noexcept : sync_(std::exchange(other.sync_, nullptr)) {}

@@ -22,7 +22,7 @@ struct ShaderConstant {
 constexpr ShaderConstant constants[] = {
     // Constants of a frame: lens, environment, lights and accumulation
     {"int", "blockSamples", "64"},     // lens samples that are summed as one block
-    {"int", "positionsPerAxis", "1"},  // width of an image pixel, in pixels of a sample's layer
+    {"int", "positionsPerAxis", "1"},  // width of an image pixel, in pixels of a lens sample's layer
     {"int", "environmentType", "0"},
     {"int", "backgroundType", "0"},
     {"float", "environmentLevels", "0.0"},    // coarsest mip level of the environment map
@@ -30,16 +30,16 @@ constexpr ShaderConstant constants[] = {
     {"bool", "multipleScattering", "false"},
     {"int", "lightCount", "0"},
     {"int", "maxLights", "1"},         // length of the lights' uniform arrays
-    {"bool", "usesOwnBlur", "false"},  // true if surfaces have modifiers of their blur
+    {"bool", "usesOwnBlur", "false"},  // true if surfaces modify their blur by a factor or by added blur
     {"bool", "chromatic", "false"},
     {"bool", "cocControls", "false"},
     {"bool", "aberrations", "false"},
     {"float", "catEye", "0.0"},
     {"float", "layerLargest", "0.0"},  // colours in a layer are clamped to this value; 0: no clamping
     {"bool", "startsBlock", "false"},
-    {"bool", "keepsNearest", "false"},  // depth layer: also keeps the nearest depth
-    {"bool", "sumsAlpha", "false"},     // data layers: also sums alpha, the coverage
-    {"int", "waveSamples", "1"},        // samples that a pass adds; a constant, so that drivers unroll the loop
+    {"bool", "keepsNearest", "false"},  // true for the depth layer, which also stores the nearest depth
+    {"bool", "sumsAlpha", "false"},     // without a depth layer, the first data layer also sums alpha, the coverage
+    {"int", "waveSamples", "1"},        // samples that a pass adds up; a constant, so that drivers unroll the loop
     {"int", "tableEntries", "1"},       // max number of objects or materials counted separately in a pixel
 
     // Constants of a surface's material and mesh
@@ -68,8 +68,8 @@ constexpr ShaderConstant constants[] = {
     {"int", "textureCount", "1"},
     {"int[19]", "textureUnits", "int[](-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1)"},
     {"bool", "passesOwnBlur", "false", "PASSES_OWN_BLUR"},  // the fragment stage reads the blur modifiers
-    {"bool", "coarseShare", "false"},  // true: draws only the coarser level's pixels of a sample that mixes two levels
-    {"bool", "fineShare", "false"},    // true: draws only the finer level's pixels of a sample that mixes two levels
+    {"bool", "coarseShare", "false"},  // draws only the coarser level's pixels in samples that mix two levels of detail
+    {"bool", "fineShare", "false"},    // draws only the finer level's pixels in samples that mix two levels of detail
 
     // Constants of poses, in which vertex shaders place moving, skinned and morphed objects
     {"bool", "moving", "false", "MOVING"},
@@ -112,7 +112,7 @@ constexpr ShaderConstant constants[] = {
     {"bool", "lineSamples", "false"},
     {"int", "segmentCapacity", "1"},
     {"bool", "shortIntervals", "false"},  // true: the interval of a line segment is stored in 16 bits
-    {"bool", "areaWeights", "true"},      // true: parts of lines are weighted by κ (weights.glsl), else by length
+    {"bool", "areaWeights", "true"},  // parts of lines are weighted by κ (weights.glsl) if true, by length if false
     {"bool", "lightsVertices", "false", "LIGHTS_VERTICES"},
     {"int", "maxShadingPoints", "1"},
 

@@ -1,5 +1,5 @@
 #pragma once
-// Declares the constants that shaders read, with the values of a program or their defaults.
+// Declares the constants that shaders read, with a program's values or with default values.
 
 #include <string>
 

@@ -53,7 +53,7 @@ struct WindowEvent {
 };
 
 struct WindowOptions {
-    int width = 1280;  // width in px of a standard screen; enlarged on high-density screens
+    int width = 1280;  // window width in px on a standard screen; larger on high-density screens
     int height = 800;
     std::string title = "defocus";
 };
@@ -71,8 +71,8 @@ public:
     [[nodiscard]] bool closing() const;
     void close();
     [[nodiscard]] bool keyHeld(int keyCode) const;
-    [[nodiscard]] bool hovered() const;  // true if the mouse is over the window
-    [[nodiscard]] bool focused() const;  // true if the window has the keyboard focus
+    [[nodiscard]] bool hovered() const;
+    [[nodiscard]] bool focused() const;
 
     [[nodiscard]] bool fullscreen() const;
     // If `on`, covers the window's current screen; otherwise restores the previous position and size.

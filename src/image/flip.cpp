@@ -274,7 +274,7 @@ void raiseToFlip(const ComparablePair& pair, double pixelsPerDegree, const ToDis
     const FeatureFilters filters = featureFilters(pixelsPerDegree);
     const Features featuresA = features(opponentA.x, filters);
     const Features featuresB = features(opponentB.x, filters);
-    // Combine the two: feature differences amplify colour differences.
+    // Combine the results of both pipelines: feature differences amplify colour differences.
     const ColourDifference colourDifference;
     forEachRow(map.height, [&](int y) {
         for (int x = 0; x < map.width; ++x) {
@@ -306,7 +306,8 @@ void checkOptions(const std::optional<HdrFlipOptions>& hdr, double pixelsPerDegr
 int flipRadius(double pixelsPerDegree) {
     const std::size_t widest =
         std::max(spatialFilters(pixelsPerDegree).achromatic.size(), featureFilters(pixelsPerDegree).smooth.size());
-    return static_cast<int>(widest / 2);  // radius; all spatial filters have one size, and all feature filters
+    // All spatial filters have the same size, and so do all feature filters.
+    return static_cast<int>(widest / 2);
 }
 
 Image flipErrorMap(const ImageView& reference, const ImageView& test, const std::optional<HdrFlipOptions>& hdr,

@@ -138,7 +138,7 @@ ImagePartReader::ImagePartReader(const std::filesystem::path& path) : state_(std
             fail("cannot read {}: it has more than {} images", s.name, maxImageParts);
         s.metadata.push_back(metadataOf(own));
     }
-    static_cast<void>(s.input->geterror());  // clears the error of the attempt to open a part after the last
+    static_cast<void>(s.input->geterror());  // clears the error from the attempt to open a part after the last one
 }
 
 ImagePartReader::~ImagePartReader() = default;

@@ -1,7 +1,7 @@
 #pragma once
 // Writes and reads multi-part EXR files: images of equal size, each with its depths, in one file that any EXR reader
 // can open. A part has the channels R, G, B and A (16-bit float) and Z (32-bit float), lossless ZIP. Images are written
-// and read one at a time, so that memory holds one image.
+// and read one at a time, so that only one image is in memory.
 
 #include <cstddef>
 #include <filesystem>
@@ -27,14 +27,14 @@ struct PartSize {
 
 class ImagePartWriter {
 public:
-    // `parts`: the metadata of each part, for 1 … maxImageParts parts. Throws Error, with the path in its message, if
-    // the file cannot be created.
+    // `parts`: the metadata of each part of the file, for 1 … maxImageParts parts. Throws Error, with the path in its
+    // message, if the file cannot be created.
     ImagePartWriter(const std::filesystem::path& path, const PartSize& size, const std::vector<Metadata>& parts);
     ~ImagePartWriter();  // deletes the temporary file unless finish() was called
     ImagePartWriter(ImagePartWriter&&) noexcept;
 
-    // Appends the next part. `colour` is linear, premultiplied RGBA, `depth` has one channel; both include the margin.
-    // Colours above 65504 are clamped to that value.
+    // Appends the next part of the file: `colour` is linear, premultiplied RGBA, and `depth` has one channel. Both
+    // include the margin. Colours above 65504 are clamped to that value.
     void write(const ImageView& colour, const ImageView& depth);
     // Completes the file after the last part: flushes it to disk and renames it to `path`.
     void finish();

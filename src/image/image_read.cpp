@@ -80,7 +80,7 @@ public:
     }
 };
 
-// Open image reader, and the encoded bytes that it reads.
+// An opened image reader, and the encoded bytes that it reads.
 struct OpenImage {
     std::vector<unsigned char> bytes;
     std::unique_ptr<CheckedMemory> memory;

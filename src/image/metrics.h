@@ -41,13 +41,13 @@ struct ImageStrips {
 
 inline constexpr std::uint64_t defaultCompareBytes = std::uint64_t{512} << 20;
 
-// Returns the same values as compareImages below, bit for bit, but with only about `maxBytes` of memory in addition to
-// the strips, or more if 30 rows need more. Both images must have the same size.
+// Returns the same values as compareImages below, bit for bit. Needs only about `maxBytes` of memory in addition to the
+// strips, or as much as 30 rows need if that is more. Both images must have the same size.
 Difference compareStrips(const ImageStrips& reference, const ImageStrips& test, const CompareOptions& options,
                          std::uint64_t maxBytes = defaultCompareBytes);
 
 // Compares images like compareImages of the public API, but with options. If no mask pixel is > 0, returns the values
-// of equal images and pixelCount 0.
+// for identical images, and pixelCount 0.
 Difference compareImages(const ImageView& reference, const ImageView& test, const CompareOptions& options);
 
 }  // namespace defocus::engine

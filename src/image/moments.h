@@ -19,8 +19,8 @@ struct Moments {             // moments of an image's first channel
 
 Moments momentsOf(const Image& image);
 
-// Returns the radius of a blur in px (circumradius for a polygon). `moments` are those of the image of a blurred
-// square, whose sharp side is `square` px. `bladeCount` 0 means a disk.
+// Returns the radius of a blur in px (circumradius for a polygon). `moments` belong to the image of a square that had a
+// side of `square` px before blurring. `bladeCount` 0 means a disk.
 double radiusBySecondMoment(const Moments& moments, int bladeCount, double square);
 
 }  // namespace defocus::engine

@@ -18,7 +18,7 @@ ImageView rowsOf(const ImageView& image, int first, int count) {
     const std::size_t size = static_cast<std::size_t>(count) * image.strides.row;
     ImageView rows = image;
     rows.height = count;
-    // Strides may imply a gap behind the last row, but the image's memory ends before that gap.
+    // The strides may imply a gap after the last row, but the image's memory may end before that gap.
     rows.pixels = image.pixels.subspan(begin, std::min(size, image.pixels.size() - begin));
     return rows;
 }

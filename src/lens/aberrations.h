@@ -19,7 +19,7 @@
 
 namespace defocus::engine {
 
-// Returns the coma coefficient B for which points at the left and right edges get a coma tail of `length`. Both are
+// Returns the coma coefficient B that gives points at the left and right edges a coma tail of `length`. Both are
 // fractions of the image's width.
 double comaOfTail(double length);
 

@@ -40,9 +40,10 @@ double sectorArea(const Blade& blade, double angle) {
            blade.curvature * blade.curvature * angle;
 }
 
-// Returns the angle φ for which the sector from the blade's middle (angle 0) to φ has the fraction |share| of half the
-// blade's area; φ has the sign of `share` ∈ [−1, 1]. Newton's method starts from a straight blade's angle. It converges
-// in three or four steps, because the integrand edgeRadius² varies by at most a factor of 4 (three straight blades).
+// Returns the angle φ such that the sector from the blade's middle (angle 0) to φ covers the fraction |share| of half
+// the blade's area. φ has the sign of `share` ∈ [−1, 1]. Newton's method starts from a straight blade's angle. It
+// converges in three or four steps, because the integrand edgeRadius² varies by at most a factor of 4 (three straight
+// blades).
 double angleOfShare(const Blade& blade, double share) {
     double angle = std::atan(share * std::tan(blade.halfAngle));
     if (blade.curvature == 0) return angle;

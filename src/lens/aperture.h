@@ -38,8 +38,8 @@ struct Aperture {
 };
 
 // Prepares the aperture of a lens. An aperture image is scaled so that its longer side spans the lens; the image's top
-// is the lens's top. The area outside the unit disk is opaque. Throws Error if the image is empty, black within the
-// disk, or contains negative, NaN or infinite values.
+// is the lens's top. The area outside the unit disk is opaque. Throws Error if the image is empty or black within the
+// disk, or if it contains negative, NaN or infinite values.
 Aperture makeAperture(const Lens& lens);
 
 // Maps (r, s) ∈ [0, 1)² to the lens point (u, v) in the unit disk; +u right, +v up. (1/2, 1/2) maps to the lens's

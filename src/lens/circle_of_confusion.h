@@ -1,7 +1,7 @@
 #pragma once
 // Computes the circle of confusion (CoC) at a clip-space position, including artistic controls.
-// shaders/include/lens.glsl implements the same function. This version serves level selection, culling, plans and
-// tests.
+// shaders/include/lens.glsl implements the same function. This version is used for culling, for planning frames, for
+// choosing levels of detail, and in tests.
 //
 // In clip space the image of a point moves by C·(u, k·v) for a lens point (u, v) of the unit disk. The image has W × H
 // px, and k = W/H. The thin lens has C(w) = a + b·w with a = −(A/2)/tan(θx/2) and b = −a/s. A is the aperture's
@@ -104,13 +104,13 @@ CocRange circleOfConfusionRange(const ClipCircleOfConfusion& coc, const CocBox& 
 // Returns the coefficients of a thin lens `coc` that is focused at another distance (m; infinity is allowed).
 ClipCircleOfConfusion refocused(const ClipCircleOfConfusion& coc, double focusDistance);
 
-// Returns the largest |CoC| of any position in the image at infinite depth, px.
+// Returns the largest |CoC| in px at infinite depth, over all positions in the image.
 double largestCocAtInfinity(const ClipCircleOfConfusion& coc, int width);
 
 // Upper bounds, in px, on the CoC error if C is interpolated linearly inside a triangle.
 struct CocDeviation {
     double kinks = 0;   // error at kinks, where the slope of C jumps; splitting triangles there removes the error
-    double curved = 0;  // error where C is curved, also by per-vertex blur; only smaller triangles reduce this error
+    double curved = 0;  // error where C is curved, also because of per-vertex blur; only smaller triangles reduce it
 };
 
 CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, double longestEdge,

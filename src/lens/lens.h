@@ -45,7 +45,7 @@ struct Lens {
     double backgroundLimit = std::numeric_limits<double>::infinity();  // max CoC behind the focus plane, px
     double focusRangeFront = 0;        // extent in m of the sharp range in front of the focus plane, [0, focusDistance)
     double focusRangeBehind = 0;       // extent in m of the sharp range behind the focus plane, ≥ 0
-    bool focusRangeRefocuses = false;  // true: blur behind the range is that of a focus at its far end
+    bool focusRangeRefocuses = false;  // true: behind the sharp range, blur as if focused at the range's far end
     double focusTilt = 0;              // radians about the horizontal axis; > 0: the focus plane's top comes nearer
     double focusSwing = 0;      // radians about the vertical axis; > 0: the focus plane's right side comes nearer
     double fieldCurvature = 0;  // κ of the curved focus surface w = s/(1 + κ·r²); r is 1 at the left and right edges

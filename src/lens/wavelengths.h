@@ -5,7 +5,7 @@
 //
 // Let D be the dioptres between the focus distances of red and blue. The focus distance at band position t is s(t),
 // with 1/s(t) = 1/s + 3·D·(t − 1/2). The colour weights below have their centres at t = 1/3 (red), 1/2 (green) and 2/3
-// (blue); red and blue are D apart. In C = a + b·w this adds 3·a·D·(1/2 − t) to b.
+// (blue); red and blue are D apart. In C = a + b·w, the change of the focus distance adds 3·a·D·(1/2 − t) to b.
 
 #include <glm/vec3.hpp>
 #include <span>

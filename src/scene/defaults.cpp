@@ -17,7 +17,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double framingTangent = 18.0 / 50.0;  // 50 mm lens: tangent of half the angle along the longer image side
+constexpr double framingTangent = 18.0 / 50.0;  // tangent of half a 50 mm lens's angle of view, along the longer side
 constexpr double framingFill = 0.94;  // max fraction of the image's width and height that the bounding box fills
 constexpr double framingAzimuth = glm::radians(30.0);  // camera azimuth from +z, the models' front, towards +x
 constexpr double framingElevation = glm::radians(18.0);

@@ -21,7 +21,7 @@ std::size_t repairAttributes(VertexBlock& block, std::span<std::vector<std::uint
 Ignored replacedNormalsNote(std::size_t count);
 
 // Returns the texture coordinate set to which tangents must be aligned: the set of the first normal map or anisotropic
-// material of the primitives. Returns −1 without such a material.
+// material of the primitives. Returns −1 if there is neither.
 int tangentUvSet(std::span<const Primitive> primitives, std::span<const Material> materials);
 
 // Adds flat normals if normals are missing, as glTF requires. Adds missing tangents aligned to the texture coordinate

@@ -109,8 +109,8 @@ TriangleGroups groupsOf(const Mesh& mesh, std::size_t rays, const Place& place) 
     return groups;
 }
 
-// Returns the ray parameter of the first hit of the triangles, or `nearest` if that is smaller. `boxes`: those of
-// `groups`, or empty to test all triangles. `place(index)` returns the position of vertex `index`.
+// Returns the ray parameter of the first hit on a triangle, or `nearest` if that is smaller. `boxes`: groups.boxes, or
+// empty to test all triangles. `place(index)` returns the position of vertex `index`.
 template <typename Place>
 double nearestCrossing(const TriangleGroups& groups, std::span<const Bounds> boxes, const Ray& ray, double nearest,
                        const Place& place) {
@@ -129,8 +129,8 @@ auto placesOf(const Mesh& mesh) {
     return [&mesh](std::uint32_t vertex) { return glm::dvec3(mesh.vertices.positions[vertex]); };
 }
 
-// Returns the ray parameter of the first hit of an object that is not deformed, or `nearest` if that is smaller. The
-// ray is transformed to object space if the matrix is invertible; otherwise the triangles are transformed to world
+// Returns the ray parameter of the first hit on an undeformed object, or `nearest` if that is smaller. The ray is
+// transformed to object space if the object's matrix is invertible; otherwise the triangles are transformed to world
 // space. `groups`: the mesh's triangles.
 double nearestCrossing(const Mesh& mesh, const TriangleGroups& groups, const glm::dmat4& worldFromObject,
                        const glm::dmat4& objectFromWorld, const Ray& world, double nearest) {

@@ -23,9 +23,9 @@ struct NodeState {
     glm::dvec3 translation;
     glm::dquat rotation;
     glm::dvec3 scale;
-    std::vector<double> morphWeights;  // weights of the morph targets of the node's mesh
-    bool visible;                      // the node's own visibility; a hidden ancestor may still hide it
-    bool hides;                        // true: an animation hides the node at some times
+    std::vector<double> morphWeights;
+    bool visible;  // the node's own visibility; a hidden ancestor may still hide it
+    bool hides;    // true: an animation hides the node at some times
 };
 
 // Animatable properties of a scene at one instant.

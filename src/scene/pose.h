@@ -20,7 +20,7 @@ struct Object {  // mesh instance with all its primitives
     // World matrix times inverse bind matrix of each joint; empty without a skin. With a skin, worldFromObject does not
     // apply to vertices.
     std::vector<glm::dmat4> worldFromJoint;
-    std::vector<double> morphWeights;  // weights of the mesh's morph targets
+    std::vector<double> morphWeights;
     // True for the ground of addGround. Default framing and focus ignore the ground, and it casts no shadows.
     bool ground = false;
 

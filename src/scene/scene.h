@@ -85,7 +85,7 @@ struct Material {
     float clearcoatNormalScale = 1.0f;
     TextureUse clearcoat;           // linear texture, channel R
     TextureUse clearcoatRoughness;  // linear texture, channel G
-    TextureUse clearcoatNormal;     // linear texture, as `normal`; without it, the coat uses the mesh normal
+    TextureUse clearcoatNormal;     // linear texture like `normal`; without it, the coat uses the mesh normal
 
     // KHR_materials_sheen.
     glm::vec3 sheenColorFactor{0.0f};

@@ -55,7 +55,7 @@ void checkChoice(const std::string& label, const char* name, Choice value, Choic
     refuse("{}: {} has no value {}", label, name, static_cast<int>(value));
 }
 
-// Throws UsageError unless `index` is −1 or below `count`, the number of parts of the kind `kind`.
+// Throws UsageError unless `index` is −1 or below `count`, the number of items of the type `kind`, such as "mesh".
 void checkIndex(const std::string& label, const char* kind, int index, std::size_t count) {
     if (index >= -1 && (index < 0 || static_cast<std::size_t>(index) < count)) return;
     refuse("{}: there is no {} {}; the scene has {}", label, kind, index, count);

@@ -10,7 +10,7 @@
 namespace defocus::engine {
 
 // Returns the scene with Scene::ownMetresPerUnit set. CameraData::lens is ignored. Throws UsageError, with the label of
-// the faulty part, for sizes that don't match, indices or values out of range, NaN, infinity, or a scene without
+// the faulty item, for sizes that don't match, indices or values out of range, NaN, infinity, or a scene without
 // instances.
 Scene sceneFromData(const SceneData& data);
 

@@ -41,7 +41,7 @@ glm::vec2 integrated(double cosine, double alpha) {
             const glm::dvec3 cap = glm::dvec3(sine * std::cos(azimuth), sine * std::sin(azimuth), z) + stretched;
             const glm::dvec3 half = glm::normalize(glm::dvec3(alpha * cap.x, alpha * cap.y, std::max(cap.z, 1e-9)));
             const double vh = std::clamp(glm::dot(eye, half), 0.0, 1.0);
-            const double toLight = 2 * vh * half.z - cosine;  // cosine between the reflected direction and the normal
+            const double toLight = 2 * vh * half.z - cosine;  // n·l for the reflected direction l
             if (toLight <= 0) continue;
             const double masking = (1 + lambdaV) / (1 + lambdaV + smithLambda(toLight, alpha));
             const double schlick = std::pow(1 - vh, 5);

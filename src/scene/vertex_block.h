@@ -1,6 +1,6 @@
 #pragma once
-// Modifies vertex arrays while a mesh is read: gathers, compacts and flat-shades vertices, and appends vertices that
-// have other attributes.
+// Modifies vertex arrays while a mesh is read: gathers, compacts and flat-shades vertices, and appends vertices with
+// different attributes.
 
 #include <cstdint>
 #include <span>
@@ -27,9 +27,9 @@ VertexBlock compacted(const VertexBlock& block, std::span<std::vector<std::uint3
 // that produce the face normals of the displaced triangles.
 VertexBlock flatShaded(const VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
-// Appends `block` to the mesh's vertices and returns the index of its first vertex. An attribute that only the mesh or
-// only the block has is filled with neutral values for the other's vertices: normal +y, a perpendicular tangent, uv 0,
-// white, the first joint, no displacement, and no added blur.
+// Appends `block` to the mesh's vertices and returns the index of its first vertex. If only the mesh or only the block
+// has an attribute, the other one's vertices get a neutral value: normal +y, a perpendicular tangent, uv 0, white, the
+// first joint, no displacement, or no added blur.
 std::uint32_t append(Mesh& mesh, const VertexBlock& block);
 
 // Returns an arbitrary unit vector perpendicular to the unit vector `normal`.

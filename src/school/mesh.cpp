@@ -13,7 +13,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr float eyeEdge = 0.75f;  // edge length in the eyes relative to edges of the body; shorter for crisp pupils
+constexpr float eyeEdge = 0.75f;  // edge length in eyes relative to that in bodies; short edges make pupils crisp
 
 // ---- body of the fish ------------------------------------------------------------------------------
 

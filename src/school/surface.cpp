@@ -58,7 +58,7 @@ void stitchRings(const VertexRow& a, const VertexRow& b, std::vector<std::uint32
     const auto countA = static_cast<float>(a.count);
     const auto countB = static_cast<float>(b.count);
     while (i < a.count || j < b.count) {
-        // Position of the next edges' midpoints around rings a and b, (i + ½ + offset) / count, both multiplied by
+        // Positions of the midpoints of the next edges around rings a and b: (i + ½ + offset) / count, multiplied by
         // countA · countB.
         const float nextA = (static_cast<float>(i) + 0.5f + a.offset) * countB;
         const float nextB = (static_cast<float>(j) + 0.5f + b.offset) * countA;

@@ -2,7 +2,7 @@
 // Reads cameras from JSON that scripts write:
 //   {"camera": NAME, "aspectRatio": K, "frameRate": F, "shutter": {"open": S, "close": S},
 //    "samples": [{"time": S, "worldFromCamera": [16 numbers, column after column], "nearPlane": M, "lens": {…}}, …]}
-// Lengths are in m, except those of the lens, which has the units of lens/lens_fields.h.
+// Lengths are in m, but lens values are in the units of lens/lens_fields.h.
 
 #include <string>
 #include <string_view>

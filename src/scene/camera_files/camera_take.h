@@ -1,5 +1,5 @@
 #pragma once
-// Samples of a camera over time, to be written to a file. All writers write the same values.
+// Samples of a camera over time, to be written to a file.
 
 #include <glm/mat4x4.hpp>
 #include <map>

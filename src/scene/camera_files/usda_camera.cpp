@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double widestSensor = 1000;  // max width in mm; a greater width means that the file's lengths are in mm
+constexpr double widestSensor = 1000;  // max sensor width in mm; a greater one means that the file's lengths are in mm
 constexpr double plainUnit = 0.01;     // default of the layer entry metersPerUnit; a tenth of this unit is 1 mm
 constexpr const char* lensPrefix = "defocus:";
 
@@ -183,7 +183,7 @@ private:
         return usdNumber(prim(), name, time, otherwise, where_);
     }
 
-    // Returns a length of lens or sensor in mm. USD stores these lengths in tenths of the layer's unit.
+    // Returns a length of the lens or the sensor, in mm. USD stores these lengths in tenths of the layer's unit.
     [[nodiscard]] double length(const char* name, double time, double otherwise) const {
         const double value = number(name, time, otherwise) * tenthMillimetres_.value_or(stage_.metresPerUnit * 100);
         if (!(value > 0)) fail("{}: {} must be above 0", where_, name);

@@ -54,7 +54,7 @@ bool isAxisOrder(std::string_view text) {
     return sorted == "XYZ";
 }
 
-// Returns the matrix of an operation such as "xformOp:rotateXYZ:suffix".
+// Returns the matrix of a transform operation such as "xformOp:rotateXYZ:suffix".
 glm::dmat4 operation(const UsdPrim& prim, const std::string& name, double timeCode, const std::string& where) {
     const std::size_t begin = name.find(':') + 1;
     const std::string type = name.substr(begin, std::min(name.find(':', begin), name.size()) - begin);

@@ -11,12 +11,13 @@
 
 namespace defocus::engine {
 
-// Returns the numbers of an attribute at a time code, with linear interpolation between samples; nullopt if the prim
-// has no value. Throws Error unless there are `count` finite numbers. `where` is the start of the error message.
+// Returns the numbers of an attribute at a time code, with linear interpolation between samples; nullopt if the
+// attribute is missing or empty. Throws Error if the attribute does not consist of `count` finite numbers. `where` is
+// the start of the error message.
 std::optional<std::vector<double>> usdNumbers(const UsdPrim& prim, std::string_view name, std::size_t count,
                                               double timeCode, const std::string& where);
 
-// Returns a single number, or `otherwise` if the prim has no value.
+// Returns the number in an attribute, or `otherwise` if the attribute is missing or empty.
 double usdNumber(const UsdPrim& prim, std::string_view name, double timeCode, double otherwise,
                  const std::string& where);
 

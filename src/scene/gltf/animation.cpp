@@ -12,7 +12,7 @@ namespace defocus::engine::gltf {
 
 namespace {
 
-// A node, camera or light, and its property that an animation channel drives.
+// Target of an animation channel: a node, camera or light, and the property that the channel drives.
 struct Target {
     ChannelPath path = ChannelPath::translation;
     std::uint64_t index = 0;  // index of the node, camera or light in the file

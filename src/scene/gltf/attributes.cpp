@@ -131,8 +131,8 @@ std::vector<float> readScalars(Source& source, const AttributeReader& reader, co
     return values;
 }
 
-// Returns the blur per vertex, _COC_SCALE · c + _COC_OFFSET. c is the lens's circle of confusion, unless the primitive
-// has attribute _COC, or _COC_0 and _COC_1 for a linear change during the exposure.
+// Returns the blur per vertex, _COC_SCALE · c + _COC_OFFSET. c is the attribute _COC, or changes linearly from _COC_0
+// to _COC_1 during the exposure. Without these attributes, c is the lens's circle of confusion.
 std::vector<VertexBlur> readBlurs(Source& source, const AttributeReader& reader, const std::string& what) {
     const std::vector<float> scales = readScalars(source, reader, "_COC_SCALE", 0, what);
     const std::vector<float> offsets = readScalars(source, reader, "_COC_OFFSET", -maxBlur, what);

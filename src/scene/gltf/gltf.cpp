@@ -21,7 +21,7 @@ namespace {
 // Adds each object's memory to the scene's memory budget. Instances share a mesh, but each needs memory of its own.
 void checkObjects(gltf::Source& source, const gltf::Hierarchy& hierarchy, const Scene& scene) {
     constexpr std::uint64_t objectBytes = 2304;                   // measured memory of an object's pose and rendering
-    constexpr std::uint64_t jointBytes = 4 * sizeof(glm::dmat4);  // memory of a joint's matrices in pose and plan
+    constexpr std::uint64_t jointBytes = 4 * sizeof(glm::dmat4);  // memory of a joint's matrices in pose and frame plan
     constexpr std::uint64_t weightBytes = 4 * sizeof(double);
     for (const Node& node : hierarchy.nodes) {
         if (node.mesh < 0) continue;
@@ -43,8 +43,8 @@ std::vector<std::string> extensionsOf(const gltf::Source& source) {
     return {names.begin(), names.end()};
 }
 
-// Returns the metres per unit from the extras of the scene or the asset, given as a name such as "cm" or as a number.
-// Returns nullopt if the extras state no unit.
+// Returns the metres per unit that the extras of the scene or the asset state, as a name such as "cm" or as a number.
+// Returns nullopt if they state no unit.
 std::optional<double> ownMetresPerUnit(const gltf::Source& source) {
     const nlohmann::json& json = source.document.json;
     std::vector<const nlohmann::json*> holders;
@@ -78,7 +78,6 @@ Scene readScene(gltf::Source& source, const std::filesystem::path& path, const P
 
     scene.meshes = gltf::readMeshes(source, scene.materials, progress);
 
-    // Read the hierarchy and the animation.
     gltf::Hierarchy hierarchy = gltf::readHierarchy(source);
     scene.cameras = gltf::readCameras(source);
     scene.lights = gltf::readLights(source);

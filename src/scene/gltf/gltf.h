@@ -1,7 +1,7 @@
 #pragma once
-// Loads glTF 2.0 files (.gltf, .glb) as a Scene. Every accessor, index and size is checked before use. An invalid file
-// or an unsupported required extension throws Error with the file's path. Other content that is not drawn is listed in
-// Scene::ignored with the reason, including textures whose image is missing or damaged.
+// Loads glTF 2.0 files (.gltf, .glb) as a Scene. Every accessor, index and size is checked before use. Throws Error,
+// with the file's path, for an invalid file or an unsupported required extension. Other content that is not drawn, such
+// as textures whose image is missing or damaged, is listed in Scene::ignored with the reason.
 //
 // Missing data is completed as glTF requires. Primitives without normals are flat-shaded with unshared vertices;
 // missing tangents are generated for normal maps. Unused vertices are dropped, so a mesh may have fewer vertices than
@@ -16,8 +16,8 @@
 
 namespace defocus::engine {
 
-// Draws primitives with the materials of `variant` (KHR_materials_variants); empty: their default materials. Throws
-// Error, with the names of all variants, if the file has no such variant.
+// Loads a file. Primitives get the materials of `variant` (KHR_materials_variants), or their default materials if
+// `variant` is empty. Throws Error, with the names of all variants, if the file has no such variant.
 Scene loadGltf(const std::filesystem::path& path, const Progress& progress = {}, const std::string& variant = {});
 
 }  // namespace defocus::engine

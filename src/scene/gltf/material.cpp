@@ -35,8 +35,8 @@ glm::mat3 textureTransform(const nlohmann::json& json) {
             toFloat(s * scale[1]), toFloat(c * scale[1]),  0.0f, toFloat(offset[0]), toFloat(offset[1]), 1.0f};
 }
 
-// Returns the reason why a texture is not drawn if it has no supported image: an extension names an image in another
-// format.
+// Returns the reason why a texture without a supported image is not drawn: it has no image, or only an image in the
+// format of an extension.
 std::string withoutImage(const nlohmann::json& texture) {
     std::vector<std::string> formats;
     if (const auto extensions = texture.find("extensions"); extensions != texture.end() && extensions->is_object())
@@ -107,8 +107,8 @@ double metalnessOf(const glm::dvec3& diffuse, const glm::dvec3& specular, double
 }
 
 // Converts a material with a specular-glossiness texture, without loss (KHR_materials_specular, "Conversion from
-// specular-glossiness"): refractive index 0 stands for a reflectance that equals the specular colour. readTextures
-// replaces the metallic-roughness texture, which is the specular-glossiness texture here.
+// specular-glossiness"): refractive index 0 stands for a reflectance that equals the specular colour. The
+// specular-glossiness texture is also stored as the metallic-roughness texture, until readTextures converts it.
 void readSpecularGlossinessTexture(Source& source, const nlohmann::json& json, Material& material) {
     const glm::dvec3 diffuse = colorOf(json, "diffuseFactor");
     material.baseColorFactor = glm::vec4(glm::vec3(diffuse), alphaOf(json));
@@ -119,8 +119,9 @@ void readSpecularGlossinessTexture(Source& source, const nlohmann::json& json, M
     material.metallicRoughness = material.specularColor;
 }
 
-// Converts a specular-glossiness material without such a texture to the closest metallic-roughness material. The
-// conversion is exact if diffuse and specular colours are the same grey, or if the specular colour is 0.04.
+// Converts a specular-glossiness material without a specular-glossiness texture to the closest metallic-roughness
+// material. The conversion is exact if diffuse and specular colours are the same grey, or if the specular colour is
+// 0.04.
 void readSpecularGlossinessFactors(const nlohmann::json& json, Material& material) {
     const glm::dvec3 diffuse = colorOf(json, "diffuseFactor");
     const glm::dvec3 specular = colorOf(json, "specularFactor");

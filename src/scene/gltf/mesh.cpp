@@ -91,7 +91,7 @@ std::vector<std::uint32_t> readTriangles(Source& source, const tinygltf::Primiti
                         readIndices(source, primitive, vertexCount, draco, what));
 }
 
-// Removes points and segments with an end that is NaN or infinite.
+// Removes points and line segments with NaN or infinite positions.
 void dropUnplacedStrokes(Source& source, Strokes& strokes) {
     const std::size_t ends = strokes.points ? 1 : 2;
     std::vector<std::uint32_t> kept;

@@ -144,8 +144,8 @@ int lightOf(const Source& source, const nlohmann::json& json, const std::string&
     return static_cast<int>(light);
 }
 
-// Returns `cocScale` from the node's extras, the blur factor of the node's subtree; 1 if absent. Throws Error unless it
-// is a number ≥ 0.
+// Returns the blur factor of the node's subtree, which is `cocScale` in the node's extras; 1 if absent. Throws Error
+// unless the factor is a number ≥ 0.
 double cocScaleOf(Source& source, const nlohmann::json& json, const std::string& label) {
     const auto extras = json.find("extras");
     if (extras == json.end() || !extras->is_object() || !extras->contains("cocScale")) return 1;
@@ -198,7 +198,7 @@ std::map<std::string, double, std::less<>> lensValues(const nlohmann::json& json
 // take precedence.
 void readPhysicalCamera(Source& source, const nlohmann::json& json, const std::string& label, Camera& camera) {
     constexpr double millimetres = 1e3;
-    constexpr double longest = 10;  // focal length in m; a longer one, such as 35, is probably in millimetres
+    constexpr double longest = 10;  // max focal length in m; a longer one, such as 35, is probably in millimetres
     const nlohmann::json* extension = findExtension(json, "EXT_camera_physical");
     if (extension == nullptr) return;
     const auto number = [&](const nlohmann::json& value, const char* name) {

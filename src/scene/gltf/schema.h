@@ -1,6 +1,6 @@
 #pragma once
-// Validates a document's JSON against the supported part of the glTF 2.0 schema: property types, array lengths, and
-// that indices refer to existing entries. The readers rely on these checks. Internal to the glTF loader.
+// Validates a document's JSON against the supported part of the glTF 2.0 schema: property types, array lengths and
+// references by index. The readers rely on these checks. Internal to the glTF loader.
 
 #include "scene/gltf/document.h"
 

@@ -103,8 +103,8 @@ TextureImage roughnessOf(const TextureImage& glossy, double glossinessFactor) {
     return rough;
 }
 
-// Replaces specular-glossiness textures, which materials hold as their metallic-roughness textures, by textures of
-// roughness. A material whose texture was removed becomes a dielectric.
+// Replaces specular-glossiness textures, which are stored as metallic-roughness textures of their materials, by
+// roughness textures. A material whose texture was removed becomes a dielectric.
 void convertGlossiness(Source& source, std::vector<Material>& materials, Textures& textures) {
     std::map<std::pair<int, float>, int> converted;  // (texture, roughness factor) → converted texture
     for (std::size_t i = 0; i < materials.size(); ++i) {
