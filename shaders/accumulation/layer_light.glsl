@@ -8,7 +8,7 @@
 layout(binding = 0) uniform sampler2DArray layers;
 layout(binding = 1) uniform sampler2D sumSoFar;
 layout(std140, binding = 3) uniform ShiftBlock {
-    // xy: shift by which the lens sample sees the sky, on the image plane at distance 1. With cocControls, xy is the
+    // xy: shift of the sky as seen by the lens sample, on the image plane at distance 1. With cocControls, xy is the
     // shift for C/w = 1 (circle of confusion C, depth w), and zw is the shift by the pixel jitter.
     vec4 sampleShifts[blockSamples];
 };

@@ -28,8 +28,8 @@ float relativeCircleOfConfusion(float inverseDepth, vec2 ndc, vec2 own) {
     return clamp(blur, -frame.cocLimits.x, frame.cocLimits.y);
 }
 
-// Returns the image offset by astigmatism and coma for a lens point (u, k·v), in normalised device coordinates; see
-// src/lens/aberrations.h.
+// Returns the image offset that astigmatism and coma cause for a lens point (u, k·v), in normalised device coordinates;
+// see src/lens/aberrations.h.
 vec2 aberration(vec2 ndc, vec2 lensPoint) {
     vec2 perAspect = vec2(1.0, sqrt(frame.cocLimits.z));
     vec2 field = ndc * perAspect;

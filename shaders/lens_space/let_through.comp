@@ -24,8 +24,8 @@ layout(location = 2) uniform uint group;
 layout(location = 3) uniform uint recordCount;
 layout(location = 4) uniform bool first;   // true: first hit of each ray; false: only records with negative weight
 
-// Laine and Karras 2011, Stratified Sampling for Stochastic Transparency, with the constants of Burley 2020, Practical
-// Hash-based Owen Scrambling.
+// Owen-scrambles a number whose bits are reversed (Laine and Karras 2011, Stratified Sampling for Stochastic
+// Transparency; constants of Burley 2020, Practical Hash-based Owen Scrambling).
 uint scrambled(uint reversed, uint seed) {
     reversed ^= reversed * 0x3d20adeau;
     reversed += seed;

@@ -18,7 +18,7 @@ layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
 layout(std430, binding = 1) buffer OutputBlock {
     uint recordCount;       // number of records (ray hits) that all lines together need
     uint droppedSegments;
-    uint droppedLight;      // light of the dropped segments, in units of 1/1024 of a line's light
+    uint droppedLight;      // sum over all lines of the fraction of light in dropped segments, in units of 1/1024
     uint mergedSegments;
     uint laterJobs;         // jobs deferred to later dispatches
     uint unfinishedJobs;    // jobs of this dispatch that are not finished
