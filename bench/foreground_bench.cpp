@@ -123,14 +123,14 @@ void measureStochastic(const Figure& figure) {
     fmt::print("\n{}, method stochastic, {} x {}, {} rays per pixel, fastest of {} interleaved runs\n\n", figure.scene,
                frame.view.width, frame.view.height, frame.settings.sampleCount, stochasticRuns);
     std::vector<Row> rows;
-    // A limit is in px, so the same blur relative to the image has a smaller limit in a smaller image.
+    // figure.limits are for an image 512 px wide. A limit is in px, so it is scaled with the width of the image.
     for (const double of512 : figure.limits) {
         const double limit = of512 * frame.view.width / 512;
         View view = frame.view;
         view.lens.foregroundLimit = limit;
         rows.push_back({.limit = limit, .plan = planFrame(frame.world, view, frame.settings)});
     }
-    RendererOptions linear;  // as in preset munkberg2012, because dividing triangles would slow only limited frames
+    RendererOptions linear;  // as in preset munkberg2012: dividing triangles would slow only the frames with a limit
     linear.settings = {{"coc-interpolation", "linear"}};
     const auto renderer = methodNamed("stochastic").make(frame.world, linear);
     std::vector<double> tests(rows.size());

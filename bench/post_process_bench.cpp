@@ -113,8 +113,8 @@ void costOverRadius() {
                exponent(radii, directTimes));
 }
 
-// Prints an upper bound on the saving by passes that blur near and far field together. Such passes would still read,
-// weight and write both fields, so they could save at most the time of one field's passes without taps.
+// Prints an upper bound on the time that passes would save by blurring near and far field together. Such passes would
+// still read, weight and write both fields, so they could save at most the time of one field's passes without taps.
 void savedByOnePass() {
     fmt::print(
         "A field's passes, two components, ms (median of {}), and the share that one pass for both fields could save "

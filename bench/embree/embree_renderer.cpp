@@ -201,8 +201,8 @@ WaveSample EmbreeRenderer::waveSample(std::uint32_t number) const {
     return sample;
 }
 
-// Returns the scramble index (stream) of a packet's first pixel, which differs for every pixel. Pixels are numbered
-// packet by packet; `place` is the packet's index in the tile.
+// Returns the scramble index (stream) of a packet's first pixel. Every pixel has a different stream. Pixels are
+// numbered packet by packet; `place` is the packet's index in the tile.
 std::uint32_t EmbreeRenderer::firstStream(const Tile& tile, int place) const {
     const int column = tile.left / packetSide + place % packetsPerTileRow;
     const int row = tile.top / packetSide + place / packetsPerTileRow;

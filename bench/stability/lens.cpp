@@ -97,7 +97,7 @@ BlurredLight lightsInLargeImage(int width, int height) {
     return largest;
 }
 
-// Returns a function that measures `light` on its first call and later returns the same result, so that two rows can
+// Returns a function that measures `light` on its first call and later returns the same result, so that two cases can
 // share one measurement.
 std::function<BlurredLight()> measuredOnce(const std::function<BlurredLight()>& light) {
     return [light, known = std::make_shared<std::optional<BlurredLight>>()] {

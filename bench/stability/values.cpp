@@ -1,4 +1,5 @@
-// Tests that NaN in materials and environment maps affects only the pixels inside the NaN's own blur.
+// Tests that NaN in materials and environment maps affects only the pixels that the blurred NaN surface or texel
+// covers.
 
 #include <fmt/format.h>
 
