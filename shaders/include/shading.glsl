@@ -53,7 +53,7 @@ struct SurfacePoint {
     float film;           // thickness of the film (nm)
     vec3 filmBase;        // F0 with which Schlick's term gives the film's reflectance towards the eye
     vec3 through;         // albedo of the diffuse light from behind; set only if diffusesThrough
-    // Irradiance from the environment that occluders keep from the surface, divided by π. Set only if `shadowed`.
+    // Irradiance from the environment that occluders block, divided by π. Set only if `shadowed`.
     vec3 hidden;
 };
 
