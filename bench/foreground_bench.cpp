@@ -1,8 +1,8 @@
 // Measures the time that a limit on the foreground blur saves (Munkberg, Toth and Akenine-Möller 2012). One scene is
 // seen through leaves that nearly touch the lens, as in their Figure 7. The other is a game of chess with a moving
 // queen in front, as in their Figure 4. Our rasteriser draws one lens sample per instance, so its pixel work per
-// triangle doesn't grow with the blur. A limit saves only triangles that lie outside the image and would be blurred
-// into it. A limit also makes levels of detail finer.
+// triangle doesn't grow with the blur. A limit saves only the work for triangles that lie outside the image and would
+// be blurred into the image. A limit also makes levels of detail finer.
 //
 //   defocus_foreground_bench [--stochastic]   --stochastic: measures only method "stochastic"
 //

@@ -1,8 +1,8 @@
 // Measures the method "circular" (Garcia 2018):
-// - the time of the separable blur depending on the radius, compared with a direct gather of the same kernel over its
-//   complete square;
+// - the time of the separable blur as a function of the radius, compared with a direct gather of the same kernel over
+//   its complete square;
 // - the time that a single pass for near and far field could save;
-// - the flatness of the disks depending on the number of components;
+// - the flatness of the disks as a function of the number of components;
 // - the error of storage formats;
 // - the times of the variants that the performance slide of Garcia 2018 compares.
 //

@@ -6,9 +6,9 @@
 // The pixel filter is a box of 1 px. The output is linear premultiplied RGBA, summed in double. Surfaces are opaque and
 // shaded as in traced_shading.h. Throws Error for environment maps.
 //
-// Optimised, because benches also compare its speed: rays are traced in packets (ray_packet.h), with several samples of
-// a tile one after another. If all pixels share a lens sample, Embree traces packets as coherent. The image doesn't
-// depend on tiles and threads.
+// Optimised, because benches also compare its speed: rays are traced in packets (ray_packet.h), and each tile is traced
+// for several samples in succession. If all pixels share a lens sample, Embree traces packets as coherent. The image
+// doesn't depend on tiles and threads.
 
 #include <memory>
 
