@@ -21,8 +21,8 @@ const int positions = positionsPerAxis * positionsPerAxis;
 
 #ifdef WEIGHS_SAMPLES
 layout(std140, binding = 4) uniform SampleBlock {
-    // rgb: weights of the colour channels for the sample's wavelength; a: change of b by the wavelength, where the
-    // circle of confusion is a + b·depth.
+    // rgb: weights of the colour channels for the sample's wavelength; alpha: change that the wavelength causes in the
+    // coefficient b of the circle of confusion a + b·depth.
     vec4 sampleBands[blockSamples];
     // xy: lens point (u, v), relative to the lens radius.
     vec4 sampleLenses[blockSamples];

@@ -7,7 +7,7 @@ layout(binding = 0) uniform sampler2DArray extents;   // pyramid of min and max 
 layout(binding = 0, rg32f) writeonly uniform image2DArray reachOut;
 layout(location = 0) uniform int border;        // border in px by which the layers extend beyond the image
 layout(location = 1) uniform float farthest;    // max distance (px) from a pixel at which a ray can meet a surface
-layout(location = 2) uniform float bandBlur;    // max change of the blur by the wavelength (px)
+layout(location = 2) uniform float bandBlur;    // max change of the blur that a wavelength causes (px)
 
 const int maxRounds = 5;
 
