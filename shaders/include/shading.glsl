@@ -4,7 +4,7 @@
 // radiance and the directional albedo (Karis 2013, Real Shading in Unreal Engine 4), which is tabulated.
 //
 // One sample represents an area of the surface, and a normal of a coarse level represents several normals of level 0.
-// Both variations widen the specular lobe without changing its total energy.
+// Both kinds of variation of the normal widen the specular lobe without changing its total energy.
 //
 // Fresnel is F = F0 + (1 − F0)·g with g = (1 − v·h)⁵. The lights are therefore summed without F0 and albedo
 // (LightSums). This sum takes few operations per light, which matters on software rasterizers.

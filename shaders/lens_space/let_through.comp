@@ -81,7 +81,8 @@ void main() {
     Ray ray = rayOf(numberOf(record), pixel);
     readHit(record.triangle, ray.values.x, lensPointOf(record, ray), placeOf(ray, pixel));
     float threshold = thresholdOf(firstRay + numberOf(record), pixel, record.triangle);
-    // All points on a line sample have the same ray index. Their positions along the line spread their thresholds.
+    // All points on a line sample have the same ray index, so their thresholds are offset by their positions along the
+    // line.
     if (lineSamples) threshold = fract(threshold + 7.236 * record.place);
     bool stopped = stops(threshold);
     records[index].weight = stopped ? abs(record.weight) : -abs(record.weight);

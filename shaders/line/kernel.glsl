@@ -28,7 +28,8 @@ layout(std430, binding = 1) buffer OutputBlock {
     uvec2 ranges[];
 };
 struct Bounds {
-    vec4 box;               // bounding box of the line's variants (rays.glsl): min (u, k·v), max (u, k·v)
+    // Bounding box of the line's variants (rays.glsl): min (u, k·v), max (u, k·v), with the aspect ratio k.
+    vec4 box;
     // xy: unit vector in (u, v) perpendicular to the mean of the line's variants (rays.glsl); z: max distance of a
     // variant's points from that mean line.
     vec4 strip;
