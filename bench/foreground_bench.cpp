@@ -130,7 +130,9 @@ void measureStochastic(const Figure& figure) {
         view.lens.foregroundLimit = limit;
         rows.push_back({.limit = limit, .plan = planFrame(frame.world, view, frame.settings)});
     }
-    RendererOptions linear;  // as in preset munkberg2012: dividing triangles would slow only the frames with a limit
+    // Interpolate C linearly in triangles, as preset munkberg2012 does: dividing triangles would slow only the frames
+    // with a limit.
+    RendererOptions linear;
     linear.settings = {{"coc-interpolation", "linear"}};
     const auto renderer = methodNamed("stochastic").make(frame.world, linear);
     std::vector<double> tests(rows.size());

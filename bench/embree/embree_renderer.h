@@ -17,8 +17,8 @@
 namespace defocus::engine {
 
 enum class EmbreeSampling {
-    perPixel,  // each pixel has its own scrambled samples of lens and pixel, so the error is noise
-    shared,    // all pixels share the samples of lens and pixel, as in accumulation, so the error is banding
+    perPixel,  // each pixel has its own scrambled points on the lens and in the pixel; the error is noise
+    shared,    // all pixels share the points on the lens and in the pixel, as in accumulation; the error is banding
     // Like `shared`, but with the points of FramePlan::samples, so that only geometry and visibility can differ from
     // the rasteriser. Traced watertight; in the other modes, about one ray in a million passes between two adjacent
     // triangles.

@@ -151,8 +151,8 @@ Incoming incomingAt(const PlacedLight& placed, const glm::dvec3& place) {
     return incoming;
 }
 
-// Returns whether the sample point of the light is occluded from the hit point. The light is a disk that faces the hit
-// point.
+// Returns whether a surface lies between the hit point and the sample point of the light. The light is a disk that
+// faces the hit point.
 bool hidden(const PlacedLight& placed, const Incoming& incoming, const TracedGeometry& geometry, const SurfaceHit& hit,
             const ShadowRays& shadows) {
     // Axes of the light's disk; the plan uses the same axes for its points on lights.

@@ -1,7 +1,7 @@
 #pragma once
 // Tests whether a method's blur depends on the lens alone. Compares the diameter and the total radiance (energy) of a
-// blurred point of light with the lens equation, while one parameter at a time is varied: f-number, focus distance,
-// depth, sensor, lens samples, resolution, or a setting of the method.
+// blurred point of light with the lens equation, varying one parameter at a time: f-number, focus distance, depth,
+// sensor, lens samples, resolution, or a setting of the method.
 
 #include <functional>
 #include <string>
