@@ -74,6 +74,6 @@ const uint jobIsDone = 3u;
 // Max number of threads per SIMD vector. All threads of a vector run a loop as often as the slowest thread.
 const uint widestVector = 16u;
 uint commonRounds = 0u;         // iterations of loops that all threads run equally often
-uint ownRounds = 0u;            // this thread's iterations of loops whose number differs between threads
+uint ownRounds = 0u;            // this thread's iterations of loops that run a different number of times in each thread
 
 bool hasRoundsFor(uint more, uint maximum) { return maxRounds == 0u || commonRounds + widestVector * ownRounds + more < maximum; }
