@@ -4,8 +4,8 @@
 //
 // Variable projection (Golub and Pereyra 1973): for given decays and frequencies, the weights A and B solve a linear
 // least-squares problem with one linear constraint, ∫K = ∫D (kernel K, disk D). Only 2n unknowns remain for the
-// Levenberg–Marquardt method (Levenberg 1944, Marquardt 1963). Its starting points are evenly spread frequencies, and
-// the best kernel with one component less plus a new component.
+// Levenberg–Marquardt method (Levenberg 1944, Marquardt 1963). It starts from evenly spread frequencies, and from the
+// best kernel with one component fewer, extended by a new component.
 //
 // Held equal: extent, disk radius 1, gain (∫K = ∫D), error measure. For the published kernels, extent and disk radius
 // are chosen to minimise the error.
@@ -153,7 +153,8 @@ Fit fitShape(const Problem& problem, const Values& start, double tolerance) {
     return fitWeights(problem, shape);
 }
 
-// Returns the same kernel with positive frequencies, sorted by frequency and rounded to the printed digits.
+// Returns the kernel with positive frequencies, its components sorted by frequency and all values rounded to the
+// printed digits.
 Kernel tidied(Kernel kernel) {
     const auto rounded = [](double value) { return std::round(value * 1e6) / 1e6; };
     for (CircularComponent& c : kernel) {

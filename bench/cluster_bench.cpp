@@ -61,13 +61,13 @@ double medianRatio(std::vector<double> complete, const std::vector<double>& lean
     return complete[turns / 2];
 }
 
-// Returns the plan drawn without occlusion culling (step 2).
+// Returns the plan with occlusion culling (step 2) disabled.
 FramePlan withHidden(FramePlan plan) {
     plan.settings.keepAll = true;
     return plan;
 }
 
-// Returns the plan with all clusters of its levels, without culling clusters in the plan (step 1).
+// Returns the plan with all clusters of its levels, including the clusters that step 1 culled.
 FramePlan drawnWhole(const World& world, FramePlan plan) {
     for (ObjectPlan& object : plan.objects) {
         object.visible.clear();

@@ -1,5 +1,5 @@
-// Measures the time and memory that a plan saves by omitting unneeded work. Each scene is drawn twice: with everything
-// kept and with omissions. There is one scene per kind of omission, and one scene without any omission.
+// Measures the time and memory that a plan saves by omitting unneeded work. Each scene is drawn twice: with all work,
+// and without the unneeded work. There is one scene for each kind of unneeded work, and one scene without any.
 //
 // Held constant: size, samples, levels, renderer and process. The two variants run alternately; the fastest run of each
 // variant counts. The PSNR between the two images is infinite if the omissions don't change the image.

@@ -1,8 +1,8 @@
 // Measures the time that a limit on the foreground blur saves (Munkberg, Toth and Akenine-Möller 2012). One scene is
 // seen through leaves that nearly touch the lens, as in their Figure 7. The other is a game of chess with a moving
 // queen in front, as in their Figure 4. Our rasteriser draws one lens sample per instance, so its pixel work per
-// triangle doesn't grow with the blur. A limit saves only triangles that lie outside the image and would be blurred
-// into it. A limit also makes levels of detail finer.
+// triangle doesn't grow with the blur. A limit saves only the work for triangles that lie outside the image and would
+// be blurred into the image. A limit also makes levels of detail finer.
 //
 //   defocus_foreground_bench [--stochastic]   --stochastic: measures only method "stochastic"
 //
@@ -123,14 +123,16 @@ void measureStochastic(const Figure& figure) {
     fmt::print("\n{}, method stochastic, {} x {}, {} rays per pixel, fastest of {} interleaved runs\n\n", figure.scene,
                frame.view.width, frame.view.height, frame.settings.sampleCount, stochasticRuns);
     std::vector<Row> rows;
-    // A limit is in px, so the same blur relative to the image has a smaller limit in a smaller image.
+    // figure.limits are for an image 512 px wide. A limit is in px, so it is scaled with the width of the image.
     for (const double of512 : figure.limits) {
         const double limit = of512 * frame.view.width / 512;
         View view = frame.view;
         view.lens.foregroundLimit = limit;
         rows.push_back({.limit = limit, .plan = planFrame(frame.world, view, frame.settings)});
     }
-    RendererOptions linear;  // as in preset munkberg2012, because dividing triangles would slow only limited frames
+    // Interpolate C linearly in triangles, as preset munkberg2012 does: dividing triangles would slow only the frames
+    // with a limit.
+    RendererOptions linear;
     linear.settings = {{"coc-interpolation", "linear"}};
     const auto renderer = methodNamed("stochastic").make(frame.world, linear);
     std::vector<double> tests(rows.size());

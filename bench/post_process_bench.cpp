@@ -1,8 +1,8 @@
 // Measures the method "circular" (Garcia 2018):
-// - the time of the separable blur depending on the radius, compared with a direct gather of the same kernel over its
-//   complete square;
+// - the time of the separable blur as a function of the radius, compared with a direct gather of the same kernel over
+//   its complete square;
 // - the time that a single pass for near and far field could save;
-// - the flatness of the disks depending on the number of components;
+// - the flatness of the disks as a function of the number of components;
 // - the error of storage formats;
 // - the times of the variants that the performance slide of Garcia 2018 compares.
 //
@@ -113,8 +113,8 @@ void costOverRadius() {
                exponent(radii, directTimes));
 }
 
-// Prints an upper bound on the saving by passes that blur near and far field together. Such passes would still read,
-// weight and write both fields, so they could save at most the time of one field's passes without taps.
+// Prints an upper bound on the time that passes would save by blurring near and far field together. Such passes would
+// still read, weight and write both fields, so they could save at most the time of one field's passes without taps.
 void savedByOnePass() {
     fmt::print(
         "A field's passes, two components, ms (median of {}), and the share that one pass for both fields could save "

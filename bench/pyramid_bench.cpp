@@ -92,7 +92,7 @@ double memory(const std::string& line) {
     return 0;
 }
 
-// Returns by how much the peak memory of the process during `work` exceeds the memory before, bytes.
+// Returns by how many bytes the peak memory of the process during `work` exceeds its memory before `work`.
 double peakBytesOf(const std::function<void()>& work) {
     malloc_trim(0);
     std::ofstream("/proc/self/clear_refs") << 5;  // 5 resets the peak resident memory

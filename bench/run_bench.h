@@ -1,6 +1,6 @@
 #pragma once
-// Implements the main function that the benches share. Keeps freed memory, as `defocus` does. An error is printed as
-// one line on stderr, after the program's name; the exit code is then 1.
+// Implements the main function that the benches share. As in `defocus`, malloc keeps freed memory for later
+// allocations. An error is printed as one line on stderr, after the program's name; the exit code is then 1.
 
 #include <fmt/format.h>
 

@@ -122,8 +122,8 @@ struct Region {
     std::function<bool(const LensSample&)> holds;
 };
 
-// Returns half planes that cut the lens. Seen past a straight blurred edge, a background point is visible from such an
-// area of the lens.
+// Returns half planes that cut the lens. A background point beside a straight blurred edge is visible from such a part
+// of the lens.
 std::vector<Region> halfPlanes() {
     std::vector<Region> regions;
     for (int direction = 0; direction < 32; ++direction)

@@ -2,8 +2,8 @@
 // without any object.
 //
 // Held constant: 1024 × 768 px, 64 samples, an empty scene, program and process. Formats run alternately; the fastest
-// run of each format counts. The number of samples drawn at once (wave size K) is the default for the memory of each
-// format, or 8. Prints a table and checks that every format gives the sky's colour.
+// run of each format counts. The number of samples drawn at once (wave size K) is 8, or the default, which depends on
+// the format's memory. Prints a table and checks that every format gives the sky's colour.
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
-// Represents an aperture as a mask over the unit disk and samples it by rejection: a candidate point is accepted with
-// the probability that light passes there. Slower than the inverse maps of lens/aperture.h, but independent of their
-// code.
+// Represents an aperture as a mask over the unit disk and samples it by rejection: a candidate point is accepted with a
+// probability proportional to the mask's transmission there. Slower than the inverse maps of lens/aperture.h, but
+// independent of their code.
 
 #include <cstdint>
 #include <glm/vec2.hpp>

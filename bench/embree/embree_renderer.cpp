@@ -201,8 +201,8 @@ WaveSample EmbreeRenderer::waveSample(std::uint32_t number) const {
     return sample;
 }
 
-// Returns the scramble index (stream) of a packet's first pixel, which differs for every pixel. Pixels are numbered
-// packet by packet; `place` is the packet's index in the tile.
+// Returns the scramble index (stream) of a packet's first pixel. Every pixel has a different stream. Pixels are
+// numbered packet by packet; `place` is the packet's index in the tile.
 std::uint32_t EmbreeRenderer::firstStream(const Tile& tile, int place) const {
     const int column = tile.left / packetSide + place % packetsPerTileRow;
     const int row = tile.top / packetSide + place / packetsPerTileRow;
@@ -267,8 +267,8 @@ LaneMask EmbreeRenderer::lanesInside(const Tile& tile, int place) const {
     return mask;
 }
 
-// Traces a packet with a foreground limit, which places a separate lens in front of each pixel. Rays first go from the
-// eye to that lens; rays that hit nothing on the way are refracted and traced further.
+// Traces a packet for a camera with a foreground limit, where each pixel has a separate lens. Rays first go from the
+// eye to that lens; rays that hit nothing on the way are refracted there and continue behind the lens.
 void EmbreeRenderer::traceLimited(const Tile& tile, int place, const PacketPoints& points, const LaneMask& mask,
                                   RTCRayHit16& packet) const {
     const int left = tile.left + place % packetsPerTileRow * packetSide;

@@ -8,12 +8,13 @@
 //   L + t·(X·tan(θx/2) − L.x/s, Y·tan(θy/2) − L.y/s, −1)
 // so t is the depth in metres, and a lens focused at infinity (1/s = 0) needs no special case.
 //
-// A limit c₀ (px, in an image W px wide) of the blur in front of the focal plane replaces the lens of radius A/2 at the
-// eye. Each pixel has a separate lens on its own axis, at depth α, that images the eye onto the plane of focus. Rays
-// leave the eye as through a pinhole, inside a cone around the axis that covers c₀ px. Objects between the eye and this
-// lens are therefore blurred by c₀ px at any depth. Behind this lens, the blur must equal that of the original lens.
-// This determines α: the original bundle of rays is as wide there as the cone, 2·(A/2)·(1/α − 1/s)·W/(2 tan(θx/2)) =
-// c₀. With object distance α and image distance s − α, the thin lens has
+// With a limit c₀ (px, in an image W px wide) on the blur in front of the focal plane, there is no lens of radius A/2
+// at the eye. Instead, each pixel has a separate lens on its own axis, at depth α, that images the eye onto the plane
+// of focus. Rays leave the eye as through a pinhole, inside a cone around the axis that covers c₀ px. Objects between
+// the eye and this lens are therefore blurred by c₀ px at any depth. Behind this lens, the blur must equal that of the
+// original lens. This determines α: the original bundle of rays is as wide there as the cone,
+//   2·(A/2)·(1/α − 1/s)·W/(2 tan(θx/2)) = c₀
+// With object distance α and image distance s − α, the thin lens has
 //   1/f = 1/α + 1/(s − α) = s/(α(s − α))
 // (Munkberg, Toth and Akenine-Möller 2012, who print f for the right-hand side). A ray that meets the lens at distance
 // h from its centre is bent by −h/f; see eyeRay and refractedRay.

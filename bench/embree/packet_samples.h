@@ -15,8 +15,8 @@ struct ReversedLanes {
     Lanes<std::uint32_t> x, y;
 };
 
-// Returns unscrambledPoint (sample_scramble.h) for all 16 lanes, each with another of the 16 point orders. The result
-// is the same for all packets.
+// Returns unscrambledPoint (sample_scramble.h) for all 16 lanes; each lane uses a different one of the 16 point orders.
+// The result is the same for all packets.
 ReversedLanes unscrambledPoints(std::uint32_t index, SamplePair pair, std::uint32_t seed);
 
 // Returns scrambleSeeds (sample_scramble.h) for the streams of a packet's 16 pixels, beginning with firstStream (a

@@ -97,7 +97,7 @@ DEFOCUS_VECTOR_CLONES void PacketShading::skyColors(const Sky& sky, std::uint32_
         const float height = (x * sky.up.x + y * sky.up.y + z * sky.up.z) / std::sqrt(x * x + y * y + z * z);
         const float above = height > 0 ? height : 0;
         const float below = height > 0 ? 0 : -height;
-        const float missed = packet.hit.geomID[i] >= miss ? 1.0f : 0.0f;  // 1 for a miss, whose colour is still black
+        const float missed = packet.hit.geomID[i] >= miss ? 1.0f : 0.0f;  // 1 if the ray missed; its colour is black
         colors.red[i] += missed * (sky.horizon.x + above * toZenith.x + below * toNadir.x);
         colors.green[i] += missed * (sky.horizon.y + above * toZenith.y + below * toNadir.y);
         colors.blue[i] += missed * (sky.horizon.z + above * toZenith.z + below * toNadir.z);

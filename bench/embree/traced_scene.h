@@ -64,7 +64,7 @@ private:
     RTCScene scene_ = nullptr;
     TraceOptions options_;
     Material defaultMaterial_;
-    std::deque<TracedGeometry> geometries_;         // keyed by Embree geometry id; a deque keeps element addresses
+    std::deque<TracedGeometry> geometries_;         // keyed by Embree geometry id; a deque, so addresses stay valid
     std::deque<std::vector<glm::vec4>> positions_;  // in camera space, one array per object; Embree doesn't copy them
     std::deque<std::vector<glm::vec3>> normals_;    // in world space, one array per deformed object
     // Keyed by Embree geometry id, with an additional entry for a miss: `facing` for single-sided surfaces, else 0.

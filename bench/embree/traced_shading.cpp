@@ -122,8 +122,7 @@ glm::vec2 onDisk(const glm::vec2& place) {
     return {ring * std::cos(angle), ring * std::sin(angle)};
 }
 
-// Light that arrives at a point if nothing is in between: the illuminance in lux on a surface perpendicular to the
-// light.
+// Light that arrives at a point if nothing blocks it: the illuminance in lux on a surface perpendicular to the light.
 struct Incoming {
     glm::vec3 illuminance{0.0f};
     glm::vec3 toMiddle{0.0f};  // unit vector to the light's centre
@@ -152,11 +151,11 @@ Incoming incomingAt(const PlacedLight& placed, const glm::dvec3& place) {
     return incoming;
 }
 
-// Returns whether the sample point of the light is occluded from the hit point. The light is a disk that faces the hit
-// point.
+// Returns whether a surface lies between the hit point and the sample point of the light. The light is a disk that
+// faces the hit point.
 bool hidden(const PlacedLight& placed, const Incoming& incoming, const TracedGeometry& geometry, const SurfaceHit& hit,
             const ShadowRays& shadows) {
-    // Axes of the light's disk, equal to the axes for which the plan computes points on lights.
+    // Axes of the light's disk; the plan uses the same axes for its points on lights.
     const glm::vec3 front = incoming.toMiddle;
     const glm::vec3 up = std::abs(front.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
     const glm::vec3 right = glm::normalize(glm::cross(up, front));

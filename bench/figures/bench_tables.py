@@ -31,7 +31,7 @@ def scaling(with_parts=True):
     return run_table("llvmpipe-scaling", header, rows) + by_size_only("This bench has")
 
 
-# ---- tables on pyramids ---------------------------------------------------------------------------------------------
+# ---- tables about pyramids ------------------------------------------------------------------------------------------
 
 
 def ending_in_numbers(lines, count):
@@ -117,7 +117,7 @@ def pyramids(summary=False):
         "llvmpipe-pyramids.txt")
 
 
-# ---- tables on correctness ------------------------------------------------------------------------------------------
+# ---- tables about correctness ---------------------------------------------------------------------------------------
 
 
 def scenes_of(name):
@@ -178,7 +178,7 @@ def honesty(every_setting=True):
                      "a point of light; one value of the lens, the image or the sampling changes at a time")
 
 
-# ---- tables on parts of a frame -------------------------------------------------------------------------------------
+# ---- tables about parts of a frame ----------------------------------------------------------------------------------
 
 
 def sequences():

@@ -104,7 +104,8 @@ def draw_circle_of_confusion():
     """Draws the blur diameter over depth for a 50 mm f/2 lens, 36 mm sensor, 1024 px; below, the blur disks."""
     drawing = Drawing(720, 330, "Diameter of the circle of confusion over depth")
     left, right, top, bottom, first, last, most = 60, 690, 20, 220, 0.8, 8.0, 30.0
-    scale = 0.050 / 2 * 1024 / 0.72  # A · W / (2 tan(θx/2)) with A = 0.050/2 m, W = 1024 px, tan(θx/2) = 18/50
+    # A · W / (2 tan(θx/2)) with aperture A = 0.050/2 m, image width W = 1024 px, field of view θx, tan(θx/2) = 18/50.
+    scale = 0.050 / 2 * 1024 / 0.72
 
     def diameter(depth):
         return scale * abs(1 / FOCUS - 1 / depth)

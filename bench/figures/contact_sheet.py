@@ -2,7 +2,7 @@
 
 from PIL import Image, ImageDraw, ImageFont
 
-WIDTH, HEIGHT, GAP, LINE = 208, 156, 4, 20  # sizes in px of a picture, a gap and a line of text
+WIDTH, HEIGHT, GAP, LINE = 208, 156, 4, 20  # px: image width, image height, gap, line height
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 PAPER = (250, 250, 250)
 

@@ -98,8 +98,8 @@ def prepare_for_cycles(name, light):
         to_light = graph.add("ShaderNodeCombineXYZ", enumerate(light.matrix_world.col[2][:3])).outputs[0]
     else:
         to_light = vector("NORMALIZE", vector("SUBTRACT", light.location, geometry["Position"]))
-    # Compute the normal as x T + y (N × T) + z N, because the Normal Map node changes a normal if its mirrored
-    # direction is below the surface.
+    # Compute the normal as x T + y (N × T) + z N, with the vector (x, y, z) of the normal map, the tangent T and the
+    # vertex normal N. The Normal Map node would change normals whose mirrored direction is below the surface.
     normal = smooth
     if bent:
         axes = graph.add("ShaderNodeSeparateXYZ", {0: vector("MULTIPLY_ADD", graph.texture(bent), (2, 2, 2), (-1, -1, -1))}).outputs

@@ -19,8 +19,8 @@ from figures.command import parser_of, path
 from figures.files import read_csv, read_json
 
 MIN_RUNS = 3  # results with fewer runs get no verdict on times
-TOLERANCE = 0.01  # min change of an error, relative to the larger of both errors
-SSIM_ROUNDING = 1e-6  # CSV files contain six digits of SSIM
+TOLERANCE = 0.01  # max change of an error that counts as equal, relative to the larger of the two errors
+SSIM_ROUNDING = 1e-6  # max rounding error of a change of SSIM; CSV files contain six digits
 # Columns that identify a row, and columns that are errors.
 KEYS = ("sweep", "axis", "movement", "area", "case", "errorOf", "method", "setting", "varied", "value", "samples", "fStop",
         "focusDistance", "lod", "width", "height", "preset", "frame")
@@ -61,7 +61,8 @@ def cells_of(row):
 
 
 def row_of(cells):
-    skipped = (None, "", "accumulation") if "sweep" in cells else (None,)  # results of older sweeps have no method
+    # Results of older sweeps lack the method, because they measured only accumulation. Omit this method from the key.
+    skipped = (None, "", "accumulation") if "sweep" in cells else (None,)
     key = [f"{cells[name]:.6g}" if isinstance(cells[name], float) else cells[name] for name in KEYS if cells.get(name) not in skipped]
     time = [cells.get(name) for name in ("milliseconds", "low", "high")]
     errors = {name: value for name, value in cells.items() if ERRORS.fullmatch(name) and value is not None}

@@ -6,7 +6,7 @@
     scripts/figures endurance --only "A long film"
 
 PROGRAM is a build of commit FIRST. Its processor times are compared with those of the current program.
-Takes about half an hour on two cores. Exits with 1 if a part fails.
+Takes about half an hour on two cores. Exits with 1 if a measurement fails.
 """
 
 import datetime

@@ -6,7 +6,8 @@ from figures.files import read_json
 from figures.markdown import table
 from figures.results import RESULTS, command_of, run_of
 
-VIEWS = {0.5: "llvmpipe-teapots-half-blur", 1: "llvmpipe-teapots", 2: "llvmpipe-teapots-double-blur"}  # by --blur-scale
+# Names of the results, keyed by --blur-scale.
+VIEWS = {0.5: "llvmpipe-teapots-half-blur", 1: "llvmpipe-teapots", 2: "llvmpipe-teapots-double-blur"}
 # Method and settings (standard or published) of the rows.
 EXACT, PUBLISHED, POINTS = ("line", "standard"), ("line", "published"), ("stochastic", "standard")
 NAMES = {EXACT: "lines", PUBLISHED: "lines, as published", POINTS: "points"}

@@ -1,4 +1,4 @@
-"""Draws docs/materials.jpg: Khronos' feature models, beside the pictures of their authors.
+"""Draws docs/materials.jpg: Khronos' feature models, beside the pictures by their authors.
 
     scripts/figures materials MODELS [--program build/release/defocus]
 

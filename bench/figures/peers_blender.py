@@ -60,7 +60,7 @@ def prepared_scene(facts, width, height):
     cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = 0
     cycles.use_adaptive_sampling, cycles.use_denoising, cycles.pixel_filter_type = False, False, "BOX"
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = cycles.light_sampling_threshold = 0
-    render.filter_size = 1.1  # a box of one pixel has this variance; only EEVEE uses it
+    render.filter_size = 1.1  # only EEVEE uses this filter; its variance is that of a box of one pixel
     eevee = scene.eevee
     eevee.use_bokeh_jittered, eevee.bokeh_overblur, eevee.use_gtao, eevee.use_bloom = True, 0, False, False
     return scene
@@ -86,7 +86,7 @@ def main(given):
     scene = prepared_scene(given["facts"], given["width"], given["height"])
     method = given["method"]
     scene.render.engine = {"cycles": "CYCLES", "eevee": "BLENDER_EEVEE"}[method]
-    render(scene, 1, 0, f"{given['folder']}/first.exr")  # loads kernels and builds the hierarchy
+    render(scene, 1, 0, f"{given['folder']}/first.exr")  # untimed: Blender loads kernels and builds the hierarchy
     for samples in (1, *given["counts"]):
         runs = [render(scene, samples, 0, f"{given['folder']}/{method}-{samples}.exr")
                 for _ in range(3 if samples <= 32 and method == "cycles" else 1)]

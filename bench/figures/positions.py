@@ -17,7 +17,7 @@ from figures.files import write_file
 from figures.frames import Frames
 from figures.timed import facts
 
-DRAWN = ((32, 1), (8, 4), (64, 1), (16, 4))  # (lens samples, positions per sample)
+DRAWN = ((32, 1), (8, 4), (64, 1), (16, 4))  # (lens samples, pixel positions per sample)
 
 
 def name_of(drawn):

@@ -30,7 +30,7 @@ class Scene(NamedTuple):
     focus: str  # focus distance of the lens images, m
     near: str  # near end of the focus range, m
     far: str
-    distances: tuple  # focus distances of the pictures, m
+    distances: tuple  # focus distances of the refocused images, m
 
     def words(self):
         return [*self.subject, "--size", self.size, "--lod", "off"]

@@ -57,7 +57,7 @@ a { color: var(--c0); }
 }
 pre { margin: 0 0 .3rem; white-space: pre-wrap; overflow-wrap: anywhere; font-size: .8rem; }
 """
-# Sorts tables on a click on a column header, and shows a point's value under the mouse pointer or finger.
+# Sorts a table when a column header is clicked, and shows the value of the point under the mouse pointer or finger.
 SCRIPT = r"""
 for (const table of document.querySelectorAll('.scroll table')) {
   const heads = table.tHead.rows[0].cells, body = table.tBodies[0];

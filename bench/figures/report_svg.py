@@ -18,7 +18,7 @@ MARKERS = "osD^vPX*<>h"
 # Placeholder colours that as_svg replaces with CSS colours of the page.
 INK, GRID = "#010203", "#010204"
 COLOURS = [f"#0102{i:02x}" for i in range(0x10, 0x10 + len(PALETTE))]
-LABEL_LETTERS = 42  # letters that fit beside a plot; longer labels are drawn smaller
+LABEL_LETTERS = 42  # number of letters that fit beside a plot; longer labels are drawn smaller
 
 
 def add_tooltips(line, texts):

@@ -52,7 +52,7 @@ double largestError(const Image& a, const Image& b);
 double blurDiameter(const View& view, double depth);
 
 // Errors of the image of a blurred square light (made by squareAt) relative to the exact image. The measured diameter
-// is that of a uniform disk with the same second moment.
+// is that of a uniform disk with the same second moment as the light's image.
 struct BlurredLight {
     double diameterError = 0;  // error of the measured blur diameter, px
     double placeError = 0;     // distance of the disk's centre from its exact position, px

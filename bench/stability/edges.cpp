@@ -1,5 +1,5 @@
-// Tests straight edges under extreme blur. The exact image of such an edge at a pixel is the fraction of the blur disk
-// on one side of the edge.
+// Tests straight edges under extreme blur. The exact coverage of a pixel is the fraction of the blur disk on one side
+// of the edge.
 
 #include <algorithm>
 #include <cmath>

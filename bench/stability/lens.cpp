@@ -77,7 +77,8 @@ BlurredLight lightInField(double fieldOfView) {
 BlurredLight lightsInLargeImage(int width, int height) {
     View view = boardView(width, height);
     setBlur(view, 6, 10);
-    const glm::dvec2 outermost(0.5 * width - 8.3, 0.5 * height - 8.7);  // px from the centre; the blur disks just fit
+    // Offset from the image's centre, in px, at which the blur disks just fit into the image.
+    const glm::dvec2 outermost(0.5 * width - 8.3, 0.5 * height - 8.7);
     std::vector<Board> lights;
     std::vector<glm::dvec2> places;
     for (const double up : {-1.0, 0.0, 1.0})
@@ -97,7 +98,7 @@ BlurredLight lightsInLargeImage(int width, int height) {
     return largest;
 }
 
-// Returns a function that measures `light` on its first call and later returns the same result, so that two rows can
+// Returns a function that measures `light` on its first call and later returns the same result, so that two cases can
 // share one measurement.
 std::function<BlurredLight()> measuredOnce(const std::function<BlurredLight()>& light) {
     return [light, known = std::make_shared<std::optional<BlurredLight>>()] {

@@ -1,7 +1,7 @@
 #pragma once
 // Tests whether a method's blur depends on the lens alone. Compares the diameter and the total radiance (energy) of a
-// blurred point of light with the lens equation, while one parameter at a time is varied: f-number, focus distance,
-// depth, sensor, lens samples, resolution, or a setting of the method.
+// blurred point of light with the lens equation, varying one parameter at a time: f-number, focus distance, depth,
+// sensor, lens samples, resolution, or a setting of the method.
 
 #include <functional>
 #include <string>
@@ -31,9 +31,10 @@ struct HonestyRow {
 // variant changes one setting to another of its choices, or to its max value.
 std::vector<std::string> honestyMethods();
 
-// Measures all rows of each method. The light is a square of 3 px, in front of a black wall at nearly the same depth.
-// The measured diameter is that of a uniform disk with the same second moment as the image. A method that the driver
-// cannot draw has a single row with the reason. Needs a current GL context.
+// Measures each method in all cases, and calls `visit` with a row for each case. The light is a square of 3 px, in
+// front of a black wall at nearly the same depth. The measured diameter is that of a uniform disk with the same second
+// moment as the image. A method that the driver cannot draw has a single row with the reason. Needs a current GL
+// context.
 void measureHonesty(const std::vector<std::string>& methods, const std::function<void(const HonestyRow&)>& visit,
                     const Progress& progress = {});
 

@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the RMSE between the image of a scene and the image of the same scene and lens, both scaled by `scale`.
+// Returns the RMSE between the image of a scene and its image after scaling both the scene and the lens by `scale`.
 double scaleError(double scale) {
     const View view = boardView();
     BoardScene boards(view, threeBoards(view, 1.2, 5), glm::vec3(0.4f));

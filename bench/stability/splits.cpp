@@ -1,5 +1,6 @@
-// Measures how tiny changes of λ, the fractional level of detail, change an object's split of samples between two
-// levels. At integers and at sample boundaries, at most one sample may change its level, in the split and in the image.
+// Measures how tiny changes of λ, the fractional level of detail, change how many samples draw an object with each of
+// two levels. When λ passes an integer or a value at which a sample switches levels, at most one sample may switch, in
+// the plan and in the image.
 
 #include <fmt/format.h>
 
@@ -60,7 +61,7 @@ Mesh ballMesh() {
     return mesh;
 }
 
-// A scene with a white ball on black. Within a lens sample, each pixel is not antialiased: it is 0 or 1.
+// A scene with a white ball on black. The image of a single lens sample is not antialiased: each pixel is 0 or 1.
 struct Ball : BoardScene {
     Ball() : BoardScene(boardView(), {{5, {0, 0}, {1, 1}, glm::vec3(1)}}) {
         scene->meshes[0] = ballMesh();

@@ -17,7 +17,7 @@ struct StabilityCase {
     std::string area;       // tested area: "sums", "lens", "motion", "space", "values", "levels", "traced"
     std::string name;       // short description of what makes the case difficult
     std::string measured;   // name and unit of the measured error
-    std::string reference;  // exact or comparison value, such as "closed form" or "double sum"
+    std::string reference;  // name of the exact or comparison value, such as "closed form" or "double sum"
     double limit = 0;       // max error that passes; infinity: for comparison only
     std::function<double()> error;
     std::string method = {};  // method that renders the reference; empty: none

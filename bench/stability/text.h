@@ -10,8 +10,8 @@
 
 namespace defocus::engine {
 
-// Returns the line of a row. If area, error or reference differ from those of the previous row `before`, a heading
-// precedes the line. `before` is null for the first row.
+// Returns a row of the stability benchmark as a line of text. A heading precedes the line if area, error or reference
+// differ from those of the previous row `before`. `before` is null for the first row.
 std::string stabilityLine(const StabilityRow& row, const StabilityRow* before);
 std::string honestyHeader();
 std::string honestyLine(const HonestyRow& row);

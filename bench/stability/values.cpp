@@ -1,4 +1,5 @@
-// Tests that NaN in materials and environment maps affects only the pixels inside the NaN's own blur.
+// Tests that NaN in materials and environment maps affects only the pixels that the blurred NaN surface or texel
+// covers.
 
 #include <fmt/format.h>
 
@@ -51,8 +52,8 @@ Environment surroundings(int x) {
     return {EnvironmentType::map, {}, {}, {}, map, 1};
 }
 
-// Returns the number of wrong pixels of a blurred sky with a NaN texel: outside [0, 0.5], or changed outside the
-// texel's blur.
+// Returns the number of wrong pixels of a blurred sky with a NaN texel: pixels with values outside [0, 0.5], and pixels
+// outside the texel's blur that differ from the sky without NaN.
 double skyTexelError(LayerFormat format) {
     constexpr double blur = 12;  // diameter of the blur, px
     View view = boardView();

@@ -14,13 +14,13 @@ from .failure import Failure
 class View:
     """Sizes in px of the canvas, the image that `defocus` draws, and of its part that Blender shows; y points up."""
 
-    width: int  # width and height of the canvas
+    width: int  # size of the canvas, the image that `defocus` draws
     height: int
-    x: int  # lower left corner of the part that Blender shows, from the lower left corner of the canvas
+    x: int  # lower left corner of the part that Blender shows, relative to the canvas's lower left corner
     y: int
     picture_width: int
     picture_height: int
-    sensor_width: float  # width of the canvas on the sensor, mm
+    sensor_width: float  # width that the canvas (the image that `defocus` draws) has on the sensor, mm
 
 
 def frame_size(render):

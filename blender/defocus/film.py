@@ -50,7 +50,9 @@ def signature_of(depsgraph):
     for instance in depsgraph.object_instances:
         thing = instance.object
         if not instance.show_self or thing.type not in {"MESH", "LIGHT"}:
-            continue  # not a mesh or a light; Blender lists the meshes of curves and texts as instances
+            # Skip objects that are neither meshes nor lights. Blender also lists the meshes of curves and texts, as
+            # instances.
+            continue
         digest.update(repr((instance_key(instance), thing.type)).encode())
         if thing.type == "LIGHT":
             digest.update(repr([tuple(value) if name == "color" else value for name in (*LIGHT_VALUES, "angle", "shadow_soft_size")

@@ -6,7 +6,7 @@ import struct
 
 from mathutils import Quaternion
 
-SEGMENTS = 4  # straight segments by which the path of a moving object is approximated
+SEGMENTS = 4  # number of straight segments that approximate the path of a moving object
 # The exporter rotates cameras and lights, because they look along a different axis in glTF's coordinate system.
 TURNED = Quaternion((math.sqrt(0.5), -math.sqrt(0.5), 0, 0))
 FLOAT = 5126  # glTF's component type for floats

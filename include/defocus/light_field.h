@@ -30,7 +30,7 @@ namespace defocus {
 struct RefocusSettings {
     Focus focus = {};        // FocusDistance or FocusPixel; CameraFocus: focus distance of the rendered images
     LensSettings lens = {};  // f-number and shape of the aperture; an unset value: as in the rendered images
-    bool fillGaps = true;    // true: blurs each lens image, so that blur does not show as separate copies
+    bool fillGaps = true;    // true: blurs each lens image, so that blur does not show as separate copies of a surface
 };
 
 // Properties of the lens images in a file.
@@ -49,7 +49,7 @@ struct LightFieldInfo {
     std::vector<std::array<double, 2>> lensPoints;
 };
 
-// Pictures that are focused at different distances. The distances divide the rendered range evenly in 1/distance, from
+// Images that are focused at different distances. The distances divide the rendered range evenly in 1/distance, from
 // the nearest to the farthest.
 struct FocalStack {
     std::vector<double> focusDistances;  // m
@@ -80,9 +80,9 @@ public:
 
     // Returns an image computed from the lens images: linear, premultiplied RGBA. Throws Error if the focus distance or
     // the f-number is outside the rendered range, if no lens point lies within the aperture, or if the file is damaged.
-    // Throws Error also for another aperture size or shape if the rendered aperture is not a full disk.
+    // Also throws Error for another aperture size or shape if the rendered aperture is not a full disk.
     [[nodiscard]] Image refocus(const RefocusSettings& settings = {}, const Progress& progress = {});
-    // Returns a focal stack of `count` ≥ 2 pictures. RefocusSettings::focus must be CameraFocus.
+    // Returns a focal stack of `count` ≥ 2 images. RefocusSettings::focus must be CameraFocus.
     [[nodiscard]] FocalStack stack(int count, const RefocusSettings& settings = {}, const Progress& progress = {});
     // Returns the view from the lens's centre, in which all surfaces are in focus.
     [[nodiscard]] Image allInFocus(const Progress& progress = {});

@@ -45,11 +45,11 @@ using Background = std::variant<EnvironmentBackground, TransparentBackground, Co
 struct Request {
     // Scene and lights.
     std::filesystem::path scene;    // .gltf or .glb; empty: the built-in school of fish
-    bool strict = false;            // true: missing or damaged parts of the file, such as textures, throw Error
+    bool strict = false;            // true: throw Error for missing or damaged parts of the file, such as textures
     std::string variant;            // name of a material variant of the file; empty: the default materials
     int fishCount = 20;             // number of fish in the school, 1 … 10,000
     int trianglesPerFish = 90'000;  // approximate number of triangles of each fish
-    std::optional<double> units;    // metres per scene unit. Default: from the file, or guessed by scene size
+    std::optional<double> units;    // metres per scene unit. Default: from the file, or guessed from the scene's size
     double time = 0;                // time of the animation in s
     std::string clip;               // name or index of the animation; empty: the first animation
     bool loop = false;              // true: the animation repeats; false: its first and last pose are held

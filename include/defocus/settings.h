@@ -68,7 +68,7 @@ enum class Shadows {
     off,
 };
 
-// Position of the frame's time within the exposure.
+// Point of the exposure at which the animation has the frame's time.
 enum class ShutterPosition { start, centre, end };
 
 // Exact motion: the scene is posed separately for each lens sample, so that the paths of vertices are exact.

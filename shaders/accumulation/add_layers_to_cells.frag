@@ -1,6 +1,6 @@
-// Adds a batch (wave) of lens samples, one layer per sample, to the sum of the current block of samples like
-// add_layers.frag, and also to the sums of the blur classes (the samples of a pixel sorted by blur; see
-// include/cells.glsl).
+// Like add_layers.frag, adds a batch (wave) of lens samples, one layer per sample, to the sum of the current block of
+// samples. Also adds each sample to the sums of the blur classes into which the samples of a pixel are sorted
+// (include/cells.glsl).
 #include "accumulation/layer_light.glsl"
 #include "include/cells.glsl"
 

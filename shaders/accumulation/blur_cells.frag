@@ -1,8 +1,9 @@
 // Computes the sum of a block of samples, with the image of each sample blurred as the part of the lens that it
 // represents (its lens cell, include/cells.glsl) would blur it. The samples are sorted by blur into classes. The
-// blurred classes are composited from farthest to nearest; a class is blurred by interpolating its means linearly.
-// Unblurred samples are composited between the classes behind the focus plane and the classes in front of the focus
-// plane. In pixels where all samples show the blurred foreground, the foreground also replaces the unknown background.
+// blurred classes are composited from farthest to nearest; a class is blurred by linear interpolation of its means over
+// squares of pixels. Unblurred samples are composited between the classes behind the focus plane and the classes in
+// front of the focus plane. In pixels where all samples show the blurred foreground, the foreground also replaces the
+// unknown background.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;

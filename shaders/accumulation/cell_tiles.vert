@@ -1,5 +1,5 @@
-// Covers with point sprites the tiles where the means of one blur class (include/cells.glsl) must be written: tiles
-// with non-zero means and their neighbours. Point sprites without such tiles are moved outside the image.
+// Draws point sprites over the tiles where the means of one blur class (include/cells.glsl) must be written: tiles with
+// non-zero means and their neighbours. Point sprites without such tiles are moved outside the image.
 #include "include/cells.glsl"
 
 layout(binding = 2) uniform usampler2D spreadClasses;

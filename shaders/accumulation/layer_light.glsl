@@ -8,7 +8,7 @@
 layout(binding = 0) uniform sampler2DArray layers;
 layout(binding = 1) uniform sampler2D sumSoFar;
 layout(std140, binding = 3) uniform ShiftBlock {
-    // xy: shift by which the lens sample sees the sky, on the image plane at distance 1. With cocControls, xy is the
+    // xy: shift of the sky as seen by the lens sample, on the image plane at distance 1. With cocControls, xy is the
     // shift for C/w = 1 (circle of confusion C, depth w), and zw is the shift by the pixel jitter.
     vec4 sampleShifts[blockSamples];
 };
@@ -21,8 +21,8 @@ const int positions = positionsPerAxis * positionsPerAxis;
 
 #ifdef WEIGHS_SAMPLES
 layout(std140, binding = 4) uniform SampleBlock {
-    // rgb: weights of the colour channels for the sample's wavelength; a: change of b by the wavelength, where the
-    // circle of confusion is a + b·depth.
+    // rgb: weights of the colour channels for the sample's wavelength; alpha: change that the wavelength causes in the
+    // coefficient b of the circle of confusion a + b·depth.
     vec4 sampleBands[blockSamples];
     // xy: lens point (u, v), relative to the lens radius.
     vec4 sampleLenses[blockSamples];

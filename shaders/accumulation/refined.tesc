@@ -29,8 +29,8 @@ vec2 smoothPieces(vec3 pinhole, vec2 own) {
     return pieces.factor * vec2(pieces.front, pieces.behind) + pieces.added;
 }
 
-// Returns the image offsets by aberrations of two rays through the lens rim, times w, in units of half the image's
-// width. xy: ray through lens point (u, v) = (1, 0); zw: ray through (0, 1).
+// Returns the image offsets that aberrations cause for two rays through the lens rim, times w, in units of half the
+// image's width. xy: ray through lens point (u, v) = (1, 0); zw: ray through (0, 1).
 vec4 aberrationPieces(vec3 pinhole) {
     float w = max(pinhole.z, frame.projection.z);
     vec2 perAspect = vec2(1.0, sqrt(frame.cocLimits.z));

@@ -12,7 +12,8 @@ in Sky {
 layout(location = 0) out vec4 layerOut;
 
 // Returns the view-space direction of the sky that the lens sample sees in this pixel, not normalised. A fixed-point
-// iteration finds the direction, because the circle of confusion at infinity may depend on the pinhole position.
+// iteration finds the direction, because the circle of confusion at infinity may depend on the position in the pinhole
+// image.
 vec3 directionOfSky() {
     if (chromatic) bandShift = sky.bandShift;
     vec2 unblurred = sky.place - sky.lensAndJitter.zw;

@@ -1,6 +1,6 @@
 // Adds a batch (wave) of samples of a data layer (depth, normal, …) to the layer's compensated sum, one sample after
 // another, so that the sum does not depend on the number of samples per batch. The samples have the same weights as in
-// the image, but without the colours of their wavelengths.
+// the image, except that wavelengths do not change the weights.
 #include "accumulation/layer_light.glsl"
 
 layout(rgba32f, binding = 0) uniform restrict image2D sumImage;

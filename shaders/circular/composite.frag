@@ -7,7 +7,7 @@
 
 layout(binding = 2) uniform sampler2D farBlurred;    // blurred far field; with combinedFields, the sum of both fields
 layout(binding = 3) uniform sampler2D nearBlurred;
-layout(binding = 4) uniform sampler2D nearRadii;     // radii at which the near field was gathered, in field px
+layout(binding = 4) uniform sampler2D nearRadii;     // radii within which the near field was gathered, in field px
 layout(location = 2) uniform float perNearDiameter;  // 1 / (largest CoC diameter in front of the focus plane in px)
 // 0: there is no near field. ≥ 1: factor by which the near field's coverage is multiplied.
 layout(location = 0) uniform float blendBias;

@@ -1,5 +1,5 @@
-// Computes the radius at which a pixel gathers the near field: the max blur radius of its own surface and of all near
-// surfaces whose disks may reach the pixel.
+// Computes the radius within which a pixel gathers the near field: the max blur radius of its own surface and of all
+// near surfaces whose disks may reach the pixel.
 layout(binding = 0) uniform sampler2D ownRadii;
 layout(binding = 1) uniform sampler2D reach;    // per tile: max radius of the near disks that reach it
 layout(binding = 2) uniform sampler2D farRadii;   // radii of the far field; used only with combinedFields

@@ -1,6 +1,7 @@
 // Tests the cut-outs of glTF's alphaMode MASK. A texel is visible if its alpha is at least the cutoff. Alpha in mip
-// levels ≥ 1 of level is read, a lens sample draws the fragment if the coverage exceeds the sample's threshold
-// (alpha_choice.glsl). The mean over the samples is therefore the coverage. Magnified edges stay sharp.
+// levels ≥ 1 is the coverage: the fraction of visible full-size texels (src/render/gpu_scene/cut_out.h). Where such a
+// level is read, a lens sample draws the fragment if the coverage exceeds the sample's threshold (alpha_choice.glsl).
+// The mean over the samples is therefore the coverage. Magnified edges stay sharp.
 
 #include "include/alpha_choice.glsl"
 

@@ -2,9 +2,9 @@
 // surface (Burley 2012, Physically-Based Shading at Disney; masking: Heitz 2014, Understanding the Masking-Shadowing
 // Function in Microfacet-Based BRDFs).
 
-// Returns π·(n·l)·D·V for light from the unit direction `toLight`. `spread`: 2σ², where σ² is the variance of the
-// normals' slopes over the sample's footprint. `spread` is added to the squares of both widths, except for masking, as
-// in lobeOf().
+// Returns π·(n·l)·D·V, with the normal n, the distribution of normals D and the visibility V, for light from the unit
+// direction l = `toLight`. `spread`: 2σ², where σ² is the variance of the normals' slopes over the sample's footprint.
+// `spread` is added to the squares of both widths, except for masking, as in lobeOf().
 float anisotropicReflection(SurfacePoint point, float nl, float nv, float spread, vec3 toLight) {
     if (nl <= 0.0 || nv <= 0.0) return 0.0;
     vec2 widths2 = point.widths * point.widths;

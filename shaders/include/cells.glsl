@@ -3,9 +3,9 @@
 // sorted by this blur into classes of increasing blur, separately in front of and behind the focus plane. The array
 // texture of sums has one layer per class.
 //
-// Layer k < cellsInFront sums all samples except the samples in front of the focus plane whose class is k or more
-// blurred. Layer cellsInFront + k sums the samples behind the focus plane whose class is k or more blurred. A class is
-// the difference of two adjacent layers. RGB is radiance, and alpha counts samples.
+// Layer k < cellsInFront sums all samples except the samples in front of the focus plane that belong to class k or to a
+// more blurred class. Layer cellsInFront + k sums the samples behind the focus plane that belong to class k or to a
+// more blurred class. A class is the difference of two adjacent layers. RGB is radiance, and alpha counts samples.
 
 const int cellClasses = cellsInFront + cellsBehind;
 // Number of blur classes whose sums are colour attachments. OpenGL guarantees 8 attachments; the sum of all samples

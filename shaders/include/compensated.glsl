@@ -1,6 +1,6 @@
 // Adds values with Neumaier's compensated sum (1974), which accumulates the rounding error of each addition separately.
-// Knuth's branch-free two-sum computes the error, with the same bits as Neumaier's comparison of magnitudes. `precise`
-// keeps the compiler from simplifying the error away.
+// Knuth's branch-free two-sum computes the error; the result is bit-identical to that of Neumaier's comparison of
+// magnitudes. `precise` keeps the compiler from simplifying the error away.
 
 void addCompensated(inout vec3 sum, inout vec3 compensation, vec3 value) {
     precise vec3 total = sum + value;

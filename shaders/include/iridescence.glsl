@@ -37,12 +37,14 @@ vec3 filmReflectance(float cosine, vec3 base, float filmIor, float thickness) {
     if (inside2 < 0.0) return vec3(1.0);
     float inside = sqrt(inside2);
     float front = schlick(reflectanceBetween(vec3(ior), 1.0).x, cosine);
-    float through = 1.0 - front;                       // product of the amplitude factors into and out of the film
+    float through = 1.0 - front;                       // transmission amplitudes into and out of the film, multiplied
     vec3 root = sqrt(clamp(base, 0.0, 0.9999));
     vec3 baseIor = (1.0 + root) / (1.0 - root);
     vec3 back0 = reflectanceBetween(baseIor, ior);
     vec3 back = vec3(schlick(back0.x, inside), schlick(back0.y, inside), schlick(back0.z, inside));
-    vec3 shift = filmPi + filmPi * vec3(lessThan(baseIor, vec3(ior)));   // first π: the film is denser than air
+    // Phase shifts at the film's two surfaces: π where the medium outside the film is less dense, which is always true
+    // for air.
+    vec3 shift = filmPi + filmPi * vec3(lessThan(baseIor, vec3(ior)));
     vec3 both = clamp(front * back, 1e-5, 0.9999);
     vec3 several = through * through * back / (1.0 - both);
     vec3 sum = front + several;

@@ -4,7 +4,7 @@
 // fraction of the image's width. Depth is reversed with an infinite far plane: z = near, so z/w runs from 1 at the near
 // plane to 0 at infinity.
 
-float bandShift = 0.0;   // change of b₁ and b₂ in C by the lens sample's wavelength; 0 unless chromatic
+float bandShift = 0.0;   // change of the CoC coefficients b₁ and b₂ by the sample's wavelength; 0 unless chromatic
 
 struct CocTerms {
     float factor;   // blur factor of the surface times (1 + g·r²), as in circle_of_confusion.h
@@ -28,8 +28,8 @@ float relativeCircleOfConfusion(float inverseDepth, vec2 ndc, vec2 own) {
     return clamp(blur, -frame.cocLimits.x, frame.cocLimits.y);
 }
 
-// Returns the image offset by astigmatism and coma for a lens point (u, k·v), in normalised device coordinates; see
-// src/lens/aberrations.h.
+// Returns the image offset that astigmatism and coma cause for a lens point (u, k·v) with the aspect ratio k, in
+// normalised device coordinates; see src/lens/aberrations.h.
 vec2 aberration(vec2 ndc, vec2 lensPoint) {
     vec2 perAspect = vec2(1.0, sqrt(frame.cocLimits.z));
     vec2 field = ndc * perAspect;
@@ -38,8 +38,8 @@ vec2 aberration(vec2 ndc, vec2 lensPoint) {
     return (frame.cocOther.z * along * field + frame.cocOther.w * (2.0 * along * lens + dot(lens, lens) * field)) / perAspect;
 }
 
-// Returns the image shift of a point at depth 1/inverseDepth for a lens point (u, k·v), in normalised device
-// coordinates.
+// Returns the image shift of a point at depth 1/inverseDepth for a lens point (u, k·v) with the aspect ratio k, in
+// normalised device coordinates.
 vec2 shiftThroughLens(float inverseDepth, vec2 ndc, vec2 own, vec2 lensPoint) {
     vec2 shift = relativeCircleOfConfusion(inverseDepth, ndc, own) * lensPoint;
     if (aberrations) shift += aberration(ndc, lensPoint);
@@ -52,7 +52,8 @@ vec3 pinholePosition(vec3 viewPosition) {
 }
 
 // Returns the clip position as seen from a lens point; `pinhole` is pinholePosition(). `lensAndJitter` holds the lens
-// point (u, k·v) and the pixel jitter in normalised device coordinates. With cocControls, w must be > 0.
+// point (u, k·v), with the aspect ratio k, and the pixel jitter in normalised device coordinates. With cocControls, w
+// must be > 0.
 vec4 throughLens(vec3 pinhole, vec2 own, vec4 lensAndJitter) {
     float w = pinhole.z;
     vec2 shift;

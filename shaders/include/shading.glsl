@@ -4,7 +4,7 @@
 // radiance and the directional albedo (Karis 2013, Real Shading in Unreal Engine 4), which is tabulated.
 //
 // One sample represents an area of the surface, and a normal of a coarse level represents several normals of level 0.
-// Both variations widen the specular lobe without changing its total energy.
+// Both kinds of variation of the normal widen the specular lobe without changing its total energy.
 //
 // Fresnel is F = F0 + (1 − F0)·g with g = (1 − v·h)⁵. The lights are therefore summed without F0 and albedo
 // (LightSums). This sum takes few operations per light, which matters on software rasterizers.
@@ -12,7 +12,8 @@
 layout(std140, binding = 6) uniform WaveBlock {
     // Side in px of the square over which a texture lookup is filtered. The area of the square is 1/(2N − 1) px², where
     // N is the frame's number of samples per pixel at the end of the current block of samples. The mean over the
-    // samples filters the texture over the full pixel. The area is below 1/N, because trilinear lookups cover more.
+    // samples filters the texture over the full pixel. The area is below 1/N, because trilinear lookups cover more than
+    // the square.
     float footprint;
     float mipBias;        // log2(footprint): bias on the mip level, which OpenGL chooses for a full pixel
 } wave;
@@ -52,7 +53,7 @@ struct SurfacePoint {
     float film;           // thickness of the film (nm)
     vec3 filmBase;        // F0 with which Schlick's term gives the film's reflectance towards the eye
     vec3 through;         // albedo of the diffuse light from behind; set only if diffusesThrough
-    // Irradiance from the environment that occluders keep from the surface, divided by π. Set only if `shadowed`.
+    // Irradiance from the environment that occluders block, divided by π. Set only if `shadowed`.
     vec3 hidden;
 };
 
@@ -93,8 +94,9 @@ float normalSpread(float agreement) {
 // Returns the mean of the normals that a coarse level's normal represents, weighted by their visible area, because
 // normals that face the eye cover more pixels: Σ n·(n·v) / Σ (n·v). Seen along the mean normal, the weighted mean has
 // the length |n| = `agreement`. In other views it is tilted towards the eye by about (1 − |n|) / mean(n·v) times the
-// component of v perpendicular to the mean normal. At grazing angles few normals are visible, and an upper bound on the
-// tilt keeps the length possible for this |n|. The bound is fitted to the von Mises–Fisher distribution.
+// component of v perpendicular to the mean normal. At grazing angles few normals are visible; an upper bound on the
+// tilt then excludes lengths that are impossible for this |n|. The bound is fitted to the von Mises–Fisher
+// distribution.
 vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     float nv = dot(normal, toEye);
     float seen = max(meanCosine(agreement * nv, nv, spread), 1e-3);
@@ -121,7 +123,7 @@ struct Spread {
 // (Improved Geometric Specular Antialiasing). σ² is the variance of the normals over an area of 8 · footprint² px
 // (WaveBlock), at most one pixel, weighted by a normal distribution whose σ is half the width of the area. With half of
 // this area, 64 samples miss up to 12 % of the sun's light that a mirror ball reflects, because its highlight is far
-// smaller than a pixel. A larger area blurs highlights more than it saves noise.
+// smaller than a pixel. With a larger area, the additional blur of highlights outweighs the lower noise.
 //
 // The same variance is used in all directions. On a wire, however, normals vary by half a turn across the wire and
 // hardly along it. A highlight that is widened along the wire would light parts that face away from the light. The
@@ -309,7 +311,7 @@ vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusio
     } else if (environmentType == 2) {
         // A gradient depends only on the height (y) of a direction, here of the mirrored direction 2 (n·v) n − v. The
         // spread of the normals scales the mean height of mirrored directions by 1 − 2·spread. Diffuse reflection
-        // scales the height by 2/3; mixing in 6·spread of the diffuse light therefore has the same mean height.
+        // scales the height by 2/3, so mixing in the fraction 6·spread of diffuse light gives the same mean height.
         float mirroredHeight = anisotropic ? reflect(-point.toEye, point.mirror).y : 2.0 * nv * point.normal.y - point.toEye.y;
         diffuse = gradientDiffuse(mattNormal(point).y);
         if (diffusesThrough) behind = gradientDiffuse(-mattNormal(point).y);

@@ -9,8 +9,8 @@ struct Surface {
     float agreement;      // coarse levels: length of the mean of the unit normals that `normal` represents
     vec3 toEye;           // vector from the surface to this sample's lens point (m)
     vec3 position;        // position relative to the camera (m)
-    vec2 lens;            // lens point (u, k·v) of the sample
-    float bandShift;      // change of b in C by the sample's wavelength, as in lens.glsl
+    vec2 lens;            // lens point (u, k·v) of the sample; k: aspect ratio
+    float bandShift;      // change of the CoC coefficient b by the sample's wavelength, as in lens.glsl
     vec4 uv;              // texture coordinates of both UV sets
     vec4 tangent;
     vec2 ownBlur;         // the surface's blur factor, and its added blur as a fraction of the image's width

@@ -1,4 +1,5 @@
-// Depth peeling: shades surfaces behind the previously peeled layer, and outputs the plane of their blur.
+// Depth peeling: shades surfaces behind the previously peeled layer. Also outputs their blur, its slope in the image,
+// and their depth.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"

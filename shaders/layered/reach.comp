@@ -1,13 +1,13 @@
 // Computes, for each pixel and layer, the min and max signed blur (px) of all surfaces that the pixel's lens rays may
-// meet. A ray meets a surface at most half the surface's blur away from the pixel. The surfaces in a square around the
-// pixel bound the blur, and the bound may allow a smaller square; the shader repeats both steps.
+// meet. A ray meets a surface at most half the surface's blur away from the pixel. The shader bounds the blur by the
+// surfaces in a square around the pixel. The bound may permit a smaller square, so the shader repeats both steps.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform sampler2DArray extents;   // pyramid of min and max blur from layered/extent.comp
 layout(binding = 0, rg32f) writeonly uniform image2DArray reachOut;
 layout(location = 0) uniform int border;        // border in px by which the layers extend beyond the image
 layout(location = 1) uniform float farthest;    // max distance (px) from a pixel at which a ray can meet a surface
-layout(location = 2) uniform float bandBlur;    // max change of the blur by the wavelength (px)
+layout(location = 2) uniform float bandBlur;    // max change of the blur that a wavelength causes (px)
 
 const int maxRounds = 5;
 

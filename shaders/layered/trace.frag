@@ -60,7 +60,7 @@ void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
     ivec2 texel = clamp(ivec2(floor(placeAt(ray, reach.x))), ivec2(0), size - 1);
     float begin = reach.x;
     bool connected = false;   // true if the previous pixel has a surface
-    float before = 0.0;       // px of blur by which the ray left the previous pixel behind the surface there
+    float before = 0.0;       // px of blur by which the ray was behind the surface on leaving the previous pixel
     while (true) {
         vec2 ends = (vec2(texel + max(forward, 0)) - ray.start) * ray.perSlope;
         float end = min(min(ends.x, ends.y), reach.y);

@@ -69,7 +69,7 @@ void main() {
     // entriesAtOnce triangles (see_through.cpp).
     uint end = tileEnds[tile];
     for (uint at = tile == tiles.x ? 0u : tileEnds[tile - 1u]; at < end; at += 8u) {
-        // Triangles are sorted by min depth.
+        // Triangles are sorted by min depth, so all further triangles are behind the nearest hit.
         if (nearest * (1.0 + 1e-5) < minDepthOf(triangles[entries[at]].xyz)) break;
         test(entries[at]);
         if (at + 1u < end) test(entries[at + 1u]);

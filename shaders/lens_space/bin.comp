@@ -52,8 +52,8 @@ void add(inout Area area, vec4 corners[3], float aspect) {
     }
 }
 
-// Returns the polar form of (Nx, Ny, det) in src/plan/visible/lens_facing.h: a function that is linear in each of three
-// triangles. It equals (Nx, Ny, det) of a triangle if all three arguments are that triangle.
+// Returns the polar form of (Nx, Ny, det) in src/plan/visible/lens_facing.h: a function of three triangles that is
+// linear in each of them. It equals (Nx, Ny, det) of a triangle if all three arguments are that triangle.
 vec3 polarForm(vec4 a[3], vec4 b[3], vec4 c[3]) {
     vec2 slope = vec2(0.0);
     for (int i = 0; i < 3; ++i) slope += a[i].w * cross(b[(i + 1) % 3].xyz, c[(i + 2) % 3].xyz).xy;

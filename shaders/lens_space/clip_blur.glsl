@@ -1,5 +1,5 @@
-// Computes the circle of confusion C of a vertex in clip space. Behind the camera, the smooth terms of C
-// (coc_pieces.glsl) continue C. Inside a triangle the lens-space methods interpolate C linearly (Munkberg, Toth and
+// Computes the circle of confusion C of a vertex in clip space. Behind the camera, C is extrapolated by its smooth
+// terms (coc_pieces.glsl). Inside a triangle the lens-space methods interpolate C linearly (Munkberg, Toth and
 // Akenine-Möller 2012).
 
 #include "include/coc_pieces.glsl"

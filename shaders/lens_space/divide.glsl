@@ -1,5 +1,6 @@
-// Numbers the vertices with which a triangle is divided into parts² small triangles. Vertex (row r, column c) with 0 ≤
-// c ≤ r ≤ parts has the index r·(r + 1)/2 + c. Row 0 is the first corner, and the last row is the edge opposite to it.
+// Numbers the vertices of the parts² small triangles into which a triangle is divided. Vertex (row r, column c) with 0
+// ≤ c ≤ r ≤ parts has the index r·(r + 1)/2 + c. Row 0 is the first corner, and the last row is the edge opposite to
+// it.
 
 uint verticesPerTriangle(uint parts) { return (parts + 1u) * (parts + 2u) / 2u; }
 

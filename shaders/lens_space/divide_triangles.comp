@@ -1,5 +1,5 @@
-// Divides triangles into small ones, inside which C is nearly linear (divide.glsl). Their vertices follow later
-// (divide_clips.comp, divide_attributes.comp).
+// Divides triangles into small triangles, inside which the circle of confusion is nearly linear (divide.glsl). The
+// vertices of the small triangles are computed later (divide_clips.comp, divide_attributes.comp).
 
 #include "lens_space/divide.glsl"
 

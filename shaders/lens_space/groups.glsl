@@ -3,8 +3,8 @@
 
 struct Group {
     uint count;
-    uint first;      // index of the group's first record in the list
-    uint listed;     // number of records listed so far
+    uint first;      // index in the list of the group's first record (ray hit)
+    uint listed;     // number of the group's records listed so far
     uint unused;
 };
 

@@ -1,4 +1,4 @@
-// Interpolates the attributes of the surface that a ray hits between the triangle's corners. Stores them in the global
+// Interpolates surface attributes between a triangle's corners, at the point that a ray hits. Stores them in the global
 // variable `surface` (surface.glsl).
 
 vec3 hitWeights(vec3 edges) { return edges / (edges.x + edges.y + edges.z); }

@@ -24,8 +24,8 @@ layout(location = 2) uniform uint group;
 layout(location = 3) uniform uint recordCount;
 layout(location = 4) uniform bool first;   // true: first hit of each ray; false: only records with negative weight
 
-// Laine and Karras 2011, Stratified Sampling for Stochastic Transparency, with the constants of Burley 2020, Practical
-// Hash-based Owen Scrambling.
+// Owen-scrambles a number whose bits are reversed (Laine and Karras 2011, Stratified Sampling for Stochastic
+// Transparency; constants of Burley 2020, Practical Hash-based Owen Scrambling).
 uint scrambled(uint reversed, uint seed) {
     reversed ^= reversed * 0x3d20adeau;
     reversed += seed;
@@ -81,7 +81,8 @@ void main() {
     Ray ray = rayOf(numberOf(record), pixel);
     readHit(record.triangle, ray.values.x, lensPointOf(record, ray), placeOf(ray, pixel));
     float threshold = thresholdOf(firstRay + numberOf(record), pixel, record.triangle);
-    // All points on a line sample have the same ray index. Their positions along the line spread their thresholds.
+    // All points on a line sample have the same ray index, so their thresholds are offset by their positions along the
+    // line.
     if (lineSamples) threshold = fract(threshold + 7.236 * record.place);
     bool stopped = stops(threshold);
     records[index].weight = stopped ? abs(record.weight) : -abs(record.weight);

@@ -6,7 +6,7 @@
 layout(local_size_x = 1) in;
 
 layout(std430, binding = 4) buffer GroupBlock { Group groups[]; };
-// per group: number of workgroups in x, y, z
+// number of workgroups in x, y, z that shade each group of surfaces
 layout(std430, binding = 6) writeonly buffer DispatchBlock { uint sizes[]; };
 
 layout(location = 0) uniform uint groupCount;

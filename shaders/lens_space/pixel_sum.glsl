@@ -16,7 +16,8 @@ uint pixelOfThread() {
     return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
 }
 
-// Adds the radiance of a shaded record, which replaces the record's hit (records.glsl).
+// Adds the radiance of a shaded record (ray hit) to a pixel's sum. Shading has replaced the hit by its radiance
+// (records.glsl).
 void addRecord(inout vec4 sum, inout vec4 compensation, Record light) {
     addCompensated(sum.rgb, compensation.rgb, vec3(uintBitsToFloat(light.triangle), uintBitsToFloat(light.ray), light.place));
     addCompensated(sum.a, compensation.a, light.weight);

@@ -4,8 +4,8 @@
 // pixels have the same points on the lens, in the pixel and in time.
 
 struct Ray {
-    // xy: lens point (u, k·v), or the vector from the lens centre to the rim along a line; zw: position in px from the
-    // pixel's centre.
+    // xy: lens point (u, k·v) with the aspect ratio k, or the vector from the lens centre to the rim along a line; zw:
+    // position in px from the pixel's centre.
     vec4 lensAndPixel;
     // Point sample: x is the fraction of the current part of the exposure, [0, 1]. Line sample: x is the line's extent
     // on the side opposite to the rim point, relative to the rim's distance from the lens centre; y is the fraction of
@@ -16,7 +16,7 @@ struct Ray {
 layout(std430, binding = 6) readonly buffer RayBlock { Ray rays[]; };   // index of a ray: ray · rayVariants + variant
 
 layout(location = 0) uniform ivec2 imageSize;
-layout(location = 1) uniform uint firstRay;   // index of the first ray of the rays traced together (the wave)
+layout(location = 1) uniform uint firstRay;   // index of the first of the rays that are traced together (the wave)
 
 uint mixedBits(uint x) {   // finaliser of MurmurHash3 (Appleby)
     x = (x ^ (x >> 16)) * 0x85ebca6bu;

@@ -8,5 +8,6 @@ uvec2 pixelOf(Record record) {
 // Returns the number of the record's ray among the rays of a pixel that are traced together.
 uint numberOf(Record record) { return record.ray / uint(imageSize.x * imageSize.y); }
 
-// Returns the lens point (u, k·v) through which the record's surface is seen. `ray`: the record's ray.
+// Returns the lens point (u, k·v), with the aspect ratio k, through which the record's surface is seen. `ray`: the
+// record's ray.
 vec2 lensPointOf(Record record, Ray ray) { return lineSamples ? record.place * ray.lensAndPixel.xy : ray.lensAndPixel.xy; }

@@ -1,5 +1,5 @@
-// Shades the records (ray hits) of rays that hit no surface with the radiance of the sky. The sky lies at infinity,
-// where the circle of confusion C = a + b·w relative to w is b.
+// Shades the records (ray hits) of rays that hit no surface with the radiance of the sky. The sky lies at infinite
+// depth w, where C/w = (a + b·w)/w equals b (circle of confusion C).
 
 #include "lens_space/shade.glsl"
 

@@ -54,8 +54,8 @@ vec2 relativeTo(vec4 clip, vec2 lens, vec2 place) {
     return q;
 }
 
-// Returns the max image offset by aberrations over all lens points, in normalised device coordinates, for a vertex at
-// image position `ndc`.
+// Returns the max image offset that aberrations cause over all lens points, in normalised device coordinates, for a
+// vertex at image position `ndc`.
 vec2 aberrationReach(vec2 ndc) {
     vec2 perAspect = vec2(1.0, sqrt(frame.cocLimits.z));
     float radius = length(ndc * perAspect);

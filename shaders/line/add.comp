@@ -1,11 +1,11 @@
 // Adds the radiance of a batch (wave) of line samples to each pixel's compensated sum, in the order of the lines. Each
-// line has a range of records (lens_space/records.glsl).
+// line has a range of records (ray hits; lens_space/records.glsl).
 
 #include "lens_space/pixel_sum.glsl"
 
 layout(std430, binding = 1) readonly buffer OutputBlock {
     uint counters[6];
-    uvec2 ranges[];   // per ray: first record, number of records
+    uvec2 ranges[];   // per line: index of the first record, number of records
 };
 
 void main() {

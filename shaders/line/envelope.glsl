@@ -8,7 +8,7 @@ struct Piece {
     uint index;      // index of the next piece in the line's list
 };
 
-// Double buffer of the list of pieces: each new segment reads one list and writes the other.
+// Double buffer of the list of pieces: adding a segment reads one list and writes the other.
 vec2 pieceEnds[2 * segmentCapacity];
 // 1/w = E/D (line.glsl). x: E at p = 0; y: slope of E; z: D at p = 0; w: slope of D.
 vec4 pieceDepths[2 * segmentCapacity];

@@ -18,7 +18,7 @@ layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
 layout(std430, binding = 1) buffer OutputBlock {
     uint recordCount;       // number of records (ray hits) that all lines together need
     uint droppedSegments;
-    uint droppedLight;      // light of the dropped segments, in units of 1/1024 of a line's light
+    uint droppedLight;      // sum over all lines of the fraction of light in dropped segments, in units of 1/1024
     uint mergedSegments;
     uint laterJobs;         // jobs deferred to later dispatches
     uint unfinishedJobs;    // jobs of this dispatch that are not finished
@@ -28,7 +28,8 @@ layout(std430, binding = 1) buffer OutputBlock {
     uvec2 ranges[];
 };
 struct Bounds {
-    vec4 box;               // bounding box of the line's variants (rays.glsl): min (u, k·v), max (u, k·v)
+    // Bounding box of the line's variants (rays.glsl): min (u, k·v), max (u, k·v), with the aspect ratio k.
+    vec4 box;
     // xy: unit vector in (u, v) perpendicular to the mean of the line's variants (rays.glsl); z: max distance of a
     // variant's points from that mean line.
     vec4 strip;
@@ -73,6 +74,6 @@ const uint jobIsDone = 3u;
 // Max number of threads per SIMD vector. All threads of a vector run a loop as often as the slowest thread.
 const uint widestVector = 16u;
 uint commonRounds = 0u;         // iterations of loops that all threads run equally often
-uint ownRounds = 0u;            // this thread's iterations of loops whose number differs between threads
+uint ownRounds = 0u;            // this thread's iterations of loops that run a different number of times in each thread
 
 bool hasRoundsFor(uint more, uint maximum) { return maxRounds == 0u || commonRounds + widestVector * ownRounds + more < maximum; }

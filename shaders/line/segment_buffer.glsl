@@ -1,8 +1,8 @@
 // Keeps the segments of a line in a fixed-size buffer in shared memory, as in Tzeng et al. 2012. Each incoming segment
 // passes these steps in order:
 //   occlusion   it is dropped if a stored segment hides it, and removes stored segments that it hides;
-//   merge       it is joined with a stored segment that it continues, if the distance of the colours, the difference of
-//               the depths, the orientations and the slopes agree;
+//   merge       it is joined with a stored segment that it continues, if colours, depths, orientations and slopes agree
+//               within the tolerances below;
 //   length      it is dropped if it is too short;
 // The paper gives no thresholds; the constants below are this program's choice. After all segments have arrived, a
 // sweep along the line finds the nearest segments. Where segments intersect, the sweep switches between them only at an

@@ -38,7 +38,7 @@ uint shadingPoints(uint triangle, float p1, float p2, vec2 direction) {
             blur = max(blur, abs(clip.w) / max(clip.z, frame.projection.z));
         }
     }
-    float way = 0.5 * abs(blur) * (p2 - p1) * length(direction * vec2(imageSize));   // in px
+    float way = 0.5 * abs(blur) * (p2 - p1) * length(direction * vec2(imageSize));   // path in the image, px
     return uint(clamp(ceil(way / shadingStep), 1.0, float(maxShadingPoints)));
 }
 
@@ -50,17 +50,17 @@ uint writeRecords(uint at, uint ray, uint triangle, float p1, float p2, Ray mine
     for (uint i = 0u; i < count; ++i) {
         float from = i == 0u ? p1 : placeOfShare(p1, p2, float(i) / float(count));
         float to = i + 1u == count ? p2 : placeOfShare(p1, p2, float(i + 1u) / float(count));
-        // shadingStep = 0 shades the middle, as published. Otherwise the position is random, so that the expected value
-        // is the mean radiance along the segment.
+        // With shadingStep = 0, the middle is shaded, as published. Otherwise the position is random, so that the
+        // expected value is the mean radiance along the segment.
         float place = shadingStep == 0.0 ? 0.5 * (from + to) : placeOfShare(from, to, mine.values.z);
         records[at + i] = Record(triangle, ray, place, lightBetween(from, to, sides));
     }
     return count;
 }
 
-// Collects in `kept` the next triangles of the tile, from entry `base` on, that its lines may see. Stops after maxKept
-// triangles or maxScans scans. All threads must call this function. The triangles stay in list order, because the order
-// determines which segments a full segment buffer drops.
+// Collects in `kept` the next triangles that the tile's lines may see, from entry `base` of the tile's list on. Stops
+// after maxKept triangles or maxScans scans. All threads must call this function. The triangles stay in list order,
+// because the order determines which segments a full segment buffer drops.
 void keepMore(inout uint base, uint end, uint ray, vec2 tileMin, vec2 tileMax) {
     uint count = 0u;
     uint word = gl_LocalInvocationIndex >> 5u;

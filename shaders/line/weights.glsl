@@ -5,7 +5,7 @@
 // area that lies nearer to the centre (src/lens/aperture.h). If areaWeights is false, parts are weighted by their
 // length alone, without κ (Figure 4 of the paper).
 
-layout(location = 4) uniform vec2 lightOverRadius;   // x: coefficient a of the density; y: obstructed fraction of the aperture
+layout(location = 4) uniform vec2 lightOverRadius;   // x: coefficient a of the light's density; y: obstructed fraction
 
 float lightWithin(float radius) {
     if (!areaWeights) return radius;

@@ -9,7 +9,8 @@
 
 layout(binding = 0) uniform PinholeTexture pinholeColor;
 layout(location = 0) uniform float perLargest;   // reciprocal of the largest CoC diameter, 1/px
-// x: focus (m); y: 1/(focus − near); z: 1/(far − focus); w: max blurriness behind the focus.
+// x: focus distance (m); y: 1/(focus distance − near plane); z: 1/(far plane − focus distance); w: max blurriness
+// behind the focus plane.
 layout(location = 1) uniform vec4 planes;
 
 layout(location = 0) out vec4 colorAndBlurriness;

@@ -29,8 +29,8 @@ void main() {
         vec4 sharpTap = textureLod(sharpImage, (gl_FragCoord.xy + taps[i].xy * radius) * perPixel, 0.0);
         vec4 smallTap = textureLod(smallImage, (gl_FragCoord.xy + taps[i].xy * smallRadius) * perPixelSmall, 0.0);
         vec4 tap = mix(sharpTap, smallTap, abs(sharpTap.a * 2.0 - 1.0));
-        // Weight taps nearer to the camera than the centre by their own blur, so that sharp foreground does not leak
-        // into its surroundings.
+        // A tap that is nearer to the camera than the centre is weighted by the tap's own blur, so that sharp
+        // foreground does not leak into its surroundings.
         float weight = tap.a >= centreDepth ? 1.0 : abs(tap.a * 2.0 - 1.0);
         sum += weight * tap.rgb;
         weights += weight;
