@@ -24,7 +24,7 @@ namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t framesWaiting = 2;  // max frames in the writer's queue; more would only take memory
+constexpr std::size_t framesWaiting = 2;  // max number of frames in the writer's queue
 
 // Returns the file for a range of a frame's samples: frames/0012.exr → frames/0012.part00064-00128.exr.
 fs::path partPath(const fs::path& frame, const SampleRange& range) {
@@ -48,8 +48,6 @@ FrameState partState(const fs::path& path, const std::string& settings) {
         return FrameState::missing;
     }
 }
-
-// ---- sidecar file with the times of the frames ----------------------------------------------------------------------
 
 struct FrameTimes {
     double planMilliseconds = 0;
@@ -77,8 +75,6 @@ void appendTimes(const FilmOptions& options, std::uint64_t memoryLimit, const Fi
         fail("cannot write {}", options.timings.string());
 }
 
-// ---- one frame ------------------------------------------------------------------------------------------------------
-
 // The result of drawing a frame. The writer thread receives it and writes the frame's files while the driver draws the
 // next frame.
 struct DrawnFrame {
@@ -90,7 +86,7 @@ struct DrawnFrame {
     Metadata metadata;
     RenderStats stats;
     FrameTimes times;
-    bool written = false;  // true: the files are already complete, as for a frame in tiles
+    bool written = false;  // true: the frame was drawn in tiles, which have already been written to its files
 };
 
 // Returns the request's stop conditions without the time limit, because a frame must have the same samples in every
@@ -219,16 +215,12 @@ DrawnFrame refocusFrame(const RefocusRun& run, FrameMoment moment, World& world,
     return drawn;
 }
 
-// ---- progress -------------------------------------------------------------------------------------------------------
-
 // Returns a line such as "frame 12, 3400 ms and 18.2 M triangles each".
 std::string stageText(int frame, const FilmFigures& figures, double milliseconds) {
     if (figures.rendered == 0) return fmt::format("frame {}", frame);
     return fmt::format("frame {}, {:.0f} ms and {:.2f} M triangles each", frame, milliseconds / figures.rendered,
                        static_cast<double>(figures.triangles) * 1e-6 / figures.rendered);
 }
-
-// ---- files of earlier runs ------------------------------------------------------------------------------------------
 
 FilmFrame filmFrame(const Shot& shot, const SequenceBase& base, int number, const FilmOptions& options) {
     const FrameMoment frame = frameAt(shot, base, number);

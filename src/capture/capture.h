@@ -26,17 +26,17 @@ struct FilmFrame {
     std::vector<std::filesystem::path> files;  // image files, one per file name pattern
     WriteOptions write;                        // encoding of PNG, JPEG and video
     bool finished = false;                     // whether all files exist with the requested settings
-    std::filesystem::path other;               // with `resume`: first existing file of other settings; empty: none
+    std::filesystem::path other;               // first file with other settings; empty if none, or if not resuming
 };
 
 struct FilmOptions {
     std::vector<std::string> outputs;        // file name patterns, see capture/frame_files.h
     std::optional<SampleRange> sampleRange;  // write only partial sums, to FRAME.partFIRST-END.exr; one EXR output only
-    FilmSettings settings;                   // settings without encoding; a frame's time limit is ignored
+    FilmSettings settings;                   // `encoding` is unset; a frame's time limit is ignored
     bool metered = false;                    // true: FilmFrame::write gets a metered exposure later
     std::filesystem::path timings;           // path of the sidecar file
     bool resume = false;                     // true: keep the frames that are already finished
-    std::vector<RefocusRun> runs = {};       // frames that are computed from lens images; none with sampleRange
+    std::vector<RefocusRun> runs = {};       // runs of frames computed from lens images; empty with sampleRange
     // Called with the first image that is drawn untiled, and with the encoding of its 8-bit files.
     std::function<void(const Image&, const WriteOptions&)> firstDrawn;
     // Called for each rendered frame with its number and plan, while the world has the pose of that frame.
@@ -55,8 +55,8 @@ struct FilmFigures {
     int rendered = 0;
     int tiles = 1;  // number of tiles of the latest frame
     int finishedBefore = 0;
-    int refocused = 0;              // frames computed from lens images; `rendered` includes them
-    std::uint64_t lensImages = 0;   // number of lens images rendered for these frames
+    int refocused = 0;              // frames computed from lens images (one per lens sample); included in `rendered`
+    std::uint64_t lensImages = 0;   // number of lens images rendered for the refocused frames
     double renderMilliseconds = 0;  // sum over all frames of the time from plan to image
     double totalMilliseconds = 0;   // wall-clock time until the last file is written
     std::uint64_t triangles = 0;

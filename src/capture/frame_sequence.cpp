@@ -22,8 +22,6 @@ namespace defocus::engine {
 
 namespace {
 
-// ---- camera ---------------------------------------------------------------------------------------------------------
-
 glm::dvec3 pointOf(const Place& place, const Scene& scene, const Pose& pose) {
     if (const auto* point = std::get_if<glm::dvec3>(&place)) return *point;
     return nodeCentre(scene, pose, nodeCalled(scene, std::get<std::string>(place)));
@@ -74,8 +72,6 @@ View movedView(const Shot& shot, const SequenceBase& base, const Pose& pose, dou
     }
     return view;
 }
-
-// ---- lens -----------------------------------------------------------------------------------------------------------
 
 // Returns the distance (m) to the focus target. `view` must have the lens of the frame; the focus distance of that lens
 // is ignored.
@@ -156,8 +152,6 @@ Lens lensAt(const Shot& shot, const SequenceBase& base, const FrameMoment& frame
     checkLens(lens);
     return lens;
 }
-
-// ---- time and noise -------------------------------------------------------------------------------------------------
 
 // Returns the index of the shot's animation; −1 if the scene has no animation.
 int clipOf(const Shot& shot, const Scene& scene) {

@@ -1,6 +1,6 @@
 #pragma once
-// Supports the subset of JSON Schema that settings need: anyOf, enum, and type with limits for numbers, strings and
-// arrays.
+// Checks JSON values against the subset of JSON Schema that settings use, and describes such schemas in words. The
+// subset is anyOf, enum, and type with limits for numbers, strings and arrays.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

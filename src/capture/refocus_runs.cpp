@@ -36,8 +36,8 @@ bool sameShape(const Lens& a, const Lens& b) {
            });
 }
 
-// Lens of a frame, and a key of everything else: if two frames have equal keys, only focus distance, f-number and
-// aperture shape differ.
+// Lens of a frame, and a key that identifies all other inputs of the frame. Frames with equal keys differ only in focus
+// distance, f-number and aperture shape.
 struct StillFrame {
     std::string key;
     Lens lens;
@@ -54,8 +54,8 @@ StillFrame stillFrame(const Shot& shot, const SequenceBase& base, const FilmSett
     return still;
 }
 
-// Returns the run of frames [first, end) of `stills`, whose first frame has the number `number`; nullopt if no single
-// set of lens images covers these frames.
+// Returns the run of the frames with indices [first, end) in `stills`; nullopt if no single set of lens images covers
+// these frames. `number`: frame number of the run's first frame.
 std::optional<RefocusRun> runOver(const std::vector<StillFrame>& stills, std::size_t first, std::size_t end, int number,
                                   std::uint32_t samples) {
     const Lens& lens = stills[first].lens;
@@ -81,7 +81,8 @@ std::optional<RefocusRun> runOver(const std::vector<StillFrame>& stills, std::si
     return run;
 }
 
-// Returns the run beginning with frame `first` that saves the most lens samples; nullopt if no run saves any.
+// Returns, of all runs that begin with frame `first`, the one that saves the most lens samples; nullopt if none saves
+// any.
 std::optional<RefocusRun> bestRun(const std::vector<StillFrame>& stills, std::size_t first, int number,
                                   std::uint32_t samples) {
     std::optional<RefocusRun> best;

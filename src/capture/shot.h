@@ -87,12 +87,12 @@ struct Shot {
 
     double frameRate = 24;  // frames per second
     FrameRange range{0, 0};
-    double animationSpeed = 1;           // factor on the animation's speed; 0: no motion
+    double animationSpeed = 1;           // multiplies the animation's speed; 0: no motion
     std::optional<double> shutterAngle;  // degrees; replaces the exposure time in seconds; 360: always open
     ShotMovement movement;
     std::optional<FocusTrack> focus;
     std::map<std::string, LensTrack, std::less<>> lens;        // constant or keyed values, by name of the lens field
-    std::map<std::string, LensTrack, std::less<>> methodKeys;  // keyed values, by method setting (MethodSetting::keyed)
+    std::map<std::string, LensTrack, std::less<>> methodKeys;  // keyed values, by name of the method's setting
     bool animateSeed = false;                                  // new sample positions, thus new noise, in each frame
 
     std::vector<std::string> outputs = {"frames/####.exr"};

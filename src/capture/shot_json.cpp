@@ -29,8 +29,6 @@ constexpr double farthest = 1e12;  // largest distance or coordinate, m
 
 const std::vector<std::string> easings = {"linear", "smooth"};
 
-// ---- ranges and keys
-
 Easing easingOf(const JsonReader& reader) {
     const auto given = reader.find("interpolation");
     if (!given) return Easing::smooth;
@@ -80,8 +78,6 @@ std::vector<std::pair<double, JsonReader>> keysOf(const JsonReader& reader, cons
     }
     return keys;
 }
-
-// ---- camera, focus, lens
 
 CameraKeys cameraKeysOf(const JsonReader& camera) {
     CameraKeys result;
@@ -204,9 +200,7 @@ std::map<std::string, LensTrack, std::less<>> lensOf(const JsonReader& reader) {
     return lens;
 }
 
-// ---- the method
-
-// Returns the method settings that may have keyframes, by name, for all methods together.
+// Returns all methods' settings that may have keyframes, by setting name.
 std::map<std::string, const MethodSetting*, std::less<>> keyedSettings() {
     std::map<std::string, const MethodSetting*, std::less<>> keyed;
     for (const Method& method : methods())
@@ -236,8 +230,6 @@ std::map<std::string, LensTrack, std::less<>> methodKeysOf(const JsonReader& rea
     for (const auto& [name, member] : reader.members()) tracks[name] = methodTrackOf(member, *known.at(name));
     return tracks;
 }
-
-// ---- settings, output, document
 
 // Returns the member of the document at a JSON pointer; nullopt if it is missing.
 std::optional<JsonReader> findPlace(const JsonReader& reader, std::string_view place) {

@@ -15,7 +15,7 @@ namespace defocus::engine {
 // they may have keyframes.
 void applyShot(const Shot& shot, Request& request);
 
-// Records which of these options were given on the command line, because Request does not contain this information.
+// Flags the options that were given on the command line; Request does not contain this information.
 struct GivenOptions {
     bool camera = false;
     bool shutter = false;

@@ -221,7 +221,7 @@ void writeVideo(const fs::path& path, const std::vector<VideoFrame>& frames, dou
     const Image first = readImage(frames.front().file);
     const fs::path log = path.string() + ".log";
     PendingFile film(path);
-    PendingFile messages(log);  // a temporary file
+    PendingFile messages(log);
 
     std::vector<std::string> arguments = {"ffmpeg",      "-y",
                                           "-v",          "error",

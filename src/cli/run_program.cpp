@@ -91,7 +91,7 @@ bool isOption(const std::string& word) {
     return word.size() > 1 && word.front() == '-';
 }
 
-// Returns the option of the command that means the same as `word`, the name of an option in other programs; empty if
+// Returns the option of the command that corresponds to `word`, an option name from other programs; empty if there is
 // none.
 std::string knownForForeign(const CLI::App& command, std::string_view word) {
     static constexpr std::pair<std::string_view, const char*> table[] = {
@@ -196,7 +196,7 @@ int run(int argc, char** argv) {
     addCommands(program, global);
     try {
         std::vector<std::string> words = withoutBooleanValues({argv + 1, argv + argc});
-        std::ranges::reverse(words);  // CLI11 expects reversed words
+        std::ranges::reverse(words);  // CLI11 expects the last word first
         program.parse(std::move(words));
     } catch (const CLI::Success& shown) {  // thrown for --help and --version
         return program.exit(shown);

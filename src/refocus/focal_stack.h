@@ -24,8 +24,9 @@ Image centralDepth(LightField& field);
 Image centralCoc(LightField& field, const Refocusing& refocusing);
 
 // Returns the picture in which everything is in focus, seen from the lens's centre: linear, premultiplied RGBA. Each
-// pixel shows one surface. It is the mean over the lens images that show this surface, shifted as for a focus on it. An
-// image counts as showing the surface if the difference in depth would cause at most one pixel of blur.
+// pixel shows one surface. Its colour is the mean over the lens images that show this surface, shifted so that the
+// surface is in focus. An image counts as showing the surface if the difference in depth would cause at most one pixel
+// of blur.
 Image allInFocus(LightField& field, const Progress& progress = {});
 
 }  // namespace defocus::engine

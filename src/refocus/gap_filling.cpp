@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::size_t channels = 5;  // red, green, blue, alpha and weight
 // Standard deviation of the blur of a cell (the part of the lens that one of N images represents), in units of c/√N for
-// a circle of confusion of c px. A disk-shaped cell has 1/4. Real cells differ in size and shape; twice the blur of a
-// disk has the smallest error (docs/refocus.md).
+// a circle of confusion of c px. A disk-shaped cell would have 1/4. Real cells differ in size and shape; twice the
+// value of a disk gives the smallest error (docs/refocus.md).
 constexpr double cellBlur = 0.5;
 constexpr double minVariance = 0.01;  // px²; subtracted from every variance, because a smaller blur is invisible
 
-// Returns the blur variance in px² of class k of the pixels sorted by blur.
+// Returns the blur variance in px² of class k; pixels are sorted into classes by their blur.
 double classVariance(std::size_t k) {
     return 0.5 * std::ldexp(1.0, 2 * static_cast<int>(k));
 }
@@ -32,8 +32,8 @@ std::vector<float> gaussian(double variance) {
     return weights;
 }
 
-// Returns an image of `depth` interleaved floats per pixel, convolved with a Gaussian. Pixels outside equal the nearest
-// pixel inside.
+// Returns an image of `depth` interleaved floats per pixel, convolved with a Gaussian. Pixels outside the image equal
+// the nearest pixel inside it.
 std::vector<float> blurred(const std::vector<float>& image, const PartSize& size, std::size_t depth, double variance) {
     const std::vector<float> weights = gaussian(variance);
     const int reach = static_cast<int>(weights.size() / 2);
@@ -95,7 +95,7 @@ void GapFilling::add(std::span<const DeepMovedImage> images) {
         const int y = static_cast<int>(row);
         for (const DeepMovedImage& moved : images) {
             const int column = size_.margin - moved.move.x;
-            const int line = y + size_.margin + moved.move.y;  // row indices grow downwards, moves grow upwards
+            const int line = y + size_.margin + moved.move.y;  // row 0 is at the top; move.y is positive upwards
             const std::uint16_t* const colours = moved.colour->at(column, line);
             const float* const depths = moved.depth->at(column, line);
             const std::size_t first = row * static_cast<std::size_t>(size_.width);

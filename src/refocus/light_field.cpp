@@ -53,7 +53,7 @@ double largestMove(const LightFieldInfo& info) {
 
 // Returns the margin in px that the images need, so that shifted images still cover the picture.
 int marginOf(const LightFieldInfo& info) {
-    return static_cast<int>(std::ceil(std::min(largestMove(info), 1e6) + 0.5));  // + 0.5: see wholeMove
+    return static_cast<int>(std::ceil(std::min(largestMove(info), 1e6) + 0.5));  // 0.5 px for rounding in wholeMove
 }
 
 // Returns the number stored under `name` in a file's metadata; nullopt if it is missing, of another type, or not

@@ -24,14 +24,14 @@
 namespace defocus::engine {
 
 struct LightFieldInfo {
-    PartSize size;                   // size of the picture, and width of the margin by which images exceed it, px
+    PartSize size;                   // picture size, and width of the margin around it in each lens image, px
     double focusDistance = 1;        // focus distance s of the rendered images, m
     double fStop = 1;                // f-number of the rendered aperture
     double pixelsPerDioptre = 0;     // shift P of the image of lens point (1, 1) per dioptre of focus, px
     FocusRange range;                // focus distances for which margin and levels of detail suffice
     bool disk = true;                // the rendered aperture is a uniform disk
     std::vector<glm::dvec2> points;  // lens point (u, v) of each image
-    std::vector<glm::dvec2> pixels;  // sample position of each image in its pixel, px from the centre, right and up
+    std::vector<glm::dvec2> pixels;  // position of each image's sample in its pixel: px right and up from the centre
     Metadata metadata;               // metadata of the frame, without the values of the other members
 
     // Returns by how many px a change to `otherFocus` moves the image of lens point (1, 1), to the right and up.

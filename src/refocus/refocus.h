@@ -8,8 +8,8 @@
 // position, so the image moves by whole pixels. A pixel of the picture is thus the mean of samples within it, one from
 // each image, as in a rendered picture. Interpolation would soften the picture, even with more images.
 //
-// A smaller aperture uses the images of the lens points within it. An aperture shape weights each image by the shape's
-// light density at its lens point.
+// A smaller aperture uses the images of the lens points within it. An aperture shape weights each image by the relative
+// amount of light that passes through the shape at the image's lens point.
 
 #include <optional>
 #include <vector>

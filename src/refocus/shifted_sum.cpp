@@ -64,7 +64,7 @@ void ShiftedSum::add(std::span<const MovedImage> images) {
                 std::fill_n(compensations, floats, 0.0f);
                 inBlock = 0;
             }
-            for (int y = first; y < end; ++y)  // row indices grow downwards, moves grow upwards
+            for (int y = first; y < end; ++y)  // row 0 is at the top; move.y is positive upwards
                 addRow(moved.image->at(size_.margin - moved.move.x, y + size_.margin + moved.move.y), moved.weight,
                        rowFloats, block_.value.at(0, y), block_.compensation.at(0, y));
             ++inBlock;

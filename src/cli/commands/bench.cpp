@@ -44,7 +44,7 @@ void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) 
     makeOutputFolder(folder, {"speedup.csv", "speedup.json"});
     Progress progress = terminalProgress(global);
     Request scene = arguments.request;
-    scene.noCache = true;  // the results include the build time of the pyramids
+    scene.noCache = true;  // build all pyramids, because the results include their build time
     PreparedFrame frame = placeFrame(scene, progress);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     addPyramids(frame, progress);

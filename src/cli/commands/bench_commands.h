@@ -26,7 +26,7 @@ void addAllowChanged(CLI::App& command, bool& allowed);
 void refuseChangedSources(const std::filesystem::path& output, bool allowed,
                           const std::string& commit = programCommit());
 
-// Returns the default request of a bench. The unit is set to the metre, so that no result depends on a guessed unit.
+// Returns the default request of a bench. The scene's unit is a metre, so that no result depends on a guessed unit.
 Request measuredRequest();
 
 // Describes what a bench measures: program, command, machine and the device of `context`. The second overload adds the

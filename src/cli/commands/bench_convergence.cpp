@@ -37,8 +37,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns whether the program includes ray tracers. They shade differently from the renderer, so a program that
-// includes any bakes the scene's lighting into unlit colours.
+// Returns whether the program includes ray tracers. If so, the bench bakes the scene's lighting into unlit colours,
+// because ray tracers shade differently.
 bool hasRayTracers() {
     return std::ranges::any_of(methods(), [](const Method& method) { return !method.needsGl; });
 }
@@ -170,8 +170,8 @@ bool isAsked(const ConvergenceOptions& options, const MethodUse& published) {
            });
 }
 
-// Returns the requested methods with the settings of their papers, taken from the presets. For methods that draw levels
-// of detail, builds separate mesh pyramids, in worlds stored in `frames`. `frame` needs no pyramids yet.
+// Returns the requested methods with the settings of their papers, taken from the presets. A method that draws levels
+// of detail gets its own copy of `frame` in `frames`, with pyramids built for its settings. `frame` needs no pyramids.
 std::vector<PublishedForm> publishedForms(const Request& scene, const PreparedFrame& frame,
                                           const ConvergenceOptions& options, std::deque<PreparedFrame>& frames,
                                           Progress& progress) {
@@ -198,7 +198,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     Progress progress = terminalProgress(global);
     ConvergenceOptions options = arguments.options;
     Request scene = arguments.request;
-    scene.noCache = true;  // the results include the build time of the pyramids
+    scene.noCache = true;  // build all pyramids, because the results include their build time
     const bool usesLevels = std::ranges::any_of(options.lods, [](LodMode mode) { return mode != LodMode::off; });
     if (!usesLevels) scene.lod = LodMode::off;
     PreparedFrame frame = placeFrame(scene, progress);
@@ -214,7 +214,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     options.renderer.shaderFolder = global.shaderDir;
     const ReferenceOptions referenceOptions = {arguments.referenceSamples, options.renderer, frame.settings.shadows};
     const std::uint64_t referenced = referenceHash(frame.world, frame.view, referenceOptions);
-    // Runs with different numbers of seeds must not share a journal, so the hash includes that number.
+    // Runs with different numbers of seeds must not share a journal, so the hash includes the number of seeds.
     const std::array<std::uint64_t, 2> subjectAndSeeds = {
         subjectHash(referenced, benchSubject(*context, global), arguments.request),
         static_cast<std::uint64_t>(options.seeds)};
@@ -258,8 +258,6 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     if (!arguments.report.empty()) results.writeResults(arguments.report);
     drawReport(resultsFolder(arguments), arguments.report);
 }
-
-// ---- options --------------------------------------------------------------------------------------------------------
 
 void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
     const char* group = "Measurement";

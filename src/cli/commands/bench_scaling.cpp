@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 struct ScalingArguments {
     ScalingOptions options;
-    Request request;      // request of which only the cache folder is used
+    Request request;      // only the request's cache folder is used
     fs::path folder;      // folder of the results; empty: print the table only
     fs::path report;      // folder of the report; empty: no report
     bool scenes = false;  // true: also measure two large scenes

@@ -20,7 +20,7 @@ namespace defocus::engine {
 namespace {
 
 struct CacheArguments {
-    Request request;  // request of which only the cache folder is used
+    Request request;  // only the request's cache folder is used
 };
 
 std::filesystem::path folderOf(const CacheArguments& arguments) {

@@ -63,8 +63,6 @@ struct CaptureArguments {
     bool refocus = false;  // true: compute frames from lens images where possible
 };
 
-// ---- rendering ------------------------------------------------------------------------------------------------------
-
 // Checks the outputs and the combination of options before any long work. Throws Error for invalid outputs and
 // combinations.
 void checkArguments(const CaptureArguments& arguments) {
@@ -344,8 +342,6 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
         arguments.refocus ? savedText(options.settings, figures) : possibleSaving(shot, base, options.settings, film);
     if (!saving.empty()) printMessage("{}\n", saving);
 }
-
-// ---- options --------------------------------------------------------------------------------------------------------
 
 void parseShard(const std::string& text, Shard& shard) {
     const std::size_t slash = text.find('/');

@@ -9,9 +9,9 @@
 
 namespace defocus::engine {
 
-// Returns the runs of frames that are computed from lens images. Runs are chosen within the complete shot, so that a
-// frame doesn't depend on --range and --shard. Throws Error if the lens images of a run don't fit into half of the
-// memory.
+// Returns the runs of frames that are computed from lens images (one image per lens sample). Runs are chosen within the
+// complete shot, so that a frame doesn't depend on --range and --shard. Throws Error if the lens images of a run don't
+// fit into half of the memory.
 RefocusRuns chosenRuns(const Shot& shot, const SequenceBase& base, const FilmSettings& settings);
 
 // Returns a line that states how many lens samples --refocus saved.

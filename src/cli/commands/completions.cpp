@@ -23,7 +23,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Placeholders in the table that the shell replaces by names of files or folders. The letters are options of bash's
+// Placeholders in the table that the shell replaces with names of files or folders. The letters are options of bash's
 // compgen.
 constexpr std::string_view anyFile = ":f";
 constexpr std::string_view anyFolder = ":d";
@@ -50,7 +50,8 @@ bool isLiteral(const std::string& text) {
 }
 
 // Returns the candidates for an option's value, read from the placeholder in --help: "off" and "half" for "off|half|N".
-// The words of a list such as "depth,coc" begin with a comma, because the value may join several words.
+// For a comma-separated list such as "depth,coc", each candidate begins with a comma, because a value may contain
+// several words.
 std::vector<std::string> candidatesOf(const CLI::Option& option) {
     const std::string form = option.get_type_name();
     const bool list = form.find('|') == std::string::npos && form.find(',') != std::string::npos;

@@ -54,7 +54,7 @@ std::string optionText(const CLI::Option& option) {
                        plain(help.make_option_opts(&option)), line(help.make_option_desc(&option) + "."));
 }
 
-// Converts a command's footer to man macros. Indented lines become code, other lines become sentences.
+// Converts a command's footer to man macros. Indented lines become code blocks; each other line becomes a paragraph.
 std::string footerText(const std::string& footer) {
     std::string text;
     std::istringstream lines(footer);
@@ -85,8 +85,8 @@ std::string commandText(const CLI::App& command) {
            fmt::format(".PP\n.B {}\n[\\fIoptions\\fR]{}\n", name, usage) + options + footerText(command.get_footer());
 }
 
-// Returns the text about all settings, sorted by group. A setting of several commands appears once, with the
-// description of the first.
+// Returns the text about all settings, sorted by group. A setting that several commands share appears once, with the
+// first command's description.
 std::string settingsText(const CLI::App& program) {
     std::vector<std::string> groups;
     std::map<std::string, std::string> texts;

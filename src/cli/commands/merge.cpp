@@ -29,7 +29,7 @@ struct MergeArguments {
     std::optional<double> exposure;  // EV; nullopt: exposure in the metadata of the parts
 };
 
-// Returns the exposure (EV) that the metadata of a part of a frame contain; 0 if they contain none.
+// Returns the exposure (EV) in the metadata of a part of a frame; 0 if the metadata contains none.
 double ownExposure(const Metadata& metadata) {
     const auto found = metadata.find("defocus:exposure");
     const double* value = found == metadata.end() ? nullptr : std::get_if<double>(&found->second);

@@ -77,7 +77,7 @@ void runNewShot(const NewShotArguments& arguments, const GlobalOptions& global) 
     const PreparedFrame frame = placeFrame(arguments.request, terminalProgress(global));
     const fs::path folder = output.parent_path();
     const fs::path fromShot = scene.empty() ? scene : fs::proximate(scene, folder.empty() ? "." : folder);
-    static const std::regex pair("\\[\\s+(\\d+),\\s+(\\d+)\\s+\\]");  // two numbers over several lines, from dump()
+    static const std::regex pair("\\[\\s+(\\d+),\\s+(\\d+)\\s+\\]");  // two numbers that dump() puts on separate lines
     const std::string text = shotOf(frame, fromShot, stem.string()).dump(2);
     writeFile(output, std::regex_replace(text, pair, "[$1, $2]") + "\n");
 

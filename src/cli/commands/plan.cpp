@@ -27,7 +27,7 @@ void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
     const PreparedFrame frame = prepareFrame(arguments.request, terminalProgress(global));
     FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
     const StopSettings stop = stopSettings(arguments.request);
-    if (stop.automatic) {  // a render begins with firstSamples() and may add more
+    if (stop.automatic) {  // a render begins with firstSamples() samples and may add more
         const std::uint32_t samples = firstSamples(plan, *stop.automatic);
         plan = planFrame(frame.world, frame.view, withSamples(frame.settings, plan, samples, stop.choosesPositions));
     }

@@ -97,8 +97,8 @@ void buildOne(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
     report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Loads a mesh's pyramid from the cache, or builds and stores the pyramid. Returns why the pyramid couldn't be stored;
-// otherwise empty.
+// Loads a mesh's pyramid from the cache, or builds and stores the pyramid. Returns the reason if the pyramid couldn't
+// be stored; empty otherwise.
 std::string buildOrLoad(const Mesh& mesh, const fs::path& folder, const PyramidOptions& options, std::size_t helpers,
                         MeshReport& report) {
     if (folder.empty() || mesh.triangleCount() <= options.minTriangles) {
@@ -118,7 +118,7 @@ std::string buildOrLoad(const Mesh& mesh, const fs::path& folder, const PyramidO
     return {};
 }
 
-// Builds or loads the pyramids of all meshes. Returns why a pyramid couldn't be stored in the cache; empty if all were.
+// Builds or loads the pyramids of all meshes. Returns the reason if a pyramid couldn't be stored; empty otherwise.
 std::string buildAll(const Scene& scene, const fs::path& folder, const PyramidOptions& options,
                      std::vector<MeshReport>& reports, const Progress& progress) {
     std::uint64_t all = 0;
@@ -206,7 +206,7 @@ Object shownObject(const Scene& scene, const Pose& pose, std::size_t mesh) {
     return object;
 }
 
-// Draws for each mesh that has triangles a contact sheet, with views of each of its levels from all sides.
+// Draws a contact sheet for each mesh that has triangles. The sheet shows each level of the mesh from all sides.
 void drawTurntables(const std::shared_ptr<const Scene>& drawn, std::vector<MeshReport>& reports, const fs::path& file,
                     const std::vector<std::string>& stems, const GlobalOptions& global, const Progress& progress) {
     const Scene& scene = *drawn;

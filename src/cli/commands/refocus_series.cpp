@@ -53,7 +53,7 @@ void writeFocusPull(LightField& field, const Refocusing& refocusing, const Focus
     for (const double distance : {pull.from, pull.to}) {
         Refocusing end = refocusing;
         end.focusDistance = distance;
-        static_cast<void>(shiftedImages(field.info(), end, field.name()));  // throws if outside the rendered range
+        static_cast<void>(shiftedImages(field.info(), end, field.name()));  // throws for an unsupported distance
     }
     checkVideo(pull.video);
     field.keepImages();

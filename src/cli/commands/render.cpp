@@ -235,8 +235,7 @@ private:
     Clock::time_point copied_;
 };
 
-// Draws the frame. Writes each part of the frame that goes to a file as soon as the part is finished. Returns false if
-// a signal stops drawing.
+// Draws the frame. Finished rows of a tiled frame are written to disk at once. Returns false if a signal stops drawing.
 bool draw(FrameOutput& output, SceneDriver& driver, const Progress& progress, const RenderArguments& arguments) {
     const FrameDriver& frame = driver.driver();
     PartialCopies copies(output, driver, arguments.outputs);

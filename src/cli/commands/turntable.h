@@ -35,8 +35,7 @@ struct TurntableView {
     std::vector<glm::dmat4> worldTurn;  // rotation about the object's vertical axis, by view
 };
 
-// Returns the views of `mesh` in the pose of `object`, with a camera for which the mesh is completely visible from all
-// sides.
+// Returns the views of `mesh` in the pose of `object`, with a camera that sees the complete mesh from all sides.
 TurntableView turntableView(const Mesh& mesh, const Object& object);
 
 // Returns settings that draw the only object of `world` at `level`, with a threshold equal to the error of that level.

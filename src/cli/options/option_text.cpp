@@ -37,7 +37,7 @@ CLI::Option* addNumber(CLI::App& command, const std::string& names, double& targ
 }
 
 bool isEveryday(const CLI::Option& option) {
-    return option.get_configurable() || option.get_name().starts_with("--help");  // CLI11 clears the flag for --help
+    return option.get_configurable() || option.get_name().starts_with("--help");  // CLI11 makes --help not configurable
 }
 
 std::vector<std::string> namesOf(const CLI::Option& option) {

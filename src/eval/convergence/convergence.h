@@ -7,7 +7,7 @@
 // all cases, with fewer runs of each. Before a frame is timed, its first batch of lens samples (wave) is drawn once, so
 // that shaders, uploads and driver caches are ready. Threads are not pinned to cores.
 //
-// Each finished frame is reported at once as a ConvergenceRun. convergence/rows.h computes medians over these.
+// Each finished frame is reported at once as a ConvergenceRun. convergence/rows.h computes medians of these runs.
 
 #include <cstdint>
 #include <functional>

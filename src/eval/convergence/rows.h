@@ -34,7 +34,7 @@ struct ConvergenceRow {
     // True if the error is smaller than the reference's own error; the value of the error is then only an upper bound.
     bool mseBelowReference = false;
     bool flipBelowReference = false;
-    std::string fault;  // why the image is invalid; empty if valid. Invalid rows are on no front
+    std::string fault;  // why the image is invalid; empty if valid. Invalid rows are on no Pareto front
 };
 
 // Returns one row per case, in the order in which the cases first appear in `runs`. `remaining`: estimate of the error
@@ -47,9 +47,9 @@ struct Trial {
     double error = 0;
 };
 
-// Returns for each trial whether it is on the Pareto front. A trial is not on the front if another trial has a cost and
-// an error that are both at most as large, one of them smaller. Of several equal trials, either all are on the front or
-// none.
+// Returns for each trial whether it is on the Pareto front. A trial is not on the front if another trial's cost and
+// error are both at most as large and at least one of them is smaller. Of several equal trials, either all are on the
+// front or none.
 std::vector<bool> paretoFront(std::span<const Trial> trials);
 
 // Error of a level setting against full detail, at the thresholds for the largest measured number of samples. More lens

@@ -18,8 +18,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// ---- text tables ----------------------------------------------------------------------------------------------------
-
 std::string nameOf(const ConvergenceRow& row) {
     const bool isStandard = row.form.empty() || row.form == "standard";
     return isStandard ? row.method + ", " + row.setting : fmt::format("{} ({}), {}", row.method, row.form, row.setting);
@@ -29,8 +27,6 @@ std::string nameOf(const ConvergenceRow& row) {
 std::string frontsOf(const ConvergenceRow& row) {
     return std::string(row.front ? "*" : row.frontOfMethod ? "+" : " ") + (row.frontByFlip ? "f" : " ");
 }
-
-// ---- JSON -----------------------------------------------------------------------------------------------------------
 
 ordered_json errorJson(const ImageError& error) {
     return {{"mse", error.mse}, {"psnr", jsonNumber(error.psnr())}, {"ssim", error.ssim}, {"flip", error.flip}};

@@ -39,7 +39,7 @@ struct ConvergenceSubject {
 
 // Return the file names of a row's image and of its FLIP map, relative to the results folder.
 std::string imageName(std::string_view method, std::string_view setting, std::uint32_t asked);
-inline constexpr float errorMapFullScale = 0.25f;  // smallest FLIP value with the brightest colour of the map
+inline constexpr float errorMapFullScale = 0.25f;  // FLIP values above this have the map's brightest colour
 std::string errorMapName(std::string_view method, std::string_view setting, std::uint32_t asked);
 
 std::string convergenceCsv(std::span<const ConvergenceRow> rows);

@@ -31,8 +31,9 @@ std::vector<MovementFrame> framesAlong(Movement movement, const World& world, co
 // Copies pose and lights of the frame to the world.
 void poseWorld(World& world, const MovementFrame& frame);
 
-// Returns the `length` consecutive frames with the most level changes under LodMode::nearest; if several are equal, the
-// first. Leaves `world` in the pose of the last frame. Throws Error if `length` exceeds the number of frames.
+// Returns the `length` consecutive frames with the most level changes under LodMode::nearest; the first such frames if
+// several stretches have equally many. Leaves `world` in the pose of the last frame. Throws Error if `length` exceeds
+// the number of frames.
 std::vector<MovementFrame> busiestStretch(const std::vector<MovementFrame>& frames, World& world,
                                           const RenderSettings& settings, int length);
 

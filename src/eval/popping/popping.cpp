@@ -255,7 +255,7 @@ void measurePopping(World& world, const View& view, const PoppingOptions& option
                 measureMovement(world, renderers, options.movements[m], movements[m], masks, options, samples, step));
     }
 
-    // Measure the sample steps last, because the movements are the main result.
+    // Measure the switch of single samples last, because the movements are the main result.
     poseWorld(world, own);
     for (const std::uint32_t samples : options.sampleCounts)
         if (const auto sampleStep = measureSampleStep(world, *renderers.accumulation, view, options, samples))

@@ -17,10 +17,10 @@
 // a pop, and the error of a pop hardly depends on the number of objects that pop in a frame.
 //
 // Expected step: if all N samples change their level at once, the difference is blurred by c px. The difference of a
-// single sample is sharp and w px wide, so its step is √(c/w)/N of the pop of all samples. If less than one sample
-// changes per frame (Δλ·N < 1), fractional levels make this step in some frames and none in the others. Continuous
-// levels change a fraction Δλ·N of the sample's pixels in every frame, which gives a step of √(c/w)·√(Δλ/N). At a
-// quarter of the speed, this step is half as large.
+// single sample is sharp and w px wide, so its step is √(c/w)/N of the pop of all samples. Let Δλ be the change of an
+// object's real-valued level per frame. If less than one sample changes per frame (Δλ·N < 1), fractional levels make
+// this step in some frames and none in the others. Continuous levels change a fraction Δλ·N of the sample's pixels in
+// every frame, which gives a step of √(c/w)·√(Δλ/N). At a quarter of the speed, this step is half as large.
 //
 // Equal for all modes: scene, views, number of lens samples, thresholds, image size and, except for multirate,
 // renderer. Layers are 32-bit floats by default, so that their rounding doesn't count as an error of the levels.
@@ -51,7 +51,7 @@ struct PoppingOptions {
     std::vector<std::uint32_t> sampleCounts = {8, 16, 32};
     int clip = 0;          // index of the scene's clip, for Movement::clip
     int pathFrames = 240;  // number of frames of a complete movement; determines its speed
-    int frames = 48;       // number of measured frames per movement: the consecutive ones with most level changes
+    int frames = 48;       // number of measured frames per movement: the consecutive ones with the most level changes
     RenderSettings plan;   // settings that the bench keeps constant: seed, metric, keepAll …
     RendererOptions renderer;
 };
@@ -71,7 +71,7 @@ struct PoppingFrame {
     std::uint32_t samples = 0;
     PoppingMode mode = PoppingMode::nearest;
     int frame = 0;     // number t of the frame in the movement, ≥ 1
-    double speed = 0;  // max |λ_t − λ_{t−1}| over all objects
+    double speed = 0;  // max change of an object's real-valued level, |λ_t − λ_{t−1}|
     Pop change;
     Pop step;
 };

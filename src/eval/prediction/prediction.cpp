@@ -164,7 +164,7 @@ double renderedError(const TwoSets& reference, const TwoSets& level) {
     return std::sqrt(std::max(products, 0.0) / light.cover) / light.mean;
 }
 
-// Returns the square root of the mean of `squared` over all patch sizes.
+// Returns the square root of the mean of `squared` over all patch sizes `sides`.
 template <typename Squared>
 double rootMean(const std::array<double, patchDepths>& sides, const Squared& squared) {
     double sum = 0;

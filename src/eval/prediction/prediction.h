@@ -4,10 +4,10 @@
 // compared with level 0. Two independent sets of 1,024 lens samples separate the level's error from sampling noise:
 // only the error common to both sets counts.
 //
-// Prediction and rendering use the same mesh, level, lens, patches of the blur and default lights. Both errors are RMS
-// differences of linear radiance, clamped at white, over three channels and the area that level 0 covers. They are
-// relative to level 0's mean radiance. The renderer's shading includes normal maps and the default sky; the
-// prediction's shading is simpler.
+// Prediction and rendering use the same mesh, level, lens and default lights; the prediction averages errors over
+// patches as large as the rendered blur. Both errors are RMS differences of linear radiance, clamped at white, over
+// three channels and the area that level 0 covers. They are relative to level 0's mean radiance. The renderer's shading
+// includes normal maps and the default sky; the prediction's shading is simpler.
 
 #include <functional>
 #include <string>
@@ -33,8 +33,8 @@ struct PredictionRow {
     std::uint32_t triangles = 0;
     double predicted = 0;
     double rendered = 0;
-    // True if LodMetric::measured draws the level at this blur for some number of samples from 16 to 512. If λ lies
-    // between two levels, both levels are drawn.
+    // True if LodMetric::measured draws the level at this blur for some number of samples from 16 to 512. If the
+    // selected real-valued level lies between two levels, both are drawn.
     bool used = false;
 
     [[nodiscard]] bool withinTwo() const { return predicted <= 2 * rendered && rendered <= 2 * predicted; }

@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::array comparedModes = {LodMode::off, LodMode::fractional};
 constexpr int gridTriangles = 500;        // triangles of each fish in the grid at full detail
-constexpr int smallFactor = 40;           // divisor of the small image's width and height; leaves mainly vertex work
-constexpr double bytesPerTriangle = 600;  // main memory for mesh, pyramid during its build, and driver's copy
+constexpr int smallFactor = 40;           // divides the small image's width and height; mainly vertex work remains
+constexpr double bytesPerTriangle = 600;  // main memory for the mesh, the build of its pyramid and the driver's copy
 constexpr double memoryShareMax = 0.8;
-constexpr double minMargin = 0.05;  // smaller differences of two times, as a fraction of the frame time, are a tie
+constexpr double minMargin = 0.05;  // times that differ by less than this fraction of the frame time count as equal
 
 FramePlan planOf(const ScalingWorld& world, const ScalingPoint& point, LodMode mode) {
     View view = world.view;

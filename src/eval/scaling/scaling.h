@@ -2,10 +2,11 @@
 // Measures how a frame's time and memory grow with triangles, instances, lens samples, pixels and blur, one at a time,
 // at full detail and with fractional levels. Also finds which part of the work limits the frame time.
 //
-// Three versions of each frame are timed. The first is the complete frame. The second is an empty frame, which only
-// clears and adds the layers. The third draws the same levels into an image of 1/40 the width and height, which leaves
-// the work per vertex and triangle. The rest of the complete frame's time is fill, the work per pixel of a surface. On
-// a GPU these parts overlap, so they show which part limits a frame, not the cost of each part.
+// Three versions of each frame are timed. The first is the complete frame. The second is an empty frame, in which the
+// layers (one image per sample) are only cleared and added. The third draws the same levels into an image of 1/40 the
+// width and height, so that mainly the work per vertex and triangle remains. The rest of the complete frame's time is
+// fill, the work per pixel of a surface. On a GPU these parts overlap, so they show which part limits a frame, not the
+// cost of each part.
 //
 // Along an axis, all parameters that it doesn't vary (see scalingPoints) stay constant; all points are measured in one
 // process. Runs alternate between modes. Times are medians of the wall-clock time between finished frames, after one
@@ -50,7 +51,7 @@ enum class ScalingPart { layers, vertices, fill };
 
 const char* scalingPartName(ScalingPart part);
 
-// A frame to measure, as a point on an axis. The axis sets one of the members; the others have the defaults here.
+// A frame to measure, as a point on an axis. The axis sets one of the members; all others keep their defaults.
 struct ScalingPoint {
     ScalingAxis axis = ScalingAxis::triangles;
     double value = 0;  // number of triangles, instances, samples or pixels, or the f-number
@@ -80,9 +81,9 @@ struct ScalingRow {
     std::uint64_t gpuBytes = 0;      // peak size of the renderer's resources
     std::uint64_t pyramidBytes = 0;  // main memory of all levels of all meshes
 
-    // Returns the part with the largest median time and all parts too close to rank below it: parts whose spreads touch
-    // its spread or whose medians differ by less than a twentieth of the frame time. The parts are in the order of
-    // ScalingPart.
+    // Returns the part of the frame with the largest median time, and all parts that are about as slow: their spreads
+    // overlap its spread, or their medians differ from its median by less than a twentieth of the frame time. The parts
+    // are in the order of ScalingPart.
     [[nodiscard]] std::vector<ScalingPart> largestParts() const;
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array modes = {LodMode::off, LodMode::nearest, LodMode::fractional};
 constexpr std::uint32_t warmUpSamples = 2;
-constexpr std::uint32_t referenceFactor = 8;  // default reference samples, divided by the max measured number
+constexpr std::uint32_t referenceFactor = 8;  // default number of reference samples / max measured number
 
 struct Setting {
     const char* sweep;
@@ -88,7 +88,7 @@ struct SpeedupSubject {
     MethodUse use;
     LodMode mode = LodMode::off;
     LodCause cause = LodCause::blurAndSize;
-    const SpeedupSubject* fullDetail = nullptr;  // the variant at full detail with otherwise the same settings
+    const SpeedupSubject* fullDetail = nullptr;  // the same variant at full detail
     std::unique_ptr<Renderer> renderer;
     std::vector<FramePlan> plans;  // plans of the frame, one per seed
     std::vector<double> milliseconds;

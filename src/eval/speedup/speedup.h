@@ -25,17 +25,17 @@ namespace defocus::engine {
 // Settings of levels and lens samples, and a world whose pyramids are built with them.
 struct SpeedupForm {
     std::string preset;              // name of the preset (settings of a publication); empty: none
-    const World* world = nullptr;    // scene, pose, lights and environment are the same in all forms
+    const World* world = nullptr;    // the worlds of all forms differ only in their pyramids
     RenderSettings plan;             // settings without the number of samples and the level mode
     double pyramidMilliseconds = 0;  // build time of the world's pyramids
 };
 
 struct SpeedupOptions {
-    std::vector<std::uint32_t> sampleCounts = {16, 32, 64, 128, 256, 512};  // lens samples, with the view's own lens
+    std::vector<std::uint32_t> sampleCounts = {16, 32, 64, 128, 256, 512};  // measured with the view's own lens
     std::vector<double> fStops;                                             // f-numbers to measure with `sweepSamples`
     std::vector<double> focusDistances;  // focus distances (m) to measure with `sweepSamples`
     std::uint32_t sweepSamples = 64;
-    std::vector<MethodUse> methods;  // methods to measure after accumulation, with the first form's settings
+    std::vector<MethodUse> methods;  // methods to measure after accumulation, with the settings of the first form
     int runs = 5;                    // number of runs of each frame, ≥ 1
     int seeds = 5;                   // number of seeds, ≥ 1; run r uses the plan's seed + r % seeds
     // Lens samples of the converged reference for each lens (reference_image.h); 0: no reference. Default: eight times

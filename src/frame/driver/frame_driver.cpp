@@ -94,7 +94,7 @@ public:
 
 private:
     // Copies a finished tile into kept_. If the order has a row sink (FrameOrder::takeRows), copies the tile into its
-    // band, a row of tiles, instead and passes each complete band to the sink.
+    // band (a row of tiles) instead, and passes each complete band to the sink.
     void take(const Tile& tile, Image&& pixels) {
         if (!takeRows_) return placeTile(kept_, 0, tile, pixels);
         const Band& band = bands_[band_];
@@ -210,8 +210,6 @@ private:
     double planMilliseconds_;
     std::uint32_t samples_ = 0;
 };
-
-// ---- the driver -----------------------------------------------------------------------------------------------------
 
 DriverOptions driverOptions(const Request& request, std::filesystem::path shaderFolder, std::uint64_t keptPixelBytes) {
     return {chosenMethod(request),

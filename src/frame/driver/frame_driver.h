@@ -128,7 +128,7 @@ private:
     DriverOptions options_;
     std::uint64_t limit_ = 0;  // maximum memory of the process, bytes
     bool crowded_ = false;
-    std::optional<Fit> fitted_;               // inputs for which bands_ and the number of samples per wave were chosen
+    std::optional<Fit> fitted_;               // inputs for which bands_ and the number of samples per batch were chosen
     std::optional<std::vector<Band>> bands_;  // each band is a row of tiles; nullopt: frames are drawn untiled
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<Drawing> drawing_;

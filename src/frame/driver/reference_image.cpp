@@ -35,8 +35,6 @@ std::string hexadecimal(std::uint64_t hash) {
     return fmt::format("{:016x}", hash);
 }
 
-// ---- files ----------------------------------------------------------------------------------------------------------
-
 double numberIn(const Metadata& metadata, const char* name) {
     const auto found = metadata.find(name);
     const double* number = found == metadata.end() ? nullptr : std::get_if<double>(&found->second);
@@ -88,8 +86,6 @@ Difference remainingIn(const Metadata& metadata) {
     remaining.flip = numberIn(metadata, "defocus:remainingFlip");
     return remaining;
 }
-
-// ---- rendering ------------------------------------------------------------------------------------------------------
 
 struct Half {
     std::uint32_t first = 0;  // index of the half's first lens sample, counted from referenceOffset

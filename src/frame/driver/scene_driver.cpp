@@ -45,7 +45,7 @@ std::size_t pyramidKind(const RenderSettings& settings) {
     return 1 + static_cast<std::size_t>(settings.levelVertices);
 }
 
-// Returns a note if a frame in tiles may take another number of samples than an untiled frame; otherwise empty.
+// Returns a note if a frame in tiles may take a different number of samples than an untiled frame; otherwise empty.
 std::vector<std::string> tiledSamplesNote(const FramePlan& plan) {
     if (!plan.usesLens) return {};
     return {fmt::format(
@@ -149,7 +149,7 @@ void SceneDriver::start(const Request& request, const FrameParts& parts, const P
     if (!same) driver_.reset();
     if (sameGround)
         handOnPyramids(next, kind);
-    else  // the ground adds or removes a mesh, so stored pyramids don't match the scene
+    else  // adding or removing the ground changes the meshes, so stored pyramids don't match
         otherPyramids_ = {};
     next.loadMilliseconds = loadMilliseconds_;
     next.pyramidMilliseconds = pyramidMilliseconds_;

@@ -20,7 +20,7 @@
 
 namespace defocus::engine {
 
-// Order for images of the individual lens samples, from which pictures with another focus are computed later
+// Requests a separate image for each lens sample, from which images with another focus are computed later
 // (src/refocus).
 struct LensImageOrder {
     FocusRange range;  // focus distances of the later pictures; see RenderSettings::refocus
@@ -92,7 +92,7 @@ private:
         explicit InContext(GlContext& context) { context.makeCurrent(); }
         CurrentContextKeeper callers;
     };
-    static constexpr std::size_t pyramidKinds = 4;  // 0: full detail only; others: 1 + value of LevelVertices
+    static constexpr std::size_t pyramidKinds = 4;  // kind 0: full detail only; others: 1 + LevelVertices
 
     [[nodiscard]] std::shared_ptr<Scene> scaledScene(const Request& request) const;
     void handOnPyramids(PreparedFrame& next, std::size_t kind);

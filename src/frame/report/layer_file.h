@@ -1,5 +1,5 @@
 #pragma once
-// Writes multi-layer EXR files: a picture with its data layers.
+// Writes multi-layer EXR files: an image with its data layers.
 
 #include <filesystem>
 #include <string>

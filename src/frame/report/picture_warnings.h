@@ -1,5 +1,5 @@
 #pragma once
-// Warns about pictures that are mostly white or black.
+// Warns about images that are mostly white or black.
 
 #include <string>
 #include <vector>

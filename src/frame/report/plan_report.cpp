@@ -79,8 +79,6 @@ LensSettings completeLens(const engine::Lens& lens) {
     return settings;
 }
 
-// ---- JSON -----------------------------------------------------------------------------------------------------------
-
 Json number(double value) {
     return std::isfinite(value) ? Json(value) : Json();
 }

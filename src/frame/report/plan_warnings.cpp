@@ -46,7 +46,7 @@ std::string nothingBlurred(const FramePlan& plan) {
 }
 
 // Distance in px between the images of a point in neighbouring lens samples. With lens cells (each sample is blurred to
-// fill the gaps), the σ in px of the blur of a cell instead.
+// fill the gaps), `size` is the σ of a cell's blur in px instead.
 struct Gaps {
     double size = 0;
     double max = 16;  // largest distance without a warning, px
@@ -87,7 +87,7 @@ std::vector<std::string> immenseBlur(const FramePlan& plan) {
         roundNumber(plan.view.lens.blurScale * visibleShare * plan.view.width / largest))};
 }
 
-// Returns a warning if the blur varies so much inside triangles that the limit on their division leaves an error;
+// Returns a warning if the blur varies so much inside triangles that even their maximum subdivision leaves an error;
 // otherwise empty.
 std::vector<std::string> coarseDivisions(const FramePlan& plan) {
     const auto bounded = [](const ObjectPlan& object) {
@@ -102,7 +102,7 @@ std::vector<std::string> coarseDivisions(const FramePlan& plan) {
                     count, std::ranges::find_if(plan.objects, bounded)->maxParts)};
 }
 
-// Returns the texts, names or numbers, with which the request refers to nodes.
+// Returns the names or numbers by which the request refers to nodes.
 std::vector<std::string> namedNodes(const Request& request) {
     std::vector<std::string> names = request.hide;
     for (const auto& [name, scale] : request.nodeBlur) names.push_back(name);

@@ -1,5 +1,5 @@
 #pragma once
-// Returns warnings about a picture that are derived from its plan, its request and its scene.
+// Derives warnings about an image from its plan, its request and its scene.
 
 #include <cstdint>
 #include <string>

@@ -71,7 +71,7 @@ LensSettings lensOf(const RenderCommandText& text) {
     return given;
 }
 
-// Returns the request that makes `defocus render` reproduce the picture that the view shows.
+// Returns the request that makes `defocus render` reproduce the image that the view shows.
 Request requestOf(const RenderCommandText& text) {
     Request request = text.options;
     request.size = {text.view.width, text.view.height};

@@ -9,7 +9,7 @@
 namespace defocus::engine {
 
 struct RenderCommandText {
-    const Request& options;      // gives the scene, method, levels of detail, samples
+    const Request& options;      // scene, method, levels of detail and samples
     const PreparedFrame& frame;  // frame placed with the camera that options.camera names
     const View& view;            // view to render
     double pivotDistance = 1;    // distance in m from the camera to its target, > 0

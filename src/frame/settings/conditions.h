@@ -11,11 +11,11 @@ namespace defocus::engine {
 
 using Condition = std::string (*)(const SettingContext&);
 
-// A comment beside a function states when the function returns a reason, unless its name says that.
+// A comment beside a function states when it returns a reason; functions without a comment have names that say so.
 std::string methodWithoutSamples(const SettingContext& context);     // the method draws no lens samples
-std::string methodWithoutPositions(const SettingContext& context);   // the method draws one position per sample
+std::string methodWithoutPositions(const SettingContext& context);   // the method draws one pixel position per sample
 std::string methodWithoutShapes(const SettingContext& context);      // the method supports only round or oval apertures
-std::string methodWithoutLensPoints(const SettingContext& context);  // the method uses the same lens everywhere
+std::string methodWithoutLensPoints(const SettingContext& context);  // the lens is the same for all colours and pixels
 std::string methodWithoutThreads(const SettingContext& context);     // the method draws in one thread
 std::string methodWithoutMotion(const SettingContext& context);
 std::string withoutLayers(const SettingContext& context);

@@ -37,7 +37,7 @@ std::vector<Setting>& table() {
         };
         add(SettingGroup::scene, sceneRows());
         add(SettingGroup::camera, cameraRows());
-        add(SettingGroup::samples, sampleRows());  // begins with the preset, which may set the values of later rows
+        add(SettingGroup::samples, sampleRows());  // the preset comes first, because it sets values of later rows
         add(SettingGroup::lens, lensRows());
         add(SettingGroup::method, methodRows());
         add(SettingGroup::display, displayRows());

@@ -21,7 +21,7 @@ namespace defocus::engine {
 
 enum class SettingGroup { scene, camera, lens, samples, method, display, developer };
 
-// Which results change with a setting.
+// Results that depend on a setting.
 enum class SettingEffect {
     pixels,   // the linear image
     display,  // only the 8-bit output: PNG, JPEG and video

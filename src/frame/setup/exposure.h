@@ -11,7 +11,7 @@
 namespace defocus::engine {
 
 // Returns whether the exposure is metered. By default, scenes with lights are metered, because a light may be as bright
-// as the sun. Not metered by default are the built-in school of fish, and scenes whose lens has an exposure time.
+// as the sun. Exceptions are the built-in school of fish and scenes whose lens has an exposure time.
 bool metersExposure(const Request& request, const Scene& scene, const Lens& lens);
 
 // Returns the exposure (EV) that maps the log-average luminance of the surfaces in a linear image to middle grey, 18 %

@@ -1,6 +1,6 @@
 #pragma once
 // Focuses a lens: at a distance, on a node, on the surface at a pixel, at the image's centre, on a plane through three
-// pixels, or on a curved surface near more pixels.
+// pixels, or on a curved surface fitted to more pixels.
 
 #include <glm/vec3.hpp>
 #include <span>

@@ -44,8 +44,6 @@ namespace {
 
 constexpr std::size_t maxDamage = 20;  // maximum number of lines in damageWarnings
 
-// ---- environment ----------------------------------------------------------------------------------------------------
-
 [[noreturn]] void failForEnvironment(const std::string& name) {
     const std::vector<std::string> names(builtInEnvironments().begin(), builtInEnvironments().end());
     const std::string nearest = nearestWord(name, names);
@@ -70,8 +68,6 @@ void brighten(Environment& environment, double scale) {
     for (glm::vec3* radiance : {&environment.zenith, &environment.horizon, &environment.nadir})
         *radiance *= static_cast<float>(scale);
 }
-
-// ---- camera and lens ------------------------------------------------------------------------------------------------
 
 // Returns the lens without its focus distance, which depends on the view. Messages about invalid values in the camera's
 // extras are stored in `refused`. `folder`: folder of the scene's file.

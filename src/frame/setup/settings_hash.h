@@ -17,7 +17,7 @@ struct FilmSettings {
     std::uint64_t world = 0;      // worldHash of meshes, materials, environment and shaders
     Request request;              // provides the method, the layer format and other settings that affect pixels
     std::string encoding;         // how pixels are encoded, such as tone map and exposure; empty: linear EXR
-    std::string lensImages = {};  // RefocusRun::text() of a frame computed from lens images; empty: rendered
+    std::string lensImages = {};  // RefocusRun::text() of frames computed from lens images; else empty
 };
 
 // Returns the settings that `frame` has in common with the other frames of its shot. `frame` needs no pyramids.

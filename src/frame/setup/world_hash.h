@@ -1,6 +1,6 @@
 #pragma once
 // Computes a hash of all inputs of an image: the meshes, materials, textures, objects, lights and environment of a
-// world, the view with its lens, and the shaders. Worlds with equal hashes give the same picture.
+// world, the view with its lens, and the shaders. Worlds with equal hashes give the same image.
 
 #include <cstdint>
 #include <filesystem>
