@@ -456,7 +456,8 @@ TEST_F(BadInput, trianglesWithoutPlaceAreAWarning) {
     }
 }
 
-// Files given to --camera-from that are damaged, missing or ambiguous, or lack a camera, are rejected.
+// --camera-from rejects missing and damaged files, files without a camera, and files with several cameras if none is
+// named.
 TEST_F(BadInput, camerasOfOtherFiles) {
     const auto refuse = [&](const std::string& name, const std::string& text, const std::string& part) {
         writeFile(folder() / name, std::string_view(text));

@@ -1,7 +1,7 @@
 // Tests that every setting that a command offers has the effect that the table of settings names: on the linear image,
-// only on PNG and JPEG, or only on time and memory. Commands without an image must print or measure something else. A
-// setting without a case fails the test. every_own_option_gl_slow_test.cpp covers the options that belong to single
-// commands, and tests/view covers the viewer.
+// only on PNG and JPEG, or only on time and memory. For commands without an image, the printed text or the measurements
+// must change. A setting without a case fails the test. every_own_option_gl_slow_test.cpp covers the options that
+// belong to single commands, and tests/view covers the viewer.
 
 #include <functional>
 

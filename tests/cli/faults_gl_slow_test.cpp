@@ -238,7 +238,7 @@ TEST_F(Faults, aFrameInTilesThatIsKilledOrStoppedGoesOn) {
 }
 
 // Mesa maps the index of its shader cache into memory. If the disk has no room for the index, a write to the mapping
-// would end the program by SIGBUS.
+// would end the program with SIGBUS.
 TEST_F(Faults, aFullDiskUnderTheShaderCacheIsNoCrash) {
     fs::create_directory(folder() / "small");
     std::ofstream(folder() / "inside.sh")

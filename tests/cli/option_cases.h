@@ -321,7 +321,7 @@ inline std::vector<const CLI::Option*> optionsOffered(const std::string& command
     return options;
 }
 
-// Returns the settings of one group of the table of settings that a command offers.
+// Returns the settings that a command offers from one group of the table of settings.
 inline std::vector<const Setting*> settingsOffered(const std::string& command, SettingGroup group) {
     std::vector<const Setting*> offered;
     for (const CLI::Option* option : optionsOffered(command))

@@ -1,4 +1,5 @@
-// Tests that a signal or the time limit ends a render soon, even in the middle of a block of samples that takes long.
+// Tests that a signal or the time limit ends a render soon, even in the middle of a block of samples that takes a long
+// time.
 
 #include <fcntl.h>
 #include <fmt/format.h>

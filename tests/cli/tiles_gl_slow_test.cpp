@@ -77,7 +77,7 @@ TEST_F(ShortOfMemory, aFineSceneInTilesKeepsToIt) {
 }
 
 // If the driver's copies of fine meshes leave too little memory for the image, the error message names a sufficient
-// limit. With this limit, the program's memory stays below it.
+// limit. A run with this limit stays within it.
 TEST_F(ShortOfMemory, aFineSceneKeepsToTheMemoryThatIsSaidToDo) {
     if (!createHeadlessContext()->software()) GTEST_SKIP() << "no option limits a GPU's own memory";
     const auto fish = [&](const std::string& memory) {
@@ -125,7 +125,7 @@ TEST_F(ShortOfMemory, aFilmHasTheBytesOfFramesInOnePiece) {
     ASSERT_EQ(tiles.exitCode, 0) << tiles.err;
     for (const char* name : {"0.exr", "0.png", "0.jpg", "1.exr", "1.png", "1.jpg"})
         EXPECT_TRUE(bytesOf(std::string("tiles/") + name) == bytesOf(std::string("whole/") + name)) << name;
-    // --resume counts frames as finished, whether or not they were drawn in tiles.
+    // --resume keeps finished frames, whether or not they were drawn in tiles.
     EXPECT_NE(run({"capture", "shot.json", "--range", "0:1", "--size", "1600x1200", "--samples", "3", "-o",
                    "tiles/#.exr", "--memory", "350MiB", "--resume"})
                   .err.find("2 of them from earlier runs"),

@@ -1,5 +1,5 @@
 #pragma once
-// Stops a child process at a chosen system call that changes a file, by ptrace(2). Tests can thus act at a defined
+// Stops a child process at a chosen system call that changes a file, with ptrace(2). Tests can thus act at a defined
 // point of the child's work, independent of timing.
 
 #include <sys/ptrace.h>

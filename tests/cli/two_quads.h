@@ -1,5 +1,6 @@
 #pragma once
-// Writes a glTF file with two squares that face the camera at the origin, which has 50 mm on a 36 mm sensor, at 4:3.
+// Writes a glTF file with two squares that face the camera at the origin. The camera has a 50 mm
+// lens, a sensor 36 mm wide and the aspect ratio 4:3.
 //   "Near", 0.4 m wide, centre (0, 0.3, −2): in the upper half of the image.
 //   "Far", 3 m wide, centre (3, 0, −8): at the right.
 

@@ -124,7 +124,7 @@ TEST(EmbreePacketCulling, raysGoOnBehindBacks) {
     Scene scene = rectangleScene(view, {{0, 0, 20, 32, 2}, {8, 0, 32, 32, 3}}, glm::vec3(1));
     std::vector<std::uint32_t>& indices = scene.meshes[0].primitives[0].indices;
     ASSERT_EQ(indices.size(), 6u);
-    std::swap(indices[1], indices[2]);  // reverses both triangles of the nearer rectangle
+    std::swap(indices[1], indices[2]);  // reverses the winding of the nearer rectangle's triangles
     std::swap(indices[4], indices[5]);
     const Image image = tracedImage(scene, view, 4);
     for (int x = 0; x < 32; ++x) EXPECT_EQ(*image.at(x, 16), x < 8 ? 0 : 1) << x;

@@ -19,7 +19,7 @@ namespace {
 // light density. The tolerance covers the noise of the 18,000 rays that hit the bright square.
 TEST(EmbreeBokehShape, MaskedAperturesShowTheirDefinition) {
     View view = bokehView(36, 36);
-    view.lens.fStop = 0.03;  // the square with a blur of 28 px just fits the image
+    view.lens.fStop = 0.03;  // with its blur of 28 px, the square just fits into the image
     std::vector<std::pair<std::string, Lens>> lenses = {{"image", view.lens}};
     lenses.front().second.apertureImage = std::make_shared<const Image>(lopsidedImage());
     for (const ApertureShape& shape : apertureShapes)

@@ -205,7 +205,7 @@ TEST(EmbreeCulling, SingleSidedSurfacesAreSeenFromTheirFrontOnly) {
     Scene scene = rectangleScene(view, {{0, 0, 32, 32, 3}}, glm::vec3(1));
     EXPECT_EQ(*traced(scene, view, 1).at(16, 16), 1);
     std::swap(scene.meshes[0].primitives[0].indices[1],
-              scene.meshes[0].primitives[0].indices[2]);  // reverses the lower right triangle
+              scene.meshes[0].primitives[0].indices[2]);  // reverses the winding of the lower right triangle
     EXPECT_EQ(*traced(scene, view, 1).at(24, 20), 0);
     EXPECT_EQ(*traced(scene, view, 1).at(7, 12), 1);  // the upper left triangle is still visible
     // A mirrored object shows the same side, although its winding is reversed.

@@ -54,8 +54,7 @@ constexpr float roughnesses[] = {0, 0.1f, 0.3f, 0.5f, 0.7f, 0.9f, 1};
 // cosines of the angle between normal and view axis; pixels deviate from the view axis by up to 20°
 constexpr double cosines[] = {1, 0.8, 0.5, 0.2, 0.05};
 
-// A white dielectric reflects all light: the specular layer transmits what it does not reflect, and the diffuse base
-// reflects that.
+// A white dielectric reflects all light: its diffuse base reflects the light that the specular layer transmits.
 TEST_F(Furnace, aWhiteDielectricThrowsBackAllOfTheLight) {
     for (const float roughness : roughnesses)
         for (const double cosine : cosines) {
@@ -77,8 +76,8 @@ TEST_F(Furnace, noSurfaceThrowsBackMoreThanItReceivesOrLessThanNothing) {
                 }
 }
 
-// A white metal loses light only by its roughness. Single scattering between rough facets loses more light the rougher
-// they are, and a mirror loses none.
+// A white metal loses light only by its roughness. The model omits light that scatters several times between facets, so
+// rougher surfaces lose more light. A mirror loses none.
 TEST_F(Furnace, aWhiteMetalLosesLightWithItsRoughnessAlone) {
     double before = 1;
     for (const float roughness : roughnesses) {

@@ -1,4 +1,4 @@
-// Tests the scene's data on the GPU: that small meshes share buffers, what the buffers hold, and uniform blocks of
+// Tests the scene's data on the GPU: shared buffers of small meshes, the contents of the buffers, and uniform blocks of
 // materials.
 
 #include <set>

@@ -153,8 +153,8 @@ TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
             across += weight * std::pow(away.x * outward.y - away.y * outward.x, 2);
         }
 
-    // Expected second moments, computed from the lens points that lie inside both circles for the pixel that they
-    // light.
+    // Expected second moments. A lens point counts if it lies inside both circles. The position of the second
+    // circle depends on the pixel that the point lights.
     const double diameter = 0.05 / 0.35 * (1 / 2.0 - 1 / depth) * 128 / 0.72;
     const double corner = std::sqrt(1 + 0.75 * 0.75);
     double expectedAlong = 0;

@@ -117,7 +117,8 @@ double stretchedAlbedo(const Widths& widths, const glm::dvec3& v) {
     double sum = 0;
     for (int i = 0; i < rings; ++i)
         for (int k = 0; k < sectors; ++k) {
-            // Half vectors are distributed as D·(n·h): tan² = α²·u/(1 − u) along each direction.
+            // Half vectors with the density D·(n·h): for a uniform u, the slope is √(u/(1 − u)), scaled by the width
+            // along each axis.
             const double u = (i + 0.5) / rings;
             const double azimuth = 2 * std::numbers::pi * (k + 0.5) / sectors;
             const double slope = std::sqrt(u / (1 - u));

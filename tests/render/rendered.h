@@ -22,7 +22,7 @@ inline Image imageByMethod(const char* method, const World& world, const FramePl
     return imageOf(*use.method->make(world, options), plan);
 }
 
-// Renders an image by method "accumulation" with 32-bit float layers.
+// Renders an image with method "accumulation" and 32-bit float layers.
 inline Image imageInFloats(const World& world, const FramePlan& plan) {
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;

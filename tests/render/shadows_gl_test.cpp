@@ -139,8 +139,8 @@ TEST_F(Shadowed, floorDoesNotShadowTheFootOfAWall) {
     EXPECT_GT(seen, 500);
 }
 
-// A pane of glass casts a shadow of the light that it absorbs. Textures cancel the pane's metalness of 1 and halve its
-// transmission, and its volume absorbs by Beer-Lambert.
+// The shadow of a glass pane is as bright as the light that the pane transmits. Textures cancel the pane's metalness of
+// 1 and halve its transmission, and its volume absorbs light by the Beer-Lambert law.
 TEST_F(Shadowed, glassShadesByItsTexturesAndThickness) {
     constexpr double side = 4;  // side of the pane, m
     constexpr double thickness = 0.1;

@@ -31,8 +31,8 @@ TEST_F(Transmission, whatWhiteGlassDoesNotReflectItLetsThrough) {
             }
 }
 
-// A slab absorbs by Beer-Lambert, c^(d/D), with the attenuation colour c. The thickness d scales with the object. The
-// attenuation distance D does not.
+// A slab absorbs light by the Beer-Lambert law, c^(d/D), with the attenuation colour c. The thickness d scales with the
+// object, but the attenuation distance D does not.
 TEST_F(Transmission, aSlabAbsorbsByItsThickness) {
     const glm::dvec3 color(0.5, 0.25, 1);
     for (const double thickness : {0.1, 0.4})

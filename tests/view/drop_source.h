@@ -27,7 +27,7 @@ public:
     }
 
     // Drops files at the screen position (x, y), which must lie over the only window that accepts drops. `uris`
-    // contains file:// URIs, one per line, each ending with CR LF. Returns false without such a window, or if the
+    // contains file:// URIs, one per line, each ending with CR LF. Returns false if there is no such window, or if the
     // window does not accept the drop within `seconds`.
     bool drop(const std::string& uris, int x, int y, double seconds = 120) {
         uris_ = uris;

@@ -64,8 +64,8 @@ private:
     std::map<Words, std::string> seen_;
 };
 
-// Number of settings that one test covers, so few that the test takes seconds. The test parameter is the index of the
-// first setting.
+// Number of settings that one test covers, small enough that the test takes only seconds. The test parameter is the
+// index of the first setting.
 constexpr std::size_t settingsATest = 6;
 
 std::vector<std::string> allOffered() {

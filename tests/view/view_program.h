@@ -41,7 +41,7 @@ protected:
             endWithTheTest();
             ::dup2(ends[1], 3);
             silence();
-            // -r turns key repeat off, since the machine may take long between key press and release.
+            // -r turns key repeat off, since key press and release may be far apart in time on a slow machine.
             const std::vector<std::string> others = {"-displayfd", "3", "-noreset", "-r", "-nolisten", "tcp"};
             words.insert(words.begin(), "Xvfb");
             words.insert(words.end(), others.begin(), others.end());

@@ -35,7 +35,6 @@ Image benchReference(const Document& document, const ViewState& state, const Vie
     return renderedReference(document.frame->world, view, reference, progress).image;
 }
 
-// Resizes the image with bilinear interpolation, as the window does with its texture.
 Image enlarged(const Image& image, int width, int height) {
     if (image.width == width && image.height == height) return image;
     Image result(width, height, image.channels);

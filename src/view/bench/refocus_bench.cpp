@@ -17,7 +17,7 @@ namespace {
 
 constexpr int dragFrames = 20;
 
-// Change of the focus distance or of the f-number, as if the user dragged its slider.
+// A change of the focus distance or the f-number, as if the user dragged a slider.
 struct Drag {
     std::string name;
     double focusDistance = 1;  // focus distance in m at the end of the drag
@@ -44,7 +44,7 @@ public:
     DragRun(Document& document, ViewState& state, const ViewBenchOptions& options)
         : state_(state), picture_(document, state, options.software) {}
 
-    // Drags the value and fills the times and qualities of `row`. Returns the last image of the drag and the first
+    // Simulates the drag, and sets the times and qualities in `row`. Returns the last image of the drag and the first
     // image at full quality.
     std::pair<Image, Image> run(const Drag& drag, RefocusBenchRow& row) {
         rest();

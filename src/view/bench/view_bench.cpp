@@ -21,9 +21,9 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr double step = glm::radians(1.0);    // angle of the orbit per frame
-constexpr double settledSeconds = 1;          // time at rest before the movement, so that the first input is typical
-constexpr std::uint32_t minStillSamples = 4;  // min lens samples before the window shows the image at rest
-constexpr double comparedShares[] = {0.25, 0.5, 0.75};  // fractions of the movement at which frames are compared
+constexpr double settledSeconds = 1;          // time in s that the view rests before the movement, as in typical use
+constexpr std::uint32_t minStillSamples = 4;  // min lens samples of an accumulated image that the window shows
+constexpr double comparedShares[] = {0.25, 0.5, 0.75};  // fractions of the movement at which PSNR is measured
 
 struct ShownFrame {
     std::uint32_t frame = 0;  // index of the frame in the movement

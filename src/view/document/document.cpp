@@ -94,8 +94,8 @@ void stepThroughHistory(Document& document, ViewState& state, const ViewActions&
     static_cast<ViewEdit&>(state) = *edit;
     state.options.time = time;
     state.options.clip = clip;
-    document.shown.lens.apertureImage = state.options.lens.apertureImage;  // the edit's lens contains the loaded image
-    document.poseIsStale = !document.frame->scene->clips.empty();          // the camera may be animated
+    document.shown.lens.apertureImage = state.options.lens.apertureImage;  // no reload: the restored lens has the image
+    document.poseIsStale = !document.frame->scene->clips.empty();          // pose again: the camera may be animated
     state.aperturePath = state.options.lens.apertureImage.string();
     state.marker.shown = false;
     state.focusPoints.clear();
@@ -150,7 +150,7 @@ bool takeLoadedScene(Document& document, ViewState& state) {
         adoptScene(document, state, std::move(*loaded));
         return true;
     }
-    // Replace the draft pyramids by the final ones; camera, lens and all edits stay.
+    // Replace the draft pyramids with the final ones; camera, lens and all edits stay.
     document.frame->world.pyramids = std::move(loaded->frame->world.pyramids);
     document.draft = false;
     ++document.worldVersion;

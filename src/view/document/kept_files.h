@@ -15,7 +15,7 @@ struct ViewSettings {
     bool dark = true;
     bool panel = true;
     double interfaceScale = 1;                 // scale factor of the interface, 0.5 … 3
-    std::optional<double> budgetMilliseconds;  // time budget per frame, ms; nullopt: depends on the driver
+    std::optional<double> budgetMilliseconds;  // time budget per frame, ms; nullopt: see windowBudget()
     int width = 0;                             // window size in window units; 0: not stored
     int height = 0;
 };

@@ -56,7 +56,8 @@ private:
     };
     static void run(Job& job);
 
-    std::vector<std::unique_ptr<Job>> jobs_;  // the last job is the current one; all others are cancelled
+    // The last job is the current one. Earlier jobs are cancelled, or still build the final pyramids of a draft.
+    std::vector<std::unique_ptr<Job>> jobs_;
 };
 
 }  // namespace defocus::engine

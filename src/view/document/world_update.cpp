@@ -42,8 +42,8 @@ void apply(const Part& part, Document& document, ViewState& state, const Update&
     }
 }
 
-// Returns the state's request with the given camera of the file, without a camera position set by the request. If the
-// request's focus depends on pixels of the image, the camera's own focus replaces it.
+// Returns the state's request with the file's camera `camera`. Removes the camera position of the request, and replaces
+// a focus that depends on pixels of the image with the camera's own focus.
 Request cameraRequest(const ViewState& state, const CameraChoice& camera) {
     Request request = state.options;
     request.camera = camera;
@@ -62,8 +62,8 @@ void updateLights(Document& document, const ViewState& state) {
     ++document.poseVersion;
 }
 
-// Returns the file's camera that the view follows, in the world's pose. If the view follows none, returns a camera at
-// the view's position.
+// Returns the camera of the file that the view follows, as placed by the current pose. If the view follows no camera,
+// returns a camera at the view's position.
 PlacedCamera followedCamera(const Document& document, const ViewState& state) {
     const double aspect = static_cast<double>(state.pictureSize.x) / state.pictureSize.y;
     const PreparedFrame& frame = *document.frame;

@@ -18,7 +18,7 @@ ImVec2 pictureCorner(const Ui& ui, double x, double y);
 
 struct LabelStyle {
     ImU32 color = brightColor;
-    float anchorX = 0, anchorY = 0;  // which point of the label's box, 0 … 1, lies at the given position
+    float anchorX = 0, anchorY = 0;  // point of the label at the given position; 0: left or top, 1: right or bottom
     float alpha = 1;
     float width = 0;  // max width of wrapped text; 0: no wrapping
 };

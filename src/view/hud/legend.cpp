@@ -1,4 +1,4 @@
-// Explains overlays: draws their colour scales, and how the object under the cursor is drawn.
+// Draws the colour scales of overlays, and a tooltip on how the object under the cursor is drawn.
 
 #include <fmt/format.h>
 
@@ -23,7 +23,8 @@ struct Legend {
     std::array<const char*, 5> marks;  // labels of the scale, evenly spaced
 };
 
-// Returns the colours of the blur overlay, which must match shaders/view/display.frag. `t` = 0.5 is in focus.
+// Returns the colour of the blur overlay at the position `t` of its scale, 0 … 1; 0.5 is in focus. Must match
+// shaders/view/display.frag.
 glm::vec3 cocColour(float t) {
     const float side = 2 * t - 1;
     const glm::vec3 colour = side < 0 ? glm::vec3(1, 0.55f, 0.10f) : glm::vec3(0.2f, 0.55f, 1);

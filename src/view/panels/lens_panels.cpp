@@ -53,8 +53,8 @@ void nodeBlurRow(const Ui& ui) {
     ImGui::EndDisabled();
 }
 
-// Shows how many images of single lens samples are stored, from which focus and f-number can change without rendering.
-// The tooltip says why none are stored.
+// Shows the number of stored lens images (images of single lens samples), which allow changes of focus and f-number
+// without rendering. The tooltip says why none are stored.
 void lensImagesRow(const Ui& ui) {
     const KeptImages* const kept = ui.picture.image ? ui.picture.image->keptImages() : nullptr;
     std::string about =

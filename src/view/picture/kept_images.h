@@ -45,7 +45,7 @@ public:
     // Returns why no lens images are planned; empty if some are planned or begin() was not called.
     [[nodiscard]] const std::string& obstacle() const { return obstacle_; }
     // Returns how many planned lens images contribute to a picture with this focus distance and f-number. Returns 0 if
-    // either value is outside the range of the lens images, or if less than a quarter of them lie within the aperture.
+    // either value is outside the range of the lens images, or if fewer than a quarter of them lie within the aperture.
     [[nodiscard]] std::uint32_t serving(const Lens& lens) const {
         return static_cast<std::uint32_t>(imagesFor(lens).size());
     }

@@ -47,7 +47,8 @@ double poppingFocus(const FramePlan& plan, double nearPlane, double seconds) {
     return focusBetween(nearest, std::max(nearest, farthest), share);
 }
 
-// Returns the settings that affect the picture as one text, without number of samples, level mode and method.
+// Returns the settings that affect the picture as one string, except the number of samples, the level mode and the
+// method.
 std::string pictureSettings(Request request) {
     const Request defaults;
     request.samples = defaults.samples;
@@ -94,7 +95,7 @@ void makeImage(LivePicture& picture, const Document& document, const ViewState& 
 }
 
 // Simplifies a request that can't be drawn: turns off comparison and popping test or, if neither is on, replaces the
-// method by accumulation. Returns false if the request is already as simple as possible.
+// method with accumulation. Returns false if the request is already as simple as possible.
 bool simplifyRequest(ViewState& state) {
     if (state.comparison != Comparison::none || state.poppingSince) {
         state.comparison = Comparison::none;
@@ -118,8 +119,8 @@ void meter(LivePicture& picture, Document& document, ViewState& state, bool expo
     state.exposure = meteredExposure(frame.world, currentView(document, state), frame.settings, document.shaderFolder);
 }
 
-// Updates the warnings about the picture of a view at rest. Clipping needs a read-back from the GPU, so it is checked
-// once per exposure.
+// Updates the warnings about the picture of a view at rest. The check for clipping reads the image back from the GPU,
+// so it runs only once per exposure and tone map.
 void updateWarnings(LivePicture& picture, const ViewState& state) {
     picture.warnings.clear();
     if (picture.image->moving()) {

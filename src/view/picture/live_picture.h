@@ -13,7 +13,7 @@ struct LivePicture {
 
     bool meterDue = false;                                       // true: the view has moved since the last metering
     std::vector<std::string> clipping;                           // warnings about clipping
-    std::optional<std::pair<double, ToneMap>> clippingKnownFor;  // exposure (EV) and tone map of the last check
+    std::optional<std::pair<double, ToneMap>> clippingKnownFor;  // EV and tone map of the last clipping check
 };
 
 // Returns the label of the picture on one side of the divider.

@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto settleTime = 120ms;            // time without changes until a view counts as at rest and accumulates
+constexpr auto settleTime = 120ms;            // time without changes after which the view counts as at rest
 constexpr std::uint32_t minShownSamples = 4;  // an image with fewer samples looks worse than the last moving frame
 constexpr double visibleGrowth = 1.08;        // update the window when the sample count has grown by this factor
 constexpr double softwareGrowthTime = 60;     // min ms per frame for adding samples if OpenGL runs on the CPU

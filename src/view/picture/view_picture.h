@@ -34,13 +34,13 @@ struct PictureSide {
 
 struct PictureRequest {
     View view;                       // view at the window's resolution
-    RenderSettings settings;         // settings; thresholds that are set replace the default level thresholds
+    RenderSettings settings;         // settings; level thresholds, if set, replace the defaults
     std::string settingsKey;         // text that identifies the settings; when it changes, the image is restarted
     std::uint64_t poseVersion = 0;   // value of Document::poseVersion
     std::vector<PictureSide> sides;  // what each side shows: one side, or two for comparison
     DisplaySettings display;
     std::uint32_t maxSamples = 4096;
-    std::optional<double> targetError;         // stops accumulating below this estimated error
+    std::optional<double> targetError;         // estimated error below which accumulation stops
     std::optional<FrameQuality> fixedQuality;  // replaces the quality chosen by the budget; disables accumulation
     double restOfFrame = 0;                    // time that the interface takes from the frame's budget, ms
     std::uint64_t imageBytes = 0;              // max size of the kept lens images in bytes; 0: none are kept

@@ -91,7 +91,7 @@ struct ViewEdit {
     Lens lens;
     double nearPlane = 0.01;     // m
     bool followsCamera = false;  // true: the view follows the file's camera, which may be animated
-    double exposure = 0;         // exposure in EV; with `meters`, the latest metered value
+    double exposure = 0;         // exposure in EV; if `meters` is true, the latest metered value
     bool meters = false;         // true: the exposure is metered whenever the view comes to rest
 };
 

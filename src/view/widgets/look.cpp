@@ -10,7 +10,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr double fontSize = 15;            // font size in interface units
-constexpr double bitmapShare = 13.0 / 15;  // fraction of fontSize at which ImGui's bitmap font looks as large as others
+constexpr double bitmapShare = 13.0 / 15;  // scales fontSize so that ImGui's bitmap font looks as large as other fonts
 
 // Ranges of glyphs: Latin, Greek (λ), punctuation, arrows, simple shapes and the check mark.
 constexpr ImWchar glyphs[] = {0x20,   0xff,   0x192,  0x192,  0x370,  0x3ff,  0x2010, 0x2044, 0x2190,

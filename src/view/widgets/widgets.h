@@ -18,7 +18,6 @@ bool section(const char* title, bool openAtFirst);
 
 // Begins a row: draws the label on the left; the next widget fills the rest of the row.
 void rowLabel(const std::string& label, const std::string& tooltip = {});
-// Draws a row with a label and a text.
 void textRow(const char* label, const std::string& text, const char* tooltip = "");
 // Draws a tooltip while the mouse is over the previous widget.
 void tooltip(const std::string& text);

@@ -12,7 +12,7 @@ bool isModifier(int code) {
     return code >= key::leftShift && code <= key::lastModifier;
 }
 
-// Returns whether the effect of a key depends on text typed before: Return, Backspace, Tab, arrows …
+// Returns whether the effect of a key depends on previously typed text: Return, Backspace, Tab, arrows …
 bool edits(int code) {
     return code >= key::escape && !isModifier(code);
 }

@@ -91,7 +91,7 @@ void ViewInterface::feed(const std::vector<WindowEvent>& events) {
                     down.insert(event.key);
                     if (event.key < key::leftShift) chord = event;
                 } else if (down.contains(event.key)) {
-                    tappedKeys_.push_back(event);  // release it next frame, so that ImGui sees the press
+                    tappedKeys_.push_back(event);  // release the key in the next frame, so that ImGui sees the press
                 } else {
                     tell(event);
                 }

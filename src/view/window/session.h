@@ -17,7 +17,7 @@ namespace defocus::engine {
 struct SessionOptions {
     Request request;                     // all settings; Request::size is the size of the picture
     std::filesystem::path screenshot;    // file for a screenshot at the end; empty: none
-    int frames = 0;                      // frames with the complete scene before the window closes; 0: no limit
+    int frames = 0;                      // number of frames of the complete scene before the window closes; 0: no limit
     std::filesystem::path shaderFolder;  // replacement shaders; empty: the embedded shaders
     bool quiet = false;                  // true: print no warnings on stderr
     std::filesystem::path stats;         // JSON file to which the window's state is written continuously; empty: none

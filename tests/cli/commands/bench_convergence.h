@@ -29,7 +29,7 @@ protected:
         return run(arguments);
     }
 
-    // Returns the rows of a CSV file, keyed by the text of `keys` columns from column `first` on. Expects
+    // Returns the rows of a CSV file. The key of a row is the text of `keys` columns, from column `first` on. Expects
     // unique keys.
     std::map<std::string, std::vector<std::string>> rowsOf(const std::string& file, std::size_t first,
                                                            std::size_t keys) const {

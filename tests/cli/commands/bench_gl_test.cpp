@@ -83,7 +83,7 @@ TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
     expectRefused("has 12 frames of an earlier run; continue with --resume, or start over with --overwrite", {});
     expectRefused("has results of another scene", {"--focus-distance", "3"});
     expectRefused("has results of another scene", {"--resume", "--focus-distance", "3"});
-    // refused although the reference image is the same
+    // refused, although the seed does not change the reference image
     expectRefused("has results of another scene", {"--resume", "--seed", "7"});
 
     // The folder contains a reference image but no measured runs, as after a bench that was killed before its first

@@ -131,7 +131,7 @@ TEST_F(Capture, resumeReplacesFramesOfOtherSettingsOnlyWhenTold) {
     expectOneLine(run({"capture", "shot.json", "--overwrite"}), 2);  // --overwrite requires --resume
 }
 
-// --resume never replaces an image of another origin that has the name of a frame.
+// --resume never replaces an image that has a frame's name but is not a frame of the shot.
 TEST_F(Capture, resumeKeepsForeignPictures) {
     writeImage(folder() / "a0.png", Image(4, 4, 3));
     expectOneLine(run({"capture", "shot.json", "--range", "0", "--resume", "-o", "a#.png"}), 1);
@@ -318,7 +318,7 @@ TEST_F(Capture, filmsAndPicturesAreReproducible) {
             runs.push_back(textOf(folder() / name));
             if (i == 0)
                 std::this_thread::sleep_for(
-                    // dates in the files have whole seconds, so they would differ without SOURCE_DATE_EPOCH
+                    // dates in the files count whole seconds; without SOURCE_DATE_EPOCH, this pause would change them
                     std::chrono::milliseconds(1100));
         }
         EXPECT_TRUE(runs[0] == runs[1]) << name;
@@ -442,8 +442,8 @@ TEST_F(Capture, filmsMayHaveAnyName) {
     }
 }
 
-// A truncated video never replaces a complete one. Like ffmpeg on a full disk, the script truncates the video but exits
-// with success.
+// A truncated video never replaces a complete one. The fake ffmpeg behaves as on a full disk: it truncates the video
+// but exits with success.
 TEST_F(Capture, filmWithoutItsEndNeverReplacesAGoodOne) {
     if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
     const FakeFfmpeg cut(folder() / "bin",

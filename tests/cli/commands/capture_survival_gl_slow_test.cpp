@@ -86,8 +86,9 @@ TEST_F(Survival, killedFiftyTimesAndResumed) {
     std::mt19937 random(7);
     int before = 0;
     for (int i = 0; i < 50; ++i) {
-        // Each run starts with more than half of the frames missing, so it makes about half of the system calls of an
-        // undisturbed run or more. A kill within the first third of these calls thus always interrupts it.
+        // Each run starts with more than half of the frames missing, so it makes at least about half as many system
+        // calls as an undisturbed run. A kill within the first third of an undisturbed run's calls thus always
+        // interrupts it.
         TracedChild child = startTraced();
         EXPECT_EQ(child.end(std::uniform_int_distribution(1, calls / 3)(random), SIGKILL), 128 + SIGKILL) << i;
         for (int number = 0; number < frames; ++number) {

@@ -59,7 +59,7 @@ protected:
                 largest, std::abs(double{frame.layers.coverage.pixels[i]} - double{frame.picture.pixels[4 * i + 3]}));
         std::string names;
         for (const Layer layer : layers) names += std::to_string(static_cast<int>(layer)) + ' ';
-        EXPECT_LT(largest, 5e-4) << names;  // half floats, in which normals and albedo are drawn, round
+        EXPECT_LT(largest, 5e-4) << names;  // tolerance for half floats, in which normals and albedo are drawn
     }
 };
 

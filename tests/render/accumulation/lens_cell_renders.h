@@ -56,8 +56,8 @@ inline double relativeDifferenceFrom(const Image& image, const glm::vec3& color)
     return largest;
 }
 
-// Fixture for images that are drawn by lens cells, which are regions of the lens. Each cell has one sample, whose image
-// is blurred as by a lens of the size of the cell.
+// Fixture for images that are drawn with lens cells, which are regions of the lens. Each cell has one sample, whose
+// image is blurred as a lens of the cell's size would blur it.
 class LensCellImages : public testing::Test {
 protected:
     static void SetUpTestSuite() { context_ = createHeadlessContext(); }

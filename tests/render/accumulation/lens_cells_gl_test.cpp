@@ -1,5 +1,5 @@
-// Tests images that are drawn by lens cells, which are regions of the lens. Each cell has one sample, whose image is
-// blurred as by a lens of the size of the cell (plan/lens_cells/lens_cells.h).
+// Tests images that are drawn with lens cells, which are regions of the lens. Each cell has one sample, whose image is
+// blurred as a lens of the cell's size would blur it (plan/lens_cells/lens_cells.h).
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,8 @@
 namespace defocus::engine {
 namespace {
 
-// A frame that is drawn in blocks of samples equals a frame drawn as one block, even if images are read within a block.
+// A frame that is drawn in blocks of samples equals a frame drawn as one block, even if images are read back in the
+// middle of a block.
 TEST_F(LensCellImages, blocksAreThoseOfTheWholeFrame) {
     const auto small = blurredSpheres();
     const FramePlan plan = planFrame(small->world, small->view, ratedSettings(192, LodMode::fractional));
@@ -86,8 +87,8 @@ TEST_F(LensCellImages, apertureZeroIsThePinhole) {
     EXPECT_TRUE(sameBits(pinhole, drawnBy("multirate", *small, settings)));
 }
 
-// Two panels of one colour touch along an edge, and one of them is much more blurred. No line of the red wall behind
-// the panels shows through the common edge.
+// Two panels of one colour touch along an edge, and one of them is much more blurred. The red wall behind the panels
+// does not show as a line along the common edge.
 TEST_F(LensCellImages, panelsThatTouchShowNoLineBetweenThem) {
     for (const double across : {0.0, 0.0031}) {
         SmallWorld small;
@@ -126,7 +127,7 @@ TEST_F(LensCellImages, panelsThatTouchShowNoLineBetweenThem) {
     }
 }
 
-// A bright square of 4 × 4 px far behind the focal plane, in front of black.
+// A bright square of 4 × 4 px far behind the focal plane, on a black background.
 struct FarLight {
     View view;
     World world;
@@ -302,8 +303,8 @@ double largestBesideOutlines(const Image& reference, const Image& image, const I
 }
 
 // The background does not shine through outlines. Away from the outlines of objects in focus, method multirate exceeds
-// the error of method accumulation by at most 2/255. The scenes are a sharp fence before a blurred wall, a sharp wall
-// behind a blurred fence, and a half transparent sharp fence.
+// the error of method accumulation by at most 2/255. The scenes are a sharp fence in front of a blurred wall, a sharp
+// wall behind a blurred fence, and a half transparent sharp fence.
 TEST_F(LensCellImages, nothingShinesThroughOutlines) {
     SKIP_ON_SECOND_DRIVER();
     const FenceColors colors{{0.9f, 0.8f, 0.3f, 1}, {0.05f, 0.2f, 0.5f, 1}, {0.3f, 0.1f, 0.1f}};

@@ -1,5 +1,5 @@
-// Tests method "multirate" with many kinds of surfaces and lenses. The tests are slow: some dozen images of 256
-// samples.
+// Tests method "multirate" with many kinds of surfaces and lenses. The tests are slow, because they render dozens of
+// images of 256 samples.
 
 #include <gtest/gtest.h>
 

@@ -167,7 +167,8 @@ TEST_F(Positions, doNotSharpenRoughGlass) {
     EXPECT_GT(compareImages(image, drawnBy("accumulation", *small, four)).psnr, 40);
 }
 
-// With four positions per pixel, too, samples are drawn until the estimated error of the image is that of the quality.
+// With four positions per pixel, too, the renderer draws samples until the estimated error is as small as the chosen
+// quality requires.
 TEST_F(Positions, areDrawnUntilTheQualityIsReached) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = fiveSpheres();

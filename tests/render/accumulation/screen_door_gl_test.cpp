@@ -32,8 +32,8 @@ std::unique_ptr<SmallWorld> oneSphere() {
     return small;
 }
 
-// If sample n + 1 is split between two levels of detail, each pixel is bit-identical to an image without a split:
-// either n or n + 1 samples show the coarser level.
+// If sample n + 1 is split between two levels of detail, each pixel is bit-identical to that pixel of an image without
+// a split, in which either n or n + 1 samples show the coarser level.
 TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
     const auto small = oneSphere();
     constexpr std::uint32_t samples = 8;

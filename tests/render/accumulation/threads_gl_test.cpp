@@ -25,7 +25,7 @@ protected:
         options.threads = threads;
         return options;
     }
-    // Renders `plan` in 1, 2 and 5 threads, and expects the same bits.
+    // Renders `plan` with 1, 2 and 5 threads, and expects the same bits.
     static void expectSameBits(const char* method, const SmallWorld& small, const FramePlan& plan,
                                const char* description) {
         const Image expected = imageOf(*rendererOf(method, small.world, inThreads(1)), plan);

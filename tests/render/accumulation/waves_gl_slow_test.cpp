@@ -1,4 +1,4 @@
-// Tests that images by methods "accumulation" and "multirate" do not depend on the wave size, which is the number of
+// Tests that methods "accumulation" and "multirate" give the same image for any wave size, which is the number of
 // samples drawn together. Also tests the rounding error of the sum of samples.
 
 #include <algorithm>

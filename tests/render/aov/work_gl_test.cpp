@@ -85,8 +85,8 @@ TEST_F(Work, backsCountOnlyWhereTheyAreDrawn) {
     expectEverywhere(workOf(*facingQuads({back}, material)), samples);
 }
 
-// In each lens sample, the lens point and the jitter shift a rectangle in the image. It touches the pixels whose
-// centres lie inside it.
+// In each lens sample, the lens point and the jitter shift a rectangle in the image. The rectangle touches the pixels
+// whose centres lie inside it.
 TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
     const double depth = 0.6;
     const glm::dvec2 centre(0.0143, -0.0097);

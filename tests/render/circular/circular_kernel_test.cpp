@@ -48,7 +48,7 @@ TEST(CircularKernel, factorsOfTwoAxesMultiplyToACircle) {
 }
 
 TEST(CircularKernel, profileIsTheWeightedSumOfRealAndImaginaryParts) {
-    const CircularComponent quarterTurn{0.5, pi / 2, 3, 7};  // at radius 1, its complex factor is e^(−1/2)·i
+    const CircularComponent quarterTurn{0.5, pi / 2, 3, 7};  // the component's complex factor at radius 1 is e^(−1/2)·i
     EXPECT_NEAR(circularProfile({&quarterTurn, 1}, 1), 7 * std::exp(-0.5), 1e-14);
     EXPECT_NEAR(circularProfile({&quarterTurn, 1}, 0), 3, 1e-14);
     EXPECT_NEAR(std::abs(circularFactor(quarterTurn, 1) - std::complex<double>(0, std::exp(-0.5))), 0, 1e-14);

@@ -61,7 +61,7 @@ TEST_F(Layered, apertureZeroIsThePinholeImage) {
     EXPECT_LT(maxBetween(seenBy(*small, "accumulation", 1), seenBy(*small, "layered:pinholes=1", 32)), 2e-3);
 }
 
-// An environment map is drawn by a plan without objects, which must not have blended primitives either.
+// An environment map is drawn with a frame plan without objects. This plan must not list blended primitives, either.
 TEST_F(Layered, anEnvironmentMapIsSeenThroughBlendedObjects) {
     const auto small = fiveSpheres();
     small->scene.materials[0].alphaMode = AlphaMode::blend;

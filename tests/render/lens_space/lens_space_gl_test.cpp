@@ -131,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, LensSpace, testing::Values("stochastic", "line
 
 using Models = LensSpace;
 
-// Models with textures, normal maps and skins look the same as by method "accumulation".
+// Models with textures, normal maps and skins look the same as with method "accumulation".
 TEST_P(Models, lookAsInTheAccumulation) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = posedWorld(modelPath("Fox.glb"), 0.3, 0);

@@ -135,7 +135,7 @@ inline std::unique_ptr<SmallWorld> gridInATile(std::uint32_t side) {
     return small;
 }
 
-// Number of squares per side of a grid that has more triangles than 65,536, the max number of loop iterations in Mesa's
+// Number of squares per side of a grid that has more than 65,536 triangles, the max number of loop iterations in Mesa's
 // software driver.
 inline constexpr std::uint32_t longerThanLoops = 184;
 

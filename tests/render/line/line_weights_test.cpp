@@ -69,8 +69,8 @@ TEST(LineSets, weighASquareByItsArea) {
     plan.view.width = plan.view.height = 100;
     plan.samples.resize(512);
     const LineSets lines = lineSets(plan, true);
-    // The square's corners lie on the axes. Its part with u > 1/2 is a half-size copy of its right half, so it has 1/8
-    // of the area.
+    // The square's corners lie on the axes. Its part with u > 1/2 is a half-size copy of its right half, so this part
+    // has 1/8 of the square's area.
     double share = 0;
     for (const GpuRay& ray : lines.sets.table) {
         const LineLight light{ray.values.x, ray.values.y, 0, 0};

@@ -21,7 +21,7 @@ protected:
     static void TearDownTestSuite() { context_.reset(); }
     static std::unique_ptr<GlContext> context_;
 
-    // Returns the image by the tested method with at most `count` buckets, which are groups of blended surfaces.
+    // Returns the tested method's image with at most `count` buckets, which are groups of blended surfaces.
     static Image inBuckets(const SmallWorld& small, int count) {
         const std::string method = GetParam();
         const char* separator = method.find(':') == std::string::npos ? ":" : ",";

@@ -1,5 +1,5 @@
-// Tests when BlockSchedule ends a frame, and for which final sample count it plans each block of samples. The images
-// are synthetic and have a known error.
+// Tests when BlockSchedule ends a frame, and for which expected final sample count it chooses the settings of each
+// block. The images are synthetic and have a known error.
 
 #include "render/sampling/block_schedule.h"
 

@@ -132,7 +132,7 @@ TEST_F(KeptImagesOfAView, serveSmallerAperturesAndFocusDistancesInTheirRange) {
     EXPECT_EQ(serving(2, 4), 0u);  // only about 4 lens points lie in the aperture: too few
 }
 
-// Fixture with an image in the window that no longer changes: all its lens images (views from lens points) are drawn.
+// Fixture whose window shows an image that no longer changes: all its lens images (views from lens points) are drawn.
 class PictureAtRest : public KeptImagesOfAView {
 protected:
     void SetUp() override {
@@ -145,7 +145,6 @@ protected:
         ASSERT_EQ(picture_.keptImages()->drawn(), 64u);
     }
 
-    // Draws one frame.
     void draw() {
         picture_.grow(budget_);
         picture_.update(request_, budget_);
@@ -158,7 +157,6 @@ protected:
         } while (!picture_.idle());
     }
 
-    // Returns a render of the view with `samples` samples.
     Image render(std::uint32_t samples, std::uint32_t firstSample = 0) {
         RenderSettings settings = frame_.settings;
         settings.sampleCount = samples;
