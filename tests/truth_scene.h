@@ -1,6 +1,6 @@
 #pragma once
-// Builds scenes for comparing the rasterizer with the ray tracer: baked to unlit materials, each with a view through a
-// wide lens. Further functions compare two images in more detail than by a single number.
+// Builds scenes for comparing the rasterizer with the ray tracer. Lighting is baked into unlit materials, and a wide
+// lens blurs the image. Further functions measure how two images differ.
 
 #include <algorithm>
 #include <array>

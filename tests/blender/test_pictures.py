@@ -13,8 +13,8 @@ import numpy
 import pictures
 import scenes
 
-# PNG file for three images of the still life, if the variable is set: by Cycles with 1,024 samples, by Defocus, and
-# their difference times 5.
+# If this variable names a PNG file, the test saves three images of the still life in it: by Cycles with 1,024 samples,
+# by Defocus, and their difference times 5.
 FIGURE = os.environ.get("DEFOCUS_BLENDER_FIGURE")
 
 

@@ -226,7 +226,7 @@ TEST_F(FrameSequence, settingsOfAMethodHaveKeys) {
     EXPECT_EQ(frame(shot, 0).view.methodValues.at("blurriness-cutoff"), 0.5);
     EXPECT_TRUE(frame("{}", 0).view.methodValues.empty());
 
-    // Settings that the keys animate must belong to the method of the request, which overrides the shot's method.
+    // Keys may animate only settings of the request's method, which may differ from the shot's method.
     Shot other = parseShot(shot, "x.json");
     Request request;
     applyShot(other, request);

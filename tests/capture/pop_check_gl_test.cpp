@@ -30,7 +30,7 @@ protected:
         return planFrame(frame_.world, view, settings);
     }
 
-    // Returns the largest pop, an image change by a switch of levels of detail, in a focus pull of five frames.
+    // Returns the largest pop (image change caused by a switch of levels of detail) in a focus pull of five frames.
     std::optional<FramePop> popOf(LodMode lod) {
         PopCheck check(frame_.world, parseMethodUse("accumulation"), {});
         for (int i = 0; i < 5; ++i) check.note(10 + i, planAt(2.0 + 0.4 * i, lod));
@@ -56,7 +56,7 @@ TEST_F(PopChecks, fullDetailHasNone) {
     EXPECT_FALSE(popOf(LodMode::off));
 }
 
-// A frame without the preceding frame cannot be compared, so it has no pop.
+// If the preceding frame is missing, a frame cannot be compared, so it has no pop.
 TEST_F(PopChecks, aGapInTheFramesIsNoPop) {
     PopCheck check(frame_.world, parseMethodUse("accumulation"), {});
     check.note(1, planAt(2, LodMode::nearest));

@@ -128,7 +128,7 @@ std::string parserFault(const json& shot) {
     return "";
 }
 
-// Returns whether a schema cannot express the fault: wrongly ordered numbers, or an unknown method name.
+// Returns whether the fault is of a kind that no schema can express: wrongly ordered numbers or an unknown method name.
 bool beyondSchemas(const std::string& fault) {
     for (const char* part : {"a frame after the previous key", "a last frame", "/method:"})
         if (fault.find(part) != std::string::npos) return true;
@@ -245,7 +245,7 @@ json valueFor(const Setting& setting) {
     }
 }
 
-// The schema and the parser accept each setting that a shot may give.
+// The schema and the parser accept each setting that a shot may contain.
 TEST(ShotSchema, holdsEachSettingThatAShotMayGive) {
     const Schema schema = publishedSchema();
     for (const Setting& setting : settings()) {

@@ -116,8 +116,8 @@ TEST_F(Files, aLinkStaysAndWhatItNamesIsReplaced) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "far"), fs::directory_iterator()), 2) << "nothing is left";
 }
 
-// Files that the program names itself never follow a link or pipe at their path: a link, a broken link and a pipe are
-// replaced by a file.
+// The program never writes through a link or pipe at the path of a file that it names itself. A new file replaces a
+// link, a broken link or a pipe.
 TEST_F(Files, ownFilesReplaceLinksAndPipes) {
     fs::create_directory(folder_ / "far");
     const fs::path victim = folder_ / "far" / "victim.txt";
@@ -297,8 +297,8 @@ TEST(ParallelFor, passesOnTheFirstFailure) {
                  Error);
 }
 
-// A loop body that waits for an inner loop works only on that loop, not on another index of the outer loop. The other
-// index might need a lock that this body holds, and would double the memory.
+// A loop body that waits for an inner loop works only on that loop, not on another index of the outer loop. Work on
+// another index might wait for a lock that this body holds, and would double the memory use.
 TEST(ParallelFor, nestsWithoutMixingAndWithoutMoreThreadsThanCores) {
     static thread_local int inside = 0;
     std::vector<std::atomic<int>> visits(64 * 64);

@@ -57,7 +57,7 @@ double shareLeftOfAQuarter() {
 }
 
 TEST(Memory, roomIsGivenBackAndValuesStay) {
-    // Repeats, since the system may merge pages into a huge page in the meantime, which makes freed pages resident
+    // Retries, since the system may merge pages into a huge page during an attempt, which makes freed pages resident
     // again.
     double min = 1;
     for (int attempt = 0; attempt < 20 && min > 0.26; ++attempt) min = std::min(min, shareLeftOfAQuarter());
@@ -77,7 +77,7 @@ long pageFaults() {
     return usage.ru_minflt;
 }
 
-// Memory for the images of a batch of samples is written, freed, allocated and written again.
+// Freed memory stays with the process, so that the images of each batch of samples reuse the memory of earlier images.
 TEST(Memory, aFreedBlockIsUsedAgainWithoutPageFaults) {
 #if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__)
     GTEST_SKIP() << "needs glibc's malloc";

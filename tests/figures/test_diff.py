@@ -106,9 +106,6 @@ def test_other_subjects_have_no_verdict(name, change, times, errors, bias):
     assert changes["biasFlip"].verdict == ("closer" if bias else "unknown")
 
 
-# ---- the other benches ----------------------------------------------------------------------------------------------
-
-
 def speedup_row(**more):
     return {"sweep": "samples", "samples": 64, "fStop": 2.8, "focusDistance": 1 / 3, "lod": "off", "runs": 3,
             "milliseconds": {"median": 10, "low": 9, "high": 11}, "fromFullDetail": {"flip": 0.02}, "fromReference": {"flip": 0.02},
@@ -179,9 +176,6 @@ def test_a_committed_result_equals_itself(file):
     for _, time, errors in rows:
         assert time is None or time.verdict == "within noise" or time.verdict.startswith("unknown")
         assert all(error.verdict == "equal" for error in errors.values())
-
-
-# ---- the command ----------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("text", ["", "a,b\n1,2\n", "{", "{}", '{"rows": [1]}', '{"rows": [{"samples": 1}]}',

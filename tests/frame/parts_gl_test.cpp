@@ -55,8 +55,8 @@ TEST_F(Partial, mergedBlocksAreTheSingleRun) {
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous}) {
         const Image expected = drawn(*small, mode, {}).image();
 
-        // A driver of its own renders each range of samples, with another number of samples drawn together, and saves
-        // it.
+        // Each range of samples is rendered by a separate driver and saved. The drivers draw different numbers of
+        // samples together.
         std::vector<fs::path> paths;
         std::uint32_t wave = 3;
         for (const SampleRange& range : {SampleRange{0, 64}, SampleRange{64, 150}}) {

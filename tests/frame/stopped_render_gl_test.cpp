@@ -1,5 +1,5 @@
-// Tests that a target error or a time limit ends a frame before its max number of samples. Requests that cannot be
-// stopped this way are rejected.
+// Tests that a target error or a time limit ends a frame before its max number of samples. Requests that do not allow
+// this are rejected.
 
 #include <gtest/gtest.h>
 

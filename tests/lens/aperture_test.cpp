@@ -73,7 +73,7 @@ TEST_P(ApertureOf, hasTheDensityOfItsDefinition) {
     const std::vector<glm::dvec2> points = mapped(lens);
     const std::vector<double> wanted = expectedShares([&](const glm::dvec2& p) { return lightDensity(lens, p); });
     EXPECT_LT(misplaced(sharesOf(points), wanted), 0.006);
-    // A slightly different aperture exceeds twice this bound on misplaced light, so the bound detects wrong shapes.
+    // The bound detects wrong shapes: a slightly different aperture has more than twice as much misplaced light.
     Lens other = lens;
     other.bladeRotation += 0.1;
     other.bladeCurvature = std::abs(other.bladeCurvature - 0.3);

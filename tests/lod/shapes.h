@@ -64,7 +64,7 @@ inline double turn(std::uint32_t i, std::uint32_t count) {
     return 2 * std::numbers::pi * (i % count) / count;
 }
 
-// Returns a unit sphere with a UV seam and one pole vertex per column; `bump` is the amplitude of the radius.
+// Returns a unit sphere with a UV seam and one pole vertex per column. `bump` is the height of its bumps.
 inline Mesh sphere(std::uint32_t columns, std::uint32_t rows, double bump = 0) {
     return parametricSurface(columns, rows, [=](std::uint32_t i, std::uint32_t j) {
         if (j == 0 || j == rows) return glm::dvec3(0, 0, j == 0 ? -1 : 1);
@@ -143,8 +143,8 @@ inline std::vector<std::uint32_t> levelIndices(const Pyramid& pyramid, std::size
     return indices;
 }
 
-// Faces at an undirected edge, whose ends are joined by position. `count` is the number of faces, and `balance` the
-// number that use the edge forwards minus the number that use it backwards.
+// Number of faces at an undirected edge, and their `balance`: the number of faces that use the edge forwards minus the
+// number that use it backwards. Vertices at the same position count as one.
 struct EdgeUse {
     int balance = 0;
     int count = 0;

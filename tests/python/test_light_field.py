@@ -95,7 +95,8 @@ def test_the_example_makes_a_data_set(tmp_path, meshes):
     assert len(lens["focus_distances"]) == 3 and lens["width"] == 64
     depth = defocus.read_image(output / "depth.exr")
     coc = defocus.read_image(output / "coc.01.exr")
-    # The aperture's diameter A in m gives the CoC A·(1/s − 1/z)·W/(2·tan(θx/2)) in px.
+    # The CoC in px is A·(1/s − 1/z)·W/(2·tan(θx/2)), with aperture diameter A, focus distance s and depth z in m, image
+    # width W in px and horizontal field of view θx.
     aperture = lens["focal_length"] / 1000 / lens["f_stop"]
     tangent = lens["horizontal_aperture"] / 2 / lens["focal_length"]
     expected = aperture * (1 / lens["focus_distances"][1] - 1 / depth) * lens["width"] / (2 * tangent)

@@ -20,8 +20,8 @@ struct Sheet {
     Image depth;
 };
 
-// Returns a lens image (view from a point of the lens) whose pixels without the margin have `radiance(x, y)` and
-// `depth(x, y)`.
+// Returns a lens image (view from a point of the lens) with a margin. Its pixels have `radiance(x, y)` and
+// `depth(x, y)`, where (0, 0) is the first pixel inside the margin.
 Sheet layer(const std::function<float(int, int)>& radiance, const std::function<float(int, int)>& depth) {
     Image colour(size.fullWidth(), size.fullHeight(), 4);
     Sheet result{{}, Image(colour.width, colour.height, 1)};

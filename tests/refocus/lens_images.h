@@ -1,5 +1,5 @@
 #pragma once
-// Writes files of lens images, views from points of the lens, of the built-in school of fish.
+// Writes files of lens images (views from points of the lens) that show the built-in school of fish.
 
 #include <gtest/gtest.h>
 

@@ -66,11 +66,11 @@ TEST_F(LightFieldLibrary, describesTheFile) {
     EXPECT_NEAR(info.focusRange.farthest, 3, 1e-9);
     EXPECT_TRUE(info.fullDisk);
     EXPECT_EQ(info.lensPoints.size(), 16u);
-    // A·W/(4·tan(θx/2)) with A = 35 mm/0.95 and tan(θx/2) = 18/35
+    // A·W/(4·tan(θx/2)), with the aperture diameter A = 35 mm/0.95, the image width W = 128 px and tan(θx/2) = 18/35
     EXPECT_NEAR(info.pixelsPerDioptre, 0.035 / 0.95 * 128 / (4 * 18.0 / 35), 1e-9);
 }
 
-// The CoC in px is A·|1/s − 1/z|·W/(2·tan(θx/2)), as in the AOVs of a direct render.
+// The CoC for another focus distance and f-number agrees with the CoC in the AOVs of a direct render.
 TEST_F(LightFieldLibrary, cocIsThatOfTheChosenFocusAndAperture) {
     defocus::LightField field = defocus::LightField::render(request_, path_, FocusRange{1.5, 3});
     RefocusSettings settings{FocusDistance{2.5}, {}};

@@ -12,8 +12,8 @@
 namespace defocus::engine {
 namespace {
 
-// Method accumulation stores the image of each sample in half floats. With a transparent background, nothing is
-// composited over these images, so a file of lens images (views from lens points) keeps every bit.
+// Method accumulation stores the image of each sample in half floats. With a transparent background, these images are
+// not composited over a background, so a file of lens images (views from lens points) keeps every bit.
 TEST_F(LightFieldTest, atTheRenderedFocusHasTheBitsOfAccumulation) {
     Request request = smallSchool();
     request.background = TransparentBackground{};

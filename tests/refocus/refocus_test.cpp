@@ -52,9 +52,9 @@ TEST(Refocus, asRenderedMovesNothing) {
     }
 }
 
-// A point at distance z has the CoC c = A·|1/s − 1/z|·W/(2·tan(θx/2)). The view from lens point (u, v) shows the point
-// displaced by c/2·(u, v) from its pinhole position; in front of the focus plane, the direction is reversed. If the
-// image is refocused at z, the views' samples with the same offset from the point lie in one pixel.
+// At the rendered focus, a point at distance z has a circle of confusion of diameter c. The view from lens point (u, v)
+// shows the point displaced by c/2·(u, v) from its pinhole position; in front of the focus plane, the direction is
+// reversed. If the image is refocused at z, the views' samples with the same offset from the point lie in one pixel.
 TEST(Refocus, bringsThePointInFocusTogether) {
     const LightFieldInfo info = describedImages();
     const double radius = 0.025 * (1 / 2.0 - 1 / 3.0) * 1000 / (2 * 0.36) / 2;
@@ -174,7 +174,7 @@ TEST(LensImages, haveAMarginForTheFocusRange) {
     view.lens.focusDistance = 2;
     view.lens.fStop = 2;
     const LightFieldInfo info = lightFieldInfo(view, {1, 4});
-    const double pixelsPerDioptre = 0.025 * 1024 / (4 * 0.36);  // A·W/(4·tan(θx/2))
+    const double pixelsPerDioptre = 0.025 * 1024 / (4 * 0.36);  // aperture × width / (4·tan(half field of view))
     EXPECT_NEAR(info.pixelsPerDioptre, pixelsPerDioptre, 1e-9);
     EXPECT_EQ(info.size.margin, static_cast<int>(std::ceil(0.5 * pixelsPerDioptre + 0.5)));
     for (const double sign : {-1, 1}) {

@@ -19,8 +19,8 @@ double masking(double nv, double nl, double alpha) {
     return 1 / (1 + lambda(nv) + lambda(nl));
 }
 
-// Returns the albedo for Fresnel reflectances F0 = f0 and F90 = 1. Normals h are distributed with density D·(n·h)
-// (Walter et al. 2007, equation 35), for which the integrand is F·G·(v·h) / ((n·v)·(n·h)).
+// Returns the albedo for Fresnel reflectances F0 = f0 and F90 = 1. The albedo is the mean of F·G·(v·h) / ((n·v)·(n·h))
+// over normals h with density D·(n·h) (Walter et al. 2007, equation 35).
 double albedo(double nv, double roughness, double f0) {
     constexpr int heights = 4000;
     constexpr int azimuths = 200;
@@ -64,8 +64,8 @@ TEST(SpecularAlbedo, ofAMirrorIsSchlicksFresnel) {
 }
 
 TEST(SpecularAlbedo, ofAFacingWhiteMetal) {
-    // The expected value is the radiance of white metal in a uniform environment of radiance 0.7, which another
-    // renderer computed.
+    // The expected value, computed by another renderer, is the radiance of white metal in a uniform environment of
+    // radiance 0.7.
     EXPECT_NEAR(0.7f * (specularAlbedo(1, 0.4f).x + specularAlbedo(1, 0.4f).y), 0.677f, 1e-3f);
     EXPECT_NEAR(0.7f * (specularAlbedo(1, 1).x + specularAlbedo(1, 1).y), 0.215f, 1e-3f);
 }

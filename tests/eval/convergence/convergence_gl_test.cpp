@@ -122,8 +122,9 @@ TEST_F(Convergence, moreLensSamplesComeCloser) {
     EXPECT_EQ(runs[1].triangles, 4 * runs[0].triangles);
 }
 
-// The RMSE d obeys the triangle inequality for the images with levels, at full detail and of the reference: |d(levels,
-// full) − d(full, reference)| ≤ d(levels, reference) ≤ d(levels, full) + d(full, reference).
+// The RMSE d between two images obeys the triangle inequality. For an image with levels of detail, an image at full
+// detail and the reference, |d(levels, full) − d(full, reference)| ≤ d(levels, reference) ≤ d(levels, full) + d(full,
+// reference).
 TEST_F(Convergence, biasAndSamplingErrorObeyTheTriangleInequality) {
     options_.sampleCounts = {16};
     options_.thresholdFactors = {4, 0};
@@ -215,7 +216,7 @@ TEST_F(Convergence, aMethodThatFailsIsLeftOutAndOthersGoOn) {
     EXPECT_EQ(leftOut_.at("failing"), "not in this scene");
 }
 
-// A method that lacks a feature of the scene is skipped, since its image would say nothing about the method.
+// A method that does not support a feature of the scene is skipped, since its image would lack that feature.
 TEST_F(Convergence, methodsThatCanOnlyShowAnotherImageAreLeftOut) {
     const auto make = [](const World&, const RendererOptions&) { return std::make_unique<Pretender>(0.5f, 4); };
     registerMethod(

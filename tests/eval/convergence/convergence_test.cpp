@@ -309,7 +309,7 @@ TEST(ConvergenceCases, followTheTableAndTheLists) {
     EXPECT_FALSE(names.contains(automaticMethod));
 }
 
-// A method without custom settings has a row each for its published, best and standard settings. A method with custom
+// A method without custom settings has three rows: for its published, best and standard settings. A method with custom
 // settings has only one row.
 TEST(ConvergenceCases, formsArePublishedBestAndStandard) {
     registerMethod({.name = "formed",
@@ -388,7 +388,7 @@ TEST(ConvergenceCrops, areWhereTheSumIsLargest) {
     EXPECT_EQ(second->x, 0);
     EXPECT_EQ(second->y, 1);
     EXPECT_FALSE(largestSquare(values, 4));
-    // no second square exists, since every square contains the middle column
+    // no second square exists, since every 3 × 3 square overlaps the given crop in the middle column
     EXPECT_FALSE(largestSquare(values, 3, Crop{"", 2, 1, 1, 1}));
 }
 

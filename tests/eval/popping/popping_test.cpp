@@ -127,8 +127,8 @@ TEST(PoppingPaths, theBusiestStretchHasTheMostChangesOfLevel) {
 
 // ---- pixels of the objects -----------------------------------------------------------------------------------------
 
-// A pixel of an object with a blur of 6 px marks the pixels within 3 px as pixels of objects. The background marks
-// none.
+// All pixels within 3 px of an object's pixel with a blur of 6 px count as pixels of objects. Background pixels do not
+// affect their surroundings.
 TEST(PoppingPixels, growByHalfTheBlur) {
     Image level(16, 12, 1);
     Image coc(16, 12, 1);

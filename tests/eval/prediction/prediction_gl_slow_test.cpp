@@ -43,8 +43,8 @@ TEST(Prediction, ofPlasterIsRightWithinAFactorOfTwo) {
         if (!row.used) continue;
         ++used;
         EXPECT_LE(row.rendered, 2 * row.predicted) << predictionLine(row);
-        // Full detail is excluded: its error is the noise of 64 samples. The prediction assumes edges in the pixels,
-        // and smooth surfaces have less noise.
+        // Full detail (level 0) is excluded, since its error is only sampling noise. The prediction of this noise
+        // assumes edges in the pixels, but smooth surfaces have less noise.
         if (row.level > 0) {
             EXPECT_LE(row.predicted, 2 * row.rendered) << predictionLine(row);
         }

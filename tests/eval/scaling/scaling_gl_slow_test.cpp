@@ -39,7 +39,8 @@ TEST(Scaling, measuresEachPointOfAnAxisInBothModes) {
     EXPECT_EQ(rows[2].triangles, 10 * rows[0].triangles);
 }
 
-// Small versions of the two large scenes have the requested numbers of meshes and triangle counts.
+// Small versions of the two large scenes have the requested number of meshes and about the requested number of
+// triangles.
 TEST(LargeScenes, areMeasuredAsTheyAre) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const LargeSceneRow instances = measureLargeScene({"instances", 30, 300, true}, {});

@@ -161,8 +161,8 @@ TEST_F(Library, progressMayCancelAPlan) {
     EXPECT_THROW(plan(request_, [](auto...) { throw Cancelled(); }), Cancelled);
 }
 
-// An invalid value, and the function that sets it in a request, without the checks of the text parser. The error
-// message begins with `name`.
+// A function that sets an invalid value in a request, bypassing the checks of the text parser. The error message begins
+// with `name`.
 struct BadValue {
     const char* name;
     std::function<void(Request&)> set;

@@ -1,5 +1,5 @@
-// Tests that the time of a render grows in proportion to the number of roots, nodes, materials and meshes of its file,
-// and that extreme lens values in a file do not multiply it.
+// Tests that the time of a render grows in proportion to the number of roots, nodes, materials and meshes of its file.
+// Extreme lens values in a file must not multiply the time.
 
 #include <ctime>
 #include <functional>

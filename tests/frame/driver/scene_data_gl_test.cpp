@@ -41,7 +41,7 @@ TEST_P(SceneOfFile, rendersWithTheSameBitsFromMemory) {
     EXPECT_GT(std::set<float>(image.pixels.begin(), image.pixels.end()).size(), 10u);  // the image is not empty
 }
 
-// Together, the files have textures, mirrored instances, a camera with unlit parts, vertex colours, and a normal map.
+// Together, the files contain textures, mirrored instances, a camera, unlit materials, vertex colours and a normal map.
 INSTANTIATE_TEST_SUITE_P(, SceneOfFile,
                          testing::Values("Unicode❤♻Test.glb", "NegativeScaleTest.glb", "meshes/bokeh.gltf",
                                          "meshes/fish.glb", "khronos/NormalTangentTest.glb"),
@@ -76,7 +76,7 @@ TEST_F(SceneDataImage, aSquareCoversItsPixels) {
 }
 
 TEST_F(SceneDataImage, texturesKeepTheirColours) {
-    // A texture of two texels side by side, shown without filtering.
+    // The square shows a texture of two texels, side by side, without filtering.
     const std::array<float, 3> corners[] = {{-1, -1, -2}, {1, -1, -2}, {1, 1, -2}, {-1, 1, -2}};
     const std::array<float, 2> uvs[] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
     const std::uint32_t triangles[] = {0, 1, 2, 0, 2, 3};

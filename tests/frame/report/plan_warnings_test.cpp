@@ -11,7 +11,7 @@
 namespace defocus::engine {
 namespace {
 
-// Returns a world of quads of 2 m at these depths, in front of a uniform background, focused at 4 m.
+// Returns a world with quads of 2 × 2 m at these depths in front of a uniform background. The lens is focused at 4 m.
 std::unique_ptr<SmallWorld> quadsAt(const std::vector<double>& depths) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials.push_back(unlitMaterial(glm::vec4(1)));
@@ -187,7 +187,7 @@ TEST(PlanWarnings, ofManyIgnoredThingsAFewAreNamed) {
     EXPECT_EQ(lines.back(), "1,000 more kinds of content are ignored");
 }
 
-// Three nodes share a name, and the request refers to them by --focus-node.
+// Two of three nodes share a name, and --focus-node gives this name.
 TEST(RequestWarnings, listNodesThatShareTheRequestedName) {
     Request request;
     request.focus = FocusNode{"Cube"};

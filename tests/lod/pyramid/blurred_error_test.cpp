@@ -151,7 +151,7 @@ TEST(BlurredError, lostWiresCountByTheirWidthUnderThePixel) {
     }
 }
 
-// If a disk of 60 corners becomes a hexagon, the squared error is the fraction of the area that it loses.
+// If a disk of 60 corners becomes a hexagon, the squared error is the fraction of the disk's area that is lost.
 TEST(BlurredError, aCoarseOutlineCountsByItsArea) {
     std::vector<glm::vec3> hexagon, rest;
     const auto corner = [](int i) {
@@ -240,7 +240,7 @@ TEST(BlurredError, theLevelMeetsItsLimit) {
     ASSERT_GT(pyramid.levels.size(), 4u);
     const std::array sides{0.05, 0.4};
     const auto mean = [&](const auto& squared) { return std::sqrt(squared(sides[0]) + squared(sides[1])); };
-    // Ratio of error to contrast, in front of the background for which this ratio is larger.
+    // Returns the larger of the error-to-contrast ratios in front of the two backgrounds.
     const auto error = [&](std::size_t l) {
         double worst = 0;
         for (const Surround surround : surrounds)

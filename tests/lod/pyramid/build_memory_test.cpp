@@ -60,7 +60,8 @@ TEST(BuildMemory, boundHolds) {
     }
 }
 
-// The bound is at most a few times the memory of the mesh and its levels, so that no plausible memory limit is refused.
+// The bound is at most a few times the memory of the mesh and its levels, so that no mesh is rejected under a plausible
+// memory limit.
 TEST(BuildMemory, boundIsProportionalToTheMesh) {
     const Mesh small = sphere(100, 50), large = sphere(200, 100);
     const PyramidOptions full = fullDetailOnly();

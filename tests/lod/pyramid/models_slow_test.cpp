@@ -42,7 +42,7 @@ std::vector<fs::path> publicModels() {
 
 struct BuiltModel {
     std::vector<Mesh> meshes;
-    std::vector<Pyramid> pyramids;  // one pyramid for each mesh
+    std::vector<Pyramid> pyramids;
 };
 
 // Returns a model with its pyramids, which are built once per process.

@@ -69,7 +69,8 @@ TEST(SurfaceDistance, CylinderAgainstItsInscribedPrism) {
     for (const Distances& way : {d.forward, d.backward}) {
         EXPECT_NEAR(way.maximum, sagitta, 1e-3 * sagitta + ownSagitta);
         EXPECT_NEAR(way.mean, 2 * sagitta / 3, 0.01 * sagitta + ownSagitta);
-        // At 99 of 100 points, the distance is at most sagitta·(1 − 0.0001), since s² exceeds 0.01² of its max.
+        // At 99 of 100 points, the offset s from the side's midpoint exceeds 0.01 of its max. The distance there is at
+        // most sagitta·(1 − 0.01²).
         EXPECT_NEAR(way.percentile99, sagitta, 0.005 * sagitta + ownSagitta);
     }
 }
@@ -123,7 +124,7 @@ TEST(SurfaceDistance, ShiftedTriangle) {
     const Surface still = triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0});
     expectAll(surfaceDistance(still, triangle({0, 0, 2}, {4, 0, 2}, {0, 4, 2}), 500).both, 2, 1e-12);
     const SurfaceDistance d = surfaceDistance(triangle({-1, 0, 0}, {3, 0, 0}, {-1, 4, 0}), still, 4096);
-    // The forward distance is −x on the strip x < 0. Its mean is ∫₀¹ t·(3 + t) dt over the area of 8.
+    // The forward distance is −x on the strip x < 0. Its mean is ∫₀¹ t·(3 + t) dt, divided by the triangle's area of 8.
     EXPECT_NEAR(d.forward.mean, (1.5 + 1.0 / 3) / 8, 0.01);
     EXPECT_NEAR(d.forward.maximum, 1, 0.03);
     // The corner (4, 0) has the max backward distance: 1, to the corner (3, 0). The closest point of the line x + y = 3

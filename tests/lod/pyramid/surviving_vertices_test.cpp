@@ -97,7 +97,7 @@ std::size_t placesOf(const Pyramid& pyramid, const PyramidLevel& level) {
     return places.size();
 }
 
-// The option `quarters` makes three levels, of all, three quarters and half of the vertex positions. This holds for
+// The option `quarters` makes three levels, with all, three quarters and half of the vertex positions. This holds for
 // closed and open surfaces, with and without seams.
 TEST(Quarters, areThreeLevelsOfAllThreeQuartersAndHalfOfTheVertices) {
     for (const Mesh& mesh : {coloured(sphere(64, 32, 0.1)), coloured(torus(64, 40)), coloured(flatGrid(48))}) {

@@ -86,8 +86,8 @@ Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
 }
 
 // Returns the smallest blur width, in object units, under which at least half of `samples` samples draw the level, or
-// nullopt if no blur does. Pixels are as wide as the blur: with more pixels, edges are longer on screen and the
-// selected level is finer.
+// nullopt if there is no such blur. Pixels are assumed to be as wide as the blur. With smaller pixels, edges would be
+// longer in px, and a finer level would be selected.
 std::optional<double> minPatch(const Pyramid& pyramid, std::size_t level, std::uint32_t samples) {
     const double light = defaultThresholds(LodMetric::measured, samples).light;
     const auto isDrawn = [&](double side) {
@@ -116,8 +116,8 @@ TEST(TextureShift, isMeasured) {
 
 class TextureShiftOf : public testing::TestWithParam<const char*> {};
 
-// A level's texture is shifted by less than the width of the smallest blur under which the level is drawn. This is one
-// texel of the mip level that such a blur shows.
+// A level's texture is shifted by less than the width of the smallest blur under which the level is drawn. This width
+// is one texel of the mip level that such a blur shows.
 TEST_P(TextureShiftOf, levelsIsBelowOneTexelOfTheBlur) {
     DEFOCUS_MODEL_OR_SKIP(path, GetParam());
     const Scene scene = loadGltf(path);

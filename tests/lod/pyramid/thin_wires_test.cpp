@@ -1,4 +1,4 @@
-// Tests that the projected area of levels of thin wires equals the wires' area.
+// Tests that levels of thin wires keep the projected area of the wires.
 
 #include <gtest/gtest.h>
 

@@ -22,8 +22,8 @@ TEST(SmoothingGroups, joinNormalsWithinADegreeAtOnePositionOnly) {
     EXPECT_NE(groups[{0}], groups[{3}]);
 }
 
-// Vertices of level 0, and their anchors, points of a coarse level of one triangle with the corners 0, 1 and 2. Anchors
-// are given by barycentric coordinates in that triangle.
+// Vertices of level 0, and their anchors in a coarse level that is a single triangle with the corners 0, 1 and 2. An
+// anchor is a point of that triangle, given by barycentric coordinates.
 struct OneTriangle {
     Vertices vertices;
     Numbered<MeshVertexNumber, Anchor> anchors;
@@ -181,8 +181,8 @@ TEST(LevelFit, textureLiesWhereItDid) {
     EXPECT_LT(shift([&](std::uint32_t k) { return fitted.uv0[{k}]; }), 0.005);
 }
 
-// Texture coordinates at a seam are not fitted. The seam is a second vertex at a corner with different texture
-// coordinates.
+// Texture coordinates at a seam are not fitted. Here, a corner lies on a seam because a second vertex at its position
+// has other texture coordinates.
 TEST(LevelFit, textureCoordinatesAtSeamsStay) {
     OneTriangle t = oneTriangle();
     for (const glm::vec3& p : t.vertices.positions) t.vertices.uv0.emplace_back(0.01f * p.x * p.x, 0.1f * p.y);
@@ -196,7 +196,7 @@ TEST(LevelFit, textureCoordinatesAtSeamsStay) {
     EXPECT_NE(fitted.uv0[{1}], t.vertices.uv0[1]);
 }
 
-// Vertices of another UV chart do not affect the fit of this chart's texture coordinates.
+// The texture coordinates of one UV chart are fitted without regard to vertices of other charts.
 TEST(LevelFit, otherChartsDoNotPullAtATexture) {
     OneTriangle t = oneTriangle();
     for (const glm::vec3& p : t.vertices.positions) t.vertices.uv0.emplace_back(0.1f * p.x, 0.1f * p.y);

@@ -7,8 +7,8 @@
 namespace defocus::engine {
 namespace {
 
-// Returns a plan of a thin lens with an aperture of 0.1 m, focused at 2 m, a field of view of 90° and 1000 × 750 px.
-// The blur at depth z is c = 50·|1/2 − 1/z| px.
+// Returns a plan for an image of 1000 × 750 px with a field of view of 90°. The thin lens has an aperture of 0.1 m and
+// is focused at 2 m, so the blur at depth z is c = 50·|1/2 − 1/z| px.
 FramePlan planOfLens() {
     FramePlan plan;
     plan.view.width = 1000;

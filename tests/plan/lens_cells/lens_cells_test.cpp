@@ -99,8 +99,9 @@ TEST(LensCells, middlesKeepApart) {
     EXPECT_GT(apart, 1.0 / 8);  // half the width of 64 equal disks with the lens's total area, in lens radii
 }
 
-// Returns the RMS difference between two blurred straight edges, over positions of the edge: one blurred by a disk, the
-// other by Gaussians of `sigma` at `points`. Lengths are in lens radii; the edge's normal has the direction `angle`.
+// Returns the RMS difference between two blurred images of a straight edge, over positions across the edge: one blurred
+// by a disk, the other by Gaussians of `sigma` at `points`. Lengths are in lens radii; the edge's normal has the
+// direction `angle`.
 double edgeError(const std::vector<glm::vec2>& points, double sigma, double angle) {
     double squares = 0;
     int places = 0;
@@ -116,8 +117,8 @@ double edgeError(const std::vector<glm::vec2>& points, double sigma, double angl
     return std::sqrt(squares / places);
 }
 
-// Images that are blurred by lens cells, regions of the lens, show edges of every direction almost as blurred by a
-// disk. Rows and columns of lens points would blur vertical and horizontal edges in steps.
+// With lens cells (regions of the lens), edges of every direction look almost as if blurred by a disk. Rows and columns
+// of lens points would blur vertical and horizontal edges in steps.
 TEST(LensCells, edgesAreBlurredAsByADisk) {
     const auto small = muchBlurred();
     for (const std::uint32_t count : {16u, 24u, 32u, 64u, 128u}) {

@@ -78,8 +78,8 @@ TEST(ShadowPlan, aUniformSkyCountsByItsIlluminance) {
     EXPECT_NEAR(shares[1], 0.5, 1e-3);
 }
 
-// A weak lamp 0.3 m from the wall illuminates the nearest part of the wall more than the sun does. From as far away as
-// the scene's radius, the lamp would give only 0.2 % of the illuminance.
+// A weak lamp 0.3 m from the wall illuminates the nearest part of the wall more than the sun does. At a distance equal
+// to the scene's radius, the lamp would give only 0.2 % of the sun's illuminance.
 TEST(ShadowPlan, aWeakLampNearASurfaceCastsShadows) {
     const auto small = wallWithoutLights();
     addLight(*small, LightType::directional, 2, {});

@@ -51,7 +51,7 @@ TEST(UsdCamera, convertsCentimetres) {
     EXPECT_LT(glm::distance(glm::dvec3(tracked.worldFromCamera[3]), glm::dvec3(1, 0.2, 3)), 1e-12);
 }
 
-// If an image has another aspect ratio than the sensor, the sensor is extended, as by USD's policy "expandAperture".
+// If image and sensor differ in aspect ratio, the sensor is extended, as by USD's policy "expandAperture".
 TEST(UsdCamera, showsTheWholeSensor) {
     Pose pose;
     pose.tracked = camera(usda_samples::plain).at(0);
