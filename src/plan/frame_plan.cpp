@@ -413,6 +413,13 @@ void noteLevels(FramePlan& plan, const World& world) {
 
 }  // namespace
 
+FramePlan withoutObjects(FramePlan plan) {
+    plan.objects.clear();
+    plan.blendOrder.clear();
+    plan.shadows = {};
+    return plan;
+}
+
 const VisibleLevel* visibleLevel(const ObjectPlan& object, std::uint32_t level) {
     const auto found = std::find_if(object.visible.begin(), object.visible.end(),
                                     [&](const VisibleLevel& visible) { return visible.level == level; });

@@ -179,6 +179,9 @@ inline constexpr std::uint32_t antialiasingSamples = 16;
 // A frame is drawn with a pinhole if all CoC diameters are below this value, unless RenderSettings::keepAll is set.
 inline constexpr double minBlur = 0.5;  // px
 
+// Returns the plan of the same frame without objects, which draws only the background.
+FramePlan withoutObjects(FramePlan plan);
+
 // Returns the unculled part of `level`, or null if the level is drawn completely.
 const VisibleLevel* visibleLevel(const ObjectPlan& object, std::uint32_t level);
 

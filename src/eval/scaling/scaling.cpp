@@ -65,9 +65,7 @@ TimedMode timedMode(const ScalingWorld& world, const ScalingPoint& point, LodMod
     timed.renderer = method.make(world.world, options);
     timed.smallRenderer = method.make(world.world, options);
     timed.complete = planOf(world, point, mode);
-    timed.empty = timed.complete;
-    timed.empty.objects.clear();
-    timed.empty.blendOrder.clear();
+    timed.empty = withoutObjects(timed.complete);
     timed.small = timed.complete;
     timed.small.view.width = std::max(1, point.width / smallFactor);
     timed.small.view.height = std::max(1, point.height / smallFactor);

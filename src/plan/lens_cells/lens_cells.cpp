@@ -79,17 +79,16 @@ void rotate(std::vector<LensSample>& samples, double angle) {
     for (LensSample& sample : samples) sample.lens = rotation * sample.lens;
 }
 
-// Moves each sample to the mean point of its lens cell, the region of the lens that the sample represents. A cell is
-// given by further points of the sequence, which are divided evenly among nearby samples. The division runs along two
-// axes, so the mean points form rows and columns. The axes are rotated, so that adjacent columns interleave across a
-// blurred vertical or horizontal edge.
+// Moves each of the frame's samples, from index 0 on, to the mean point of its lens cell, the region of the lens that
+// the sample represents. A cell is given by further points of the sequence, which are divided evenly among nearby
+// samples. The division runs along two axes, so the mean points form rows and columns. The axes are rotated, so that
+// adjacent columns interleave across a blurred vertical or horizontal edge.
 void moveToMeans(std::vector<LensSample>& samples, const FramePlan& plan) {
     const auto count = static_cast<std::uint32_t>(samples.size());
     const std::uint32_t points = std::min(maxPointsOfCell, maxPoints / count);
     if (points < 2) return;
     std::vector<LensSample> dense =
-        lensSamples(plan.view.lens, plan.settings.sequence, std::uint64_t{plan.frameFirst} * points, count * points,
-                    plan.settings.seed);
+        lensSamples(plan.view.lens, plan.settings.sequence, 0, count * points, plan.settings.seed);
     const double turn = 0.5 / std::sqrt(static_cast<double>(count));
     rotate(dense, -turn);
     rotate(samples, -turn);
@@ -166,11 +165,14 @@ LensCells lensCells(const FramePlan& plan) {
     cells.behind = classesFor(blur, behind);
     cells.blur = blur;
     cells.firstSample = plan.frameFirst;
-    std::vector<LensSample> samples = lensSamples(plan.view.lens, plan.settings.sequence, plan.frameFirst,
-                                                  plan.frameSamples - plan.frameFirst, plan.settings.seed);
+    // Samples that were drawn in earlier batches take part in the division. Otherwise the cells of every batch would
+    // have nearly the same centres, and many batches would show them as ghost copies.
+    std::vector<LensSample> samples =
+        lensSamples(plan.view.lens, plan.settings.sequence, 0, plan.frameSamples, plan.settings.seed);
+    moveToMeans(samples, plan);
+    samples.erase(samples.begin(), samples.begin() + plan.frameFirst);
     for (const LensSample& sample : samples)
         cells.pixelShift -= glm::dvec2(sample.pixel) / static_cast<double>(samples.size());
-    moveToMeans(samples, plan);
     // For a CoC of c px, the lens point (1, 0) moves the image by c/2 px. A blur with σ = blur·c px in the image
     // therefore corresponds to σ = 2·blur on the lens.
     cells.middles = matched(samples, lens, 4 * blur * blur);

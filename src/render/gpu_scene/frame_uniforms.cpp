@@ -230,7 +230,7 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
 
     // Compute the sky's offset per lens sample, in units of the image plane at distance 1. The circle of confusion is C
     // = a + b·w at depth w, so C/w = b at infinity, and lens point and jitter shift the sky by a fixed offset. With
-    // blur controls, C/w depends on the pixel, and the shader multiplies it by the lens point. The buffer is padded to
+    // blur modifiers, C/w depends on the pixel, and the shader multiplies it by the lens point. The buffer is padded to
     // complete blocks, which are bound one at a time.
     const glm::vec2 imagePlane(plan.tanHalfHorizontal, plan.tanHalfHorizontal * plan.view.height / plan.view.width);
     const double dioptres = plan.coc.chromatic > 0 ? plan.view.lens.axialChromaticAberration : 0;

@@ -182,11 +182,7 @@ private:
                                          .defines = layerFormatDefines(sum_->info().format),
                                          .vertexShaderLayers = vertexShaderLayers(),
                                          .shaderFolder = options_.shaderFolder});
-        FramePlan empty = plan_;
-        empty.objects.clear();
-        empty.blendOrder.clear();
-        empty.shadows = {};
-        sky_->prepare(empty, frame_);
+        sky_->prepare(withoutObjects(plan_), frame_);
     }
 
     // Draws the environment behind the content of the layers.

@@ -30,8 +30,8 @@ public:
 private:
     const PinholeImage* opaque_;
     PinholeImage image_;
-    GlTexture surfaceDepth_, surfaceOwnBlur_;  // depth and blur controls of the bucket's nearest surfaces
-    GlTexture known_;                          // depth and blur controls with mip levels, for extrapolation
+    GlTexture surfaceDepth_, surfaceOwnBlur_;  // depth and blur modifiers of the bucket's nearest surfaces
+    GlTexture known_;                          // depth and blur modifiers with mip levels, for extrapolation
     Target colorTarget_, surfaceTarget_, knownTarget_, imageTarget_;
     Program know_, fill_;
     Fullscreen fullscreen_;

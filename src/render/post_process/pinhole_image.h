@@ -12,12 +12,12 @@ namespace defocus::engine {
 struct PinholeImage {
     PinholeImage() = default;
     // `format` must have alpha (rgba16f, rgba32f). `depthFormat` is depth32f, or r32f if a fragment shader writes the
-    // depth. If `keepsOwnBlur`, the blur controls of surfaces are also stored. `samples`: samples per pixel; above 1,
+    // depth. If `keepsOwnBlur`, the blur modifiers of surfaces are also stored. `samples`: samples per pixel; above 1,
     // the image is multisampled.
     PinholeImage(int width, int height, LayerFormat format, TextureFormat depthFormat, bool keepsOwnBlur,
                  int samples = 1);
 
-    // Binds depth and blur controls for shaders/include/pinhole.glsl.
+    // Binds depth and blur modifiers for shaders/include/pinhole.glsl.
     void attachForBlur() const;
     // Sets the texture swizzle of `color`: if `on`, shaders read the coverage in red, green and blue; otherwise the
     // radiance.
@@ -26,7 +26,7 @@ struct PinholeImage {
 
     GlTexture color;    // premultiplied linear radiance, with coverage as alpha
     GlTexture depth;    // reversed: near plane / distance; 0 is infinity
-    GlTexture ownBlur;  // blur controls of surfaces: factor and offset; empty if no surface has blur controls
+    GlTexture ownBlur;  // blur modifiers of surfaces: factor and offset; empty if no surface has blur controls
     // Rectangle outside which the blurred image is black with zero coverage and need not be drawn. nullopt: full image.
     std::optional<TexelRectangle> part;
     const PinholeImage* multisampled = nullptr;  // the same image before its samples were averaged; null: none

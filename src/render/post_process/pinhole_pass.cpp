@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t lightPoints = 16;  // points on each light for soft shadows in a pinhole image
 
-// Enables or disables writing the surfaces' blur controls. The sky and translucent surfaces must not change them.
+// Enables or disables writing the surfaces' blur modifiers. The sky and translucent surfaces must not change them.
 void writeOwnBlur(bool on) {
     const GLboolean mask = on ? GL_TRUE : GL_FALSE;
     glColorMaski(1, mask, mask, mask, mask);

@@ -23,7 +23,7 @@ FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t c
 
 class PinholePass {
 public:
-    // `format` must have alpha (rgba16f, rgba32f). If `ownBlur`, the blur controls of surfaces are also stored. With
+    // `format` must have alpha (rgba16f, rgba32f). If `ownBlur`, the blur modifiers of surfaces are also stored. With
     // `samples` > 1 per pixel, the image is multisampled. Needs a current OpenGL context.
     PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool ownBlur, int samples,
                 const std::filesystem::path& shaderFolder);
