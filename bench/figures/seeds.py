@@ -195,7 +195,7 @@ def kernel_errors():
     """Returns (error, lowest value) of our kernels with one and two components, and of Niemitalo's kernels."""
     rows = {}
     wanted = False
-    for line in lines_of("llvmpipe-post-process"):
+    for line in lines_of("llvmpipe-circular-kernels"):
         if re.match(r"[A-Z]", line):
             wanted = line.startswith(("With the corners' guard", "Published, rescaled"))
         if wanted and re.match(r" \d  1\.000", line):
@@ -226,7 +226,7 @@ def garcia():
         ["A sum of complex Gaussians is a disk, and separable", "[circular_kernel.h](../src/render/circular/circular_kernel.h)",
          "`CircularKernel.factorsOfTwoAxesMultiplyToACircle`, `ComplexBlurs.twoPassesGiveTheWholeKernel`", "constants of two components",
          f"RMS distance from a disk of height 1, over its square: Niemitalo's one and two components {theirs1[0]:.3f} and {theirs2[0]:.3f}, ours "
-         f"{ours1[0]:.3f} and {ours2[0]:.3f} ([`defocus_circular_fit`](../bench/results/llvmpipe-post-process.txt)); outside the disk, ours with "
+         f"{ours1[0]:.3f} and {ours2[0]:.3f} ([the run](../bench/results/llvmpipe-circular-kernels.txt) of commit 45c048f6ba08); outside the disk, ours with "
          f"two components fall to −{-ours2[1]:.2f} and his to −{-theirs2[1]:.2f}"],
         ["The kernel at the eight taps has the printed constants", "`--kernel published`: exp(−a·x²) at x = tap / 8. The slide prints a sign with which exp would grow with x; the sign and x are our "
          "reading. The constants of one component are from his public generator",
