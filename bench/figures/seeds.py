@@ -211,11 +211,11 @@ def garcia():
     separable, direct = numbers_after(lines_of("llvmpipe-post-process"), "  exponent")
     kernels = kernel_errors()
     (ours1, theirs1), (ours2, theirs2) = kernels[1], kernels[2]
-    ten_bits = lines_with("llvmpipe-post-process", "circular:near-components=1,storage=r10g10b10a2")[0][0]
+    ten_bits = lines_with("llvmpipe-circular-kernels", "circular:near-components=1,storage=r10g10b10a2")[0][0]
     full_gather = lines_with("llvmpipe-post-process", "circular:near-components=1,kernel=published,convolution=direct")[0][-1]
     slide = [numbers(line)[-1] for line in lines_of("llvmpipe-post-process") if "max-coc=published" in line]
     one_pass = {(size, radius): share for size, _, radius, _, _, share in
-                (numbers(line) for line in lines_of("llvmpipe-post-process") if line.endswith(" %"))}
+                (numbers(line) for line in lines_of("llvmpipe-circular-kernels") if line.endswith(" %"))}
     fish, chess = (flips(scene, "circular (published)", "circular, standard", "circular (best)") for scene in ("fish school", "chess.glb"))
     coverage = [flips(scene, "circular, standard", "circular, near-field=coverage")
                 for scene in ("fish school", "chess.glb", "artefact-half-discs.gltf")]
@@ -259,7 +259,7 @@ def garcia():
          f"{bias[2]:.1f} instead of {bias[0]:.1f} dB on a scene made to show ghosting, where a constant bias gives {bias[1]:.1f} dB; worse on "
          f"the fish (FLIP {by_luminance[0]} instead of {by_luminance[1]}), so off by default"],
         ["Near and far field are blurred in one pass through several targets", "not implemented, because the number of taps would stay",
-         "`defocus_post_process_bench` ([the run](../bench/results/llvmpipe-post-process.txt))", "–",
+         "[the run](../bench/results/llvmpipe-circular-kernels.txt) of commit 45c048f6ba08", "–",
          "if all work beside the taps were shared, at most " + ", ".join(f"{one_pass[512, radius]:.0f}" for radius in (2, 8, 32))
          + " % less time at radii of 2, 8 and 32 px"],
         ["Transparent surfaces are blurred in depth buckets",
