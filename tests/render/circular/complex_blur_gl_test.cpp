@@ -173,7 +173,7 @@ TEST_F(ComplexBlurs, publishedBracketsLoseLessThanRanges) {
         info.storage = ComplexStorage::rgb10A2;
         return largestDifference(exact, blurred(info, blocks(), filled(1, 8)));
     };
-    EXPECT_LT(lost(ComplexTaps::eight), 0.7 * lost(ComplexTaps::sets));
+    EXPECT_LT(lost(ComplexTaps::eight), 0.7 * lost(ComplexTaps::exact));
 }
 
 }  // namespace
