@@ -1,9 +1,6 @@
 // Measures the method "circular" (Garcia 2018):
 // - the time of the separable blur as a function of the radius, compared with a direct gather of the same kernel over
 //   its complete square;
-// - the time that a single pass for near and far field could save;
-// - the flatness of the disks as a function of the number of components;
-// - the error of storage formats;
 // - the times of the variants that the performance slide of Garcia 2018 compares.
 //
 // Held constant within a table: image, process, kernel. Variants run alternately; the median time counts. Checks that
@@ -16,10 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <numbers>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -28,7 +22,6 @@
 #include "gl/context.h"
 #include "gl/read_back.h"
 #include "image/metrics.h"
-#include "render/circular/circular_kernel.h"
 #include "render/circular/complex_blur.h"
 #include "render/methods.h"
 #include "run_bench.h"
@@ -113,90 +106,6 @@ void costOverRadius() {
                exponent(radii, directTimes));
 }
 
-// Prints an upper bound on the time that passes would save by blurring near and far field together. Such passes would
-// still read, weight and write both fields, so they could save at most the time of one field's passes without taps.
-void savedByOnePass() {
-    fmt::print(
-        "A field's passes, two components, ms (median of {}), and the share that one pass for both fields could save "
-        "at "
-        "most\n{:>12} {:>10} {:>12} {:>12} {:>10}\n",
-        runs, "size px", "radius px", "with taps", "without", "share");
-    for (const auto& [width, height] : {std::pair(512, 384), std::pair(1024, 768)}) {
-        const GlTexture field = textureOf(filled(width, height, 4, 1), TextureFormat::rgba16f);
-        const GlTexture none = textureOf(filled(width, height, 1, 0), TextureFormat::r32f);
-        ComplexBlur blur({.width = width, .height = height, .components = 2, .shaderFolder = {}});
-        for (const float r : {2.0f, 8.0f, 32.0f}) {
-            const GlTexture radius = textureOf(filled(width, height, 1, r), TextureFormat::r32f);
-            std::vector<double> with, without;
-            for (int i = 0; i <= runs; ++i) {
-                const double first = milliseconds(blur, field, radius);
-                const double second = milliseconds(blur, field, none);
-                if (i == 0) continue;  // don't count the run that compiles the shaders
-                with.push_back(first);
-                without.push_back(second);
-            }
-            const double taps = spreadOf(with).median;
-            const double noTaps = spreadOf(without).median;
-            fmt::print("{:>12} {:>10} {:>12.2f} {:>12.2f} {:>8.0f} %\n", fmt::format("{} x {}", width, height), r, taps,
-                       noTaps, 100 * noTaps / (2 * taps));
-        }
-    }
-    fmt::print("\n");
-}
-
-void disks() {
-    constexpr int size = 128;
-    constexpr double radiusAsked = 32;
-    fmt::print(
-        "A point of light by components: disk of {} px asked; level 1 is the ideal disk's. The passes' time is of {} x "
-        "{} "
-        "px\n{:>10} {:>10} {:>10} {:>12} {:>12} {:>12} {:>10} {:>10}\n",
-        radiusAsked, size, size, "components", "radius px", "energy", "ripple rms", "ripple most", "edge px", "below 0",
-        "ms");
-    Image point(size, size, 4);
-    constexpr int centre = size / 2;
-    for (int c = 0; c < 4; ++c) point.at(centre, centre)[c] = 1;
-    const double level = 1 / (std::numbers::pi * radiusAsked * radiusAsked);
-    for (int components = 1; components <= circularKernelLimit; ++components) {
-        ComplexBlur blur({.width = size,
-                          .height = size,
-                          .components = components,
-                          .storage = ComplexStorage::float32,
-                          .shaderFolder = {}});
-        const GlTexture field = textureOf(point, TextureFormat::rgba32f);
-        const GlTexture radius = textureOf(filled(size, size, 1, static_cast<float>(radiusAsked)), TextureFormat::r32f);
-        std::vector<double> times;
-        for (int i = 0; i < runs; ++i) times.push_back(milliseconds(blur, field, radius));
-        const Image image = readBack(blur.result(), 4);
-        double energy = 0, moment = 0, ripple = 0, max = 0, inside = 0, below = 0;
-        for (int y = 0; y < size; ++y)
-            for (int x = 0; x < size; ++x) {
-                const double value = *image.at(x, y);
-                const double r = std::hypot(x - centre, y - centre);
-                energy += value;
-                moment += value * r * r;
-                below += std::min(value, 0.0);
-                if (r > 0.9 * radiusAsked) continue;
-                const double deviation = value / level - 1;
-                ripple += deviation * deviation;
-                max = std::max(max, std::abs(deviation));
-                inside += 1;
-            }
-        // Measure the width of the disk's edge, from 90 % to 10 % of the value inside the disk, along the row through
-        // its centre.
-        double high = 0, low = size;
-        for (int x = centre; x < size; ++x) {
-            const double value = *image.at(x, centre) / level;
-            if (value > 0.9) high = x - centre;
-            if (value < 0.1 && low == size) low = x - centre;
-        }
-        fmt::print("{:>10} {:>10.2f} {:>10.4f} {:>12.4f} {:>12.4f} {:>12.1f} {:>10.4f} {:>10.2f}\n", components,
-                   std::sqrt(2 * moment / energy), energy, std::sqrt(ripple / inside), max, low - high, below,
-                   spreadOf(times).median);
-    }
-    fmt::print("\n");
-}
-
 struct Measured {
     std::string method;
     Image image;
@@ -241,44 +150,19 @@ void printDifferences(const Image& reference, const std::vector<Measured>& all) 
     }
 }
 
-void printHead() {
-    fmt::print("{:<132} {:>9} {:>9} {:>9} {:>8} {:>9}\n", "method", "PSNR dB", "FLIP", "largest", "GPU MB", "frame ms");
-}
-
-PreparedFrame school(std::optional<double> fStop) {
-    Request scene;
-    scene.size.width = 512;
-    scene.size.height = 384;
-    scene.lens.fStop = fStop;
-    return prepareFrame(scene);
-}
-
-// Prints the error of the image for each storage format, relative to storage in 32-bit floats.
-void storages() {
-    const PreparedFrame frame = school(0.95);
-    fmt::print("Storage, school of fish at {} x {} px, f/{}, against 32-bit floats\n", frame.view.width,
-               frame.view.height, frame.view.lens.fStop);
-    printHead();
-    for (const char* components : {"near-components=1,far-components=2", "near-components=5,far-components=5"}) {
-        std::vector<std::string> methods;
-        for (const char* storage : {"float", "half", "r10g10b10a2"})
-            methods.push_back(fmt::format("circular:{},storage={}", components, storage));
-        const std::vector<Measured> all = measured(frame, methods);
-        printDifferences(all.front().image, all);
-    }
-    fmt::print("\n");
-}
-
 // Repeats the comparison on the performance slide of Garcia 2018: blur at half the width with one kernel component, and
 // at a quarter of the width with two. The baseline is a gather over the square at both sizes, and at full size without
 // a limit on the blur.
 void slideOfPerformance() {
-    PreparedFrame frame = school({});
+    Request scene;
+    scene.size.width = 512;
+    scene.size.height = 384;
+    PreparedFrame frame = prepareFrame(scene);
     constexpr std::uint32_t samples = 1024;
     fmt::print(
         "As on the slide on performance, school of fish at {} x {} px, f/{}, against accumulation with {} samples\n",
         frame.view.width, frame.view.height, frame.view.lens.fStop, samples);
-    printHead();
+    fmt::print("{:<132} {:>9} {:>9} {:>9} {:>8} {:>9}\n", "method", "PSNR dB", "FLIP", "largest", "GPU MB", "frame ms");
     const std::string common =
         "circular:near-components=1,far-components={},resolution={},kernel=published,max-coc=published,"
         "transparency-buckets=0,pinholes=1,{}";
@@ -297,9 +181,6 @@ int run() {
     const auto context = createHeadlessContext();
     fmt::print("{}, {}\n\n", context->device(), context->driver());
     costOverRadius();
-    savedByOnePass();
-    disks();
-    storages();
     slideOfPerformance();
     return 0;
 }

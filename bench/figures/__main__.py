@@ -24,6 +24,7 @@ COMMANDS = {  # each name is a module of this package, with "-" for "_"
     "positions": "measure what four pixel positions per lens sample save and change",
     "refocus": "compare refocused with rendered pictures",
     "blending": "measure the noise of alpha-blended surfaces",
+    "circular-fit": "fit the complex kernels of method circular to a disk",
     "endurance": "measure long films, kills, fuzzing and files of many parts",
     "latency": "measure how fast the window answers the mouse",
     "cold": "measure the time to the first picture of a scene, with empty caches",

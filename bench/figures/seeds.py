@@ -195,7 +195,7 @@ def kernel_errors():
     """Returns (error, lowest value) of our kernels with one and two components, and of Niemitalo's kernels."""
     rows = {}
     wanted = False
-    for line in lines_of("llvmpipe-post-process"):
+    for line in lines_of("llvmpipe-circular-kernels"):
         if re.match(r"[A-Z]", line):
             wanted = line.startswith(("With the corners' guard", "Published, rescaled"))
         if wanted and re.match(r" \d  1\.000", line):
@@ -211,11 +211,11 @@ def garcia():
     separable, direct = numbers_after(lines_of("llvmpipe-post-process"), "  exponent")
     kernels = kernel_errors()
     (ours1, theirs1), (ours2, theirs2) = kernels[1], kernels[2]
-    ten_bits = lines_with("llvmpipe-post-process", "circular:near-components=1,storage=r10g10b10a2")[0][0]
+    ten_bits = lines_with("llvmpipe-circular-kernels", "circular:near-components=1,storage=r10g10b10a2")[0][0]
     full_gather = lines_with("llvmpipe-post-process", "circular:near-components=1,kernel=published,convolution=direct")[0][-1]
     slide = [numbers(line)[-1] for line in lines_of("llvmpipe-post-process") if "max-coc=published" in line]
     one_pass = {(size, radius): share for size, _, radius, _, _, share in
-                (numbers(line) for line in lines_of("llvmpipe-post-process") if line.endswith(" %"))}
+                (numbers(line) for line in lines_of("llvmpipe-circular-kernels") if line.endswith(" %"))}
     fish, chess = (flips(scene, "circular (published)", "circular, standard", "circular (best)") for scene in ("fish school", "chess.glb"))
     coverage = [flips(scene, "circular, standard", "circular, near-field=coverage")
                 for scene in ("fish school", "chess.glb", "artefact-half-discs.gltf")]
@@ -226,7 +226,7 @@ def garcia():
         ["A sum of complex Gaussians is a disk, and separable", "[circular_kernel.h](../src/render/circular/circular_kernel.h)",
          "`CircularKernel.factorsOfTwoAxesMultiplyToACircle`, `ComplexBlurs.twoPassesGiveTheWholeKernel`", "constants of two components",
          f"RMS distance from a disk of height 1, over its square: Niemitalo's one and two components {theirs1[0]:.3f} and {theirs2[0]:.3f}, ours "
-         f"{ours1[0]:.3f} and {ours2[0]:.3f} ([`defocus_circular_fit`](../bench/results/llvmpipe-post-process.txt)); outside the disk, ours with "
+         f"{ours1[0]:.3f} and {ours2[0]:.3f} ([the run](../bench/results/llvmpipe-circular-kernels.txt) of commit 45c048f6ba08); outside the disk, ours with "
          f"two components fall to −{-ours2[1]:.2f} and his to −{-theirs2[1]:.2f}"],
         ["The kernel at the eight taps has the printed constants", "`--kernel published`: exp(−a·x²) at x = tap / 8. The slide prints a sign with which exp would grow with x; the sign and x are our "
          "reading. The constants of one component are from his public generator",
@@ -259,7 +259,7 @@ def garcia():
          f"{bias[2]:.1f} instead of {bias[0]:.1f} dB on a scene made to show ghosting, where a constant bias gives {bias[1]:.1f} dB; worse on "
          f"the fish (FLIP {by_luminance[0]} instead of {by_luminance[1]}), so off by default"],
         ["Near and far field are blurred in one pass through several targets", "not implemented, because the number of taps would stay",
-         "`defocus_post_process_bench` ([the run](../bench/results/llvmpipe-post-process.txt))", "–",
+         "[the run](../bench/results/llvmpipe-circular-kernels.txt) of commit 45c048f6ba08", "–",
          "if all work beside the taps were shared, at most " + ", ".join(f"{one_pass[512, radius]:.0f}" for radius in (2, 8, 32))
          + " % less time at radii of 2, 8 and 32 px"],
         ["Transparent surfaces are blurred in depth buckets",
@@ -289,11 +289,11 @@ def tzeng():
     three = {row[1]: row[7] for row in next(iter(lens_levels().values())) if row[0] == 16}
     return [
         ["Lines through the lens are weighted by κ, which is needed (Figure 4)",
-         "[line_weights.h](../src/render/line/line_weights.h), `--line-weights`",
-         "`LineWeights.areThePapersKappa`, `LineWeights.giveARegionItsShareOfTheDisk`, `LensSpaceAlone.kappaMakesDisksUniform`", "pictures",
+         "[weights.glsl](../shaders/line/weights.glsl), `--line-weights`",
+         "`LensSpaceAlone.kappaMakesDisksUniform`, `LensSpace.convergesToTheAccumulation`", "pictures",
          "without κ, the middle of a blurred point is more than 1.5 times as bright as its rim"],
-        ["Visibility along a line is exact", "[line_triangle.h](../src/render/line/line_triangle.h)",
-         "`LineTriangles.coverTheLineWhereTheirPointsDo`, `LensSpaceAlone.exactLinesFindIntersections`", "–", "–"],
+        ["Visibility along a line is exact", "[line.glsl](../shaders/line/line.glsl)",
+         "`LensSpaceAlone.exactLinesFindIntersections`, `LensSpace.convergesToTheAccumulation`", "–", "–"],
         ["Several lines share a spatial sample (Figure 2)", "`--lines-per-position`; 4 in the preset, our choice",
          "`LensSpaceAlone.linesShareSpatialPositions`", "–", "–"],
         ["Tiles have bins of fixed size", "`--bin-size`; 65,536 triangles in the preset, our choice",

@@ -1,6 +1,5 @@
-// Measures how tiny changes of λ, the fractional level of detail, change how many samples draw an object with each of
-// two levels. When λ passes an integer or a value at which a sample switches levels, at most one sample may switch, in
-// the plan and in the image.
+// Measures how tiny changes of λ, the fractional level of detail, change an image whose samples draw an object with two
+// levels. When λ passes an integer or a value at which a sample switches levels, at most one sample may switch.
 
 #include <fmt/format.h>
 
@@ -19,23 +18,6 @@ namespace {
 constexpr double nudge = 1e-6;                 // tiny change of λ
 constexpr double oneSample = 1 + 1e-4;         // max change: one sample, plus rounding of 32-bit layers
 constexpr std::uint32_t renderedSamples = 60;  // not a multiple of the number of samples drawn together
-
-// Returns the number of samples that change their level when the fractional level λ crosses the integer `level`.
-double splitError(double level, std::uint32_t samples) {
-    const auto levelsOf = [&](double lambda) {
-        const SampleSplit split = splitSamples(lambda, samples, LodMode::fractional);
-        std::vector<std::uint32_t> levels(samples, split.level);
-        std::fill_n(levels.begin(), split.coarseCount, split.level + 1);
-        return levels;
-    };
-    const std::vector<std::uint32_t> below = levelsOf(level - nudge);
-    const std::vector<std::uint32_t> above = levelsOf(level + nudge);
-    double moved = 0;
-    for (std::uint32_t i = 0; i < samples; ++i) moved += below[i] != above[i] ? 1 : 0;
-    return moved;
-}
-
-// ---- the rendered scene: a ball -------------------------------------------------------------------------------------
 
 // Returns a unit sphere made of rings of quads. Its levels have different silhouettes.
 Mesh ballMesh() {
@@ -98,12 +80,6 @@ double movedSamples(double from, double to, LodMode mode) {
 }  // namespace
 
 void addSplitCases(std::vector<StabilityCase>& cases) {
-    for (const double level : {1.0, 2.0, 5.0})
-        for (const std::uint32_t samples : {1u, 7u, 64u, 4096u})
-            cases.push_back({"levels", fmt::format("level {:g} by ±1e-6, {} samples", level, samples),
-                             "samples that change level", "at most one", 1,
-                             [level, samples] { return splitError(level, samples); }});
-
     const auto add = [&](std::string name, double limit, double from, double to, LodMode mode) {
         cases.push_back({"levels", std::move(name), "an image's change, samples", "at most one", limit,
                          [=] { return movedSamples(from, to, mode); }});

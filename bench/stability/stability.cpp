@@ -24,7 +24,6 @@ std::vector<StabilityCase> stabilityCases() {
     addSpaceCases(cases);
     addValueCases(cases);
     addSplitCases(cases);
-    addLevelCases(cases);
     addTracedCases(cases);
     return cases;
 }

@@ -43,7 +43,6 @@ void addMotionCases(std::vector<StabilityCase>& cases);
 void addSpaceCases(std::vector<StabilityCase>& cases);
 void addValueCases(std::vector<StabilityCase>& cases);
 void addSplitCases(std::vector<StabilityCase>& cases);
-void addLevelCases(std::vector<StabilityCase>& cases);
 void addTracedCases(std::vector<StabilityCase>& cases);
 
 }  // namespace defocus::engine

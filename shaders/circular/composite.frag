@@ -5,7 +5,7 @@
 #include "include/pinhole.glsl"
 #include "circular/clear_image.glsl"
 
-layout(binding = 2) uniform sampler2D farBlurred;    // blurred far field; with combinedFields, the sum of both fields
+layout(binding = 2) uniform sampler2D farBlurred;
 layout(binding = 3) uniform sampler2D nearBlurred;
 layout(binding = 4) uniform sampler2D nearRadii;     // radii within which the near field was gathered, in field px
 layout(location = 2) uniform float perNearDiameter;  // 1 / (largest CoC diameter in front of the focus plane in px)
@@ -52,19 +52,12 @@ void main() {
     vec4 behind = textureLod(farBlurred, place, 0.0);
     float own = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
     float farShare = clamp(diameter / float(reduction) - 1.0, 0.0, 1.0);  // fades in at diameters of 1 to 2 field px
-    vec3 color;
-    if (combinedFields) {
-        own += clamp(-diameter, 0.0, 1.0);
-        float share = max(farShare, clamp(behind.a * blendBias, 0.0, 1.0));
-        color = mix(sharp, radianceOf(behind, own, sharp), share);
-    } else {
-        color = mix(sharp, radianceOf(behind, own, sharp), farShare);
-        vec4 before = textureLod(nearBlurred, place, 0.0);
-        float coverage = coverageOf(before.a, place);
-        if (blendBias > 0.0 && coverage > 0.0) {
-            vec3 near = max(before.rgb, vec3(0.0)) / max(before.a, 1e-12);
-            color = mix(color, near, clamp(coverage * biasOf(coverage, near, color), 0.0, 1.0));
-        }
+    vec3 color = mix(sharp, radianceOf(behind, own, sharp), farShare);
+    vec4 before = textureLod(nearBlurred, place, 0.0);
+    float coverage = coverageOf(before.a, place);
+    if (blendBias > 0.0 && coverage > 0.0) {
+        vec3 near = max(before.rgb, vec3(0.0)) / max(before.a, 1e-12);
+        color = mix(color, near, clamp(coverage * biasOf(coverage, near, color), 0.0, 1.0));
     }
     image = vec4(color, 1.0);
     if (bracketed) image = inTenBits(image);

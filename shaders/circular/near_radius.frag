@@ -2,12 +2,10 @@
 // near surfaces whose disks may reach the pixel.
 layout(binding = 0) uniform sampler2D ownRadii;
 layout(binding = 1) uniform sampler2D reach;    // per tile: max radius of the near disks that reach it
-layout(binding = 2) uniform sampler2D farRadii;   // radii of the far field; used only with combinedFields
 
 layout(location = 0) out float radius;
 
 void main() {
     vec2 place = gl_FragCoord.xy / (float(tileSize) * vec2(textureSize(reach, 0)));
     radius = max(texelFetch(ownRadii, ivec2(gl_FragCoord.xy), 0).r, textureLod(reach, place, 0.0).r);
-    if (combinedFields) radius = max(radius, texelFetch(farRadii, ivec2(gl_FragCoord.xy), 0).r);
 }

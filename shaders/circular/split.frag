@@ -10,10 +10,10 @@ layout(location = 0) uniform float largestRadius;   // max blur radius, in image
 layout(location = 1) uniform float perFarDiameter;  // 1 / (largest CoC diameter behind the focus plane in px)
 layout(location = 2) uniform float perNearDiameter; // 1 / (largest CoC diameter in front of the focus plane in px)
 
-layout(location = 0) out vec4 farField;             // far field; with combinedFields, the sum of both fields
+layout(location = 0) out vec4 farField;
 layout(location = 1) out float farRadius;
 layout(location = 2) out float nearRadius;
-layout(location = 3) out vec4 nearField;            // near field; absent with combinedFields
+layout(location = 3) out vec4 nearField;
 
 void main() {
     ivec2 first = reduction * ivec2(gl_FragCoord.xy);
@@ -41,10 +41,10 @@ void main() {
     float perPixel = 1.0 / float(size.x * size.y);
     farRadius = farBlur.y > 0.0 ? farBlur.x / farBlur.y / float(reduction) : 0.0;
     nearRadius /= float(reduction);
-    farField = (combinedFields ? farSum + nearSum : farSum) * perPixel;
-    if (!combinedFields) nearField = nearSum * perPixel;
+    farField = farSum * perPixel;
+    nearField = nearSum * perPixel;
     if (bracketed) {
         farField = inTenBits(farField);
-        if (!combinedFields) nearField = inTenBits(nearField);
+        nearField = inTenBits(nearField);
     }
 }

@@ -1,6 +1,6 @@
 // Computes taps of the complex separable kernels F(x) = e^(−a·x²)·(cos b·x² + i·sin b·x²), x = tap / radius (Niemitalo
 // 2010; Garcia 2018). src/render/circular/circular_kernel.h documents the mathematics. With exactTaps, there is one tap
-// per pixel; otherwise a fixed number of taps is spread over the radius.
+// per pixel; otherwise eight taps on each side of the centre are spread over the radius.
 
 layout(location = 0) uniform vec4 kernel[kernelSize];   // per component: a, b of F; weights A, B
 
@@ -13,9 +13,7 @@ struct Taps {
 Taps tapsOf(float radius) {
     // With exactTaps, taps fade in as the radius grows: tap i has the fade weight clamp(radius + 1/2 − i, 0, 1).
     if (exactTaps) return Taps(int(ceil(radius - 0.5)), max(radius, 0.5), 1.0);
-    if (!tapSets) return Taps(8, 8.0, radius / 8.0);
-    int count = radius <= 4.0 ? 4 : radius <= 8.0 ? 8 : radius <= 16.0 ? 16 : 32;
-    return Taps(count, float(count), radius / float(count));
+    return Taps(8, 8.0, radius / 8.0);
 }
 
 float fade(Taps taps, int i) { return exactTaps ? clamp(taps.radius + 0.5 - float(i), 0.0, 1.0) : 1.0; }

@@ -123,10 +123,8 @@ constexpr ShaderConstant constants[] = {
     {"bool", "bracketed", "false"},
     {"float", "largestSum", "0.0"},
     {"bool", "exactTaps", "false"},
-    {"bool", "tapSets", "false"},
     {"bool", "ofChannels", "false"},
     {"int", "reduction", "1"},  // downsampling factor per axis; also used by method scheuermann
-    {"bool", "combinedFields", "false"},
     {"bool", "nearPremultiplied", "false"},
     {"bool", "biasByLuminance", "false"},
 

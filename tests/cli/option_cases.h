@@ -253,7 +253,6 @@ inline const std::map<std::string, OptionCase>& methodSettingCases() {
         {"kernel", {{"--kernel", "published"}, joined(only("circular"), {"--focus-distance", "1"})}},
         {"kernel-taps", {{"--kernel-taps", "eight"}, joined(only("circular"), {"--focus-distance", "1"})}},
         {"storage", {{"--storage", "float"}, only("circular")}},
-        {"fields", {{"--fields", "combined"}, joined(only("circular"), {"--near-components", "2"})}},
         {"blend-bias", {{"--blend-bias", "3"}, joined(only("circular"), {"--focus-distance", "8"})}},
         {"near-field", {{"--near-field", "coverage"}, joined(only("circular"), {"--focus-distance", "8"})}},
         {"bias-by",

@@ -24,7 +24,6 @@ struct CircularOptions {
     int nearComponents = 2;
     int farComponents = 2;
     int reduction = 1;  // width of a field pixel in image pixels
-    bool combined = false;
     bool direct = false;
     double blendBias = 1;
     bool biasByLuminance = false;
@@ -37,13 +36,11 @@ struct CircularOptions {
 
 CircularOptions parsed(const MethodSettings& settings) {
     const std::string& storage = settings.at("storage");
-    const std::string& taps = settings.at("kernel-taps");
     const std::string& resolution = settings.at("resolution");
     CircularOptions options;
     options.nearComponents = static_cast<int>(numberOf(settings, "near-components"));
     options.farComponents = static_cast<int>(numberOf(settings, "far-components"));
     options.reduction = resolution == "full" ? 1 : resolution == "half" ? 2 : 4;
-    options.combined = settings.at("fields") == "combined";
     options.direct = settings.at("convolution") == "direct";
     options.blendBias = numberOf(settings, "blend-bias");
     options.biasByLuminance = settings.at("bias-by") == "luminance";
@@ -51,7 +48,7 @@ CircularOptions parsed(const MethodSettings& settings) {
     options.storage = storage == "float"  ? ComplexStorage::float32
                       : storage == "half" ? ComplexStorage::half
                                           : ComplexStorage::rgb10A2;
-    options.taps = taps == "exact" ? ComplexTaps::exact : taps == "eight" ? ComplexTaps::eight : ComplexTaps::sets;
+    options.taps = settings.at("kernel-taps") == "exact" ? ComplexTaps::exact : ComplexTaps::eight;
     const std::string& kernel = settings.at("kernel");
     options.constants = kernel == "fitted"     ? KernelConstants::fitted
                         : kernel == "rescaled" ? KernelConstants::rescaled
@@ -61,8 +58,6 @@ CircularOptions parsed(const MethodSettings& settings) {
         std::max(options.nearComponents, options.farComponents) > publishedKernelLimit)
         fail("method circular: kernel={} supports at most {} components; use kernel=fitted for more", kernel,
              publishedKernelLimit);
-    if (options.combined && (!options.nearPremultiplied || options.biasByLuminance))
-        fail("method circular: fields=combined has no separate near field; leave out near-field and bias-by");
     if (options.direct && options.storage == ComplexStorage::rgb10A2)
         fail("method circular: storage has no effect with convolution=direct; leave it out");
     return options;
@@ -105,7 +100,7 @@ public:
         for (const Program* program : {&split_, &composite_})
             glProgramUniform1f(program->name(), 1, static_cast<float>(1 / farDiameter));
         hasNear_ = nearRadius > 0;
-        if (options_.nearPremultiplied && !options_.combined) {
+        if (options_.nearPremultiplied) {
             const double nearDiameter = std::max(2 * nearRadius * options_.reduction, 1.0);
             for (const Program* program : {&split_, &composite_})
                 glProgramUniform1f(program->name(), 2, static_cast<float>(1 / nearDiameter));
@@ -119,20 +114,16 @@ public:
         pinhole.color.attach(0);
         pinhole.attachForBlur();
         fullscreen_.draw(split_);
-        if (hasNear_ || options_.combined) spreadNearRadius();
+        if (hasNear_) spreadNearRadius();
         const std::optional<TexelRectangle> part = inField(pinhole.part);
-        if (options_.combined) {
-            far_->blur(farField_, nearRadius_, part);
-        } else {
-            far_->blur(farField_, farRadius_, part);
-            if (hasNear_) near_->blur(nearField_, nearRadius_, part);
-        }
+        far_->blur(farField_, farRadius_, part);
+        if (hasNear_) near_->blur(nearField_, nearRadius_, part);
 
         output.bind();
         pinhole.color.attach(0);
         pinhole.attachForBlur();
         far_->result().attach(2);
-        if (!options_.combined) near_->result().attach(3);
+        near_->result().attach(3);
         nearRadius_.attach(4);
         const Scissor scissor(pinhole.part);
         fullscreen_.draw(composite_);
@@ -154,8 +145,7 @@ private:
             defines.emplace_back("reduction", std::to_string(options_.reduction));
             defines.emplace_back("tileSize", std::to_string(tileSize));
             if (options_.storage == ComplexStorage::rgb10A2) defines.emplace_back("bracketed", "true");
-            if (options_.combined) defines.emplace_back("combinedFields", "true");
-            if (options_.nearPremultiplied && !options_.combined) defines.emplace_back("nearPremultiplied", "true");
+            if (options_.nearPremultiplied) defines.emplace_back("nearPremultiplied", "true");
             if (options_.biasByLuminance) defines.emplace_back("biasByLuminance", "true");
             return Program({{fullscreenShader, shader}, std::move(defines), shaderFolder_});
         };
@@ -180,6 +170,7 @@ private:
         const TextureFormat colors =
             options_.storage == ComplexStorage::half ? TextureFormat::rgba16f : TextureFormat::rgba32f;
         farField_ = texture(colors, fieldWidth, fieldHeight);
+        nearField_ = texture(colors, fieldWidth, fieldHeight);
         farRadius_ = texture(TextureFormat::r32f, fieldWidth, fieldHeight);
         ownNearRadius_ = texture(TextureFormat::r32f, fieldWidth, fieldHeight);
         nearRadius_ = texture(TextureFormat::r32f, fieldWidth, fieldHeight);
@@ -198,14 +189,9 @@ private:
                              .direct = options_.direct,
                              .shaderFolder = shaderFolder_};
         far_.emplace(info);
-        std::vector<const GlTexture*> targets = {&farField_, &farRadius_, &ownNearRadius_};
-        if (!options_.combined) {
-            nearField_ = texture(colors, fieldWidth, fieldHeight);
-            targets.push_back(&nearField_);
-            info.components = options_.nearComponents;
-            near_.emplace(info);
-        }
-        splitTarget_ = Target(targets);
+        info.components = options_.nearComponents;
+        near_.emplace(info);
+        splitTarget_ = Target({&farField_, &farRadius_, &ownNearRadius_, &nearField_});
         tileTarget_ = Target({&tiles_});
         reachTarget_ = Target({&reaching_});
         nearRadiusTarget_ = Target({&nearRadius_});
@@ -234,7 +220,6 @@ private:
         nearRadiusTarget_.bind();
         ownNearRadius_.attach(0);
         reaching_.attach(1);
-        farRadius_.attach(2);
         fullscreen_.draw(widen_);
     }
 
@@ -286,19 +271,14 @@ std::vector<MethodSetting> circularSettings() {
         {.name = "kernel-taps",
          .defaultValue = "exact",
          .description = "Number of kernel samples on each side of the centre. exact: one per pixel. eight: 8, as in "
-                        "the slides. sets: 4, 8, 16 or 32, more for wider blurs",
-         .choices = {"exact", "eight", "sets"}},
+                        "the slides",
+         .choices = {"exact", "eight"}},
         {.name = "storage",
          .defaultValue = "half",
          .description = "Pixel format of the sums between the horizontal and the vertical pass. With r10g10b10a2, as "
                         "in the slides, the sharp and the blurred images also have ten bits per channel, and radiance "
                         "above 1 is clipped",
          .choices = {"float", "half", "r10g10b10a2"}},
-        {.name = "fields",
-         .defaultValue = "separate",
-         .description = "Blur foreground and background separately, or combined with the kernel of the background, "
-                        "which is faster",
-         .choices = {"separate", "combined"}},
         {.name = "near-field",
          .defaultValue = "premultiplied",
          .description = "Weight of a pixel in the near field: its coverage times its blur (premultiplied, as in the "

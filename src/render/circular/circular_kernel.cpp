@@ -3,11 +3,7 @@
 
 #include "render/circular/circular_kernel.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
-#include <utility>
 
 #include "core/error.h"
 
@@ -15,9 +11,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int nodesPerPiece = 64;
-
-// Kernels of circularKernel(), printed by defocus_circular_fit. The kernel of n components begins at index n·(n − 1)/2.
+// Kernels of circularKernel(), fitted by `scripts/figures circular-fit`. The kernel of n components begins at index
+// n·(n − 1)/2.
 constexpr std::array<CircularComponent, 45> components = {{
     // Kernel of one component.
     {0.905657, 1.823553, 0.793950, 1.540016},
@@ -116,49 +111,6 @@ std::array<CircularComponent, 15> rescaledToRadius1() {
     return kernels;
 }
 
-struct LinePoint {
-    double x;       // abscissa in (−1, 1)
-    double weight;  // the weights of all points sum to 2
-};
-
-// Returns the Gauss–Legendre quadrature points on (−1, 1): the roots of the Legendre polynomial P_n, by Newton
-// iteration from Tricomi's initial guess.
-std::array<LinePoint, nodesPerPiece> gaussLegendrePoints() {
-    constexpr int n = nodesPerPiece;
-    std::array<LinePoint, n> points;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        double x = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (n + 0.5));
-        double slope = 1;
-        for (int iteration = 0; iteration < 8; ++iteration) {
-            double value = x;
-            double before = 1;
-            for (int k = 2; k <= n; ++k) {
-                before = std::exchange(value, ((2 * k - 1) * x * value - (k - 1) * before) / k);
-            }
-            slope = n * (x * value - before) / (x * x - 1);
-            x -= value / slope;
-        }
-        points[i] = {x, 2 / ((1 - x * x) * slope * slope)};
-    }
-    return points;
-}
-
-// Calls visit(t, dt) at the Gauss–Legendre points t with weights dt of an integral over [begin, end]. Makes no call for
-// an empty interval.
-template <typename Visit>
-void forEachNode(double begin, double end, const Visit& visit) {
-    static const std::array<LinePoint, nodesPerPiece> points = gaussLegendrePoints();
-    if (!(begin < end)) return;
-    const double half = (end - begin) / 2;
-    for (const LinePoint& point : points) visit(begin + half + half * point.x, half * point.weight);
-}
-
-double integral(std::span<const RadialNode> nodes, std::span<const CircularComponent> kernel) {
-    double sum = 0;
-    for (const RadialNode& node : nodes) sum += node.weight * circularProfile(kernel, node.squaredRadius);
-    return sum;
-}
-
 }  // namespace
 
 std::span<const CircularComponent> circularKernel(int count) {
@@ -184,63 +136,6 @@ std::span<const CircularComponent> rescaledCircularKernel(int count) {
 
 std::complex<double> circularFactor(const CircularComponent& component, double offset) {
     return std::exp(std::complex<double>(-component.decay, component.frequency) * (offset * offset));
-}
-
-double circularProfile(std::span<const CircularComponent> kernel, double squaredRadius) {
-    double sum = 0;
-    for (const CircularComponent& c : kernel) {
-        const double angle = c.frequency * squaredRadius;
-        sum += std::exp(-c.decay * squaredRadius) * (c.cosine * std::cos(angle) + c.sine * std::sin(angle));
-    }
-    return sum;
-}
-
-std::vector<RadialNode> squareNodes(double extent, double edge) {
-    const double square = extent * extent;
-    std::vector<RadialNode> nodes;
-    // Circles inside the square, u = r² < extent²: dA = π du.
-    const auto circle = [&](double u, double du) { nodes.push_back({u, std::numbers::pi * du}); };
-    const double inside = std::min(edge * edge, square);
-    forEachNode(0, inside, circle);
-    forEachNode(inside, square, circle);
-    // Circles that extend beyond the square, u = r² = extent² + t²: each side of the square cuts off an arc of angle
-    // 2·arccos(extent/r) = 2·arctan(t/extent).
-    const auto arcs = [&](double t, double dt) {
-        nodes.push_back({square + t * t, (std::numbers::pi - 4 * std::atan(t / extent)) * 2 * t * dt});
-    };
-    const double corner = std::clamp(std::sqrt(std::max(0.0, edge * edge - square)), 0.0, extent);
-    forEachNode(0, corner, arcs);
-    forEachNode(corner, extent, arcs);
-    return nodes;
-}
-
-double energyGain(std::span<const CircularComponent> kernel, double extent, double diskRadius) {
-    return std::numbers::pi * diskRadius * diskRadius / integral(squareNodes(extent, diskRadius), kernel);
-}
-
-double diskProfileError(std::span<const CircularComponent> kernel, double extent, double diskRadius) {
-    const std::vector<RadialNode> nodes = squareNodes(extent, diskRadius);
-    const double disk = std::numbers::pi * diskRadius * diskRadius;
-    const double gain = disk / integral(nodes, kernel);
-    double squares = 0;
-    double covered = 0;  // area of the disk inside the square
-    for (const RadialNode& node : nodes) {
-        const double target = node.squaredRadius < diskRadius * diskRadius ? 1 : 0;
-        const double deviation = gain * circularProfile(kernel, node.squaredRadius) - target;
-        squares += node.weight * deviation * deviation;
-        covered += node.weight * target;
-    }
-    return std::sqrt((squares + std::max(0.0, disk - covered)) / disk);
-}
-
-double roundingAmplification(std::span<const CircularComponent> kernel, double extent, double diskRadius) {
-    double sum = 0;
-    for (const CircularComponent& c : kernel) {
-        double length = 0;  // ∫|F| dx over |x| ≤ extent
-        forEachNode(-extent, extent, [&](double x, double dx) { length += std::exp(-c.decay * x * x) * dx; });
-        sum += std::hypot(c.cosine, c.sine) * length * length;
-    }
-    return std::abs(energyGain(kernel, extent, diskRadius)) * sum / (std::numbers::pi * diskRadius * diskRadius);
 }
 
 }  // namespace defocus::engine

@@ -60,8 +60,7 @@ ShaderDefines definesOf(const ComplexBlurInfo& info, int components) {
             {"kernelAxes", fmt::format("vec2({:.9f}, {:.9f})", info.across, info.upwards)},
             {"bracketed", info.storage == ComplexStorage::rgb10A2 ? "true" : "false"},
             {"largestSum", info.storage == ComplexStorage::half ? "65504.0" : "3.0e38"},
-            {"exactTaps", info.taps == ComplexTaps::exact ? "true" : "false"},
-            {"tapSets", info.taps == ComplexTaps::sets ? "true" : "false"}};
+            {"exactTaps", info.taps == ComplexTaps::exact ? "true" : "false"}};
 }
 
 std::span<const CircularComponent> kernelOf(const ComplexBlurInfo& info) {

@@ -28,7 +28,6 @@ enum class ComplexStorage {
 enum class ComplexTaps {
     exact,  // one tap per pixel
     eight,  // eight taps on each side of the centre, evenly spaced over the radius (as published)
-    sets,   // 4, 8, 16 or 32 taps on each side of the centre, by the pixel's radius
 };
 
 enum class KernelConstants {

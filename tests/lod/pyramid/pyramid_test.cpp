@@ -177,6 +177,38 @@ TEST(Pyramid, FlatSquareIsTiledAtEveryLevel) {
     }
 }
 
+// Expects every level of a flat mesh to lie in the plane z = 0 and to have the area `area`. `side` is the mesh's size.
+void expectFlatLevels(const Mesh& mesh, double area, double side) {
+    const Pyramid pyramid = buildPyramid(mesh);
+    for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
+        const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
+        EXPECT_NEAR(surfaceArea(pyramid.levels[l].positions, indices) / area, 1, 1e-5) << "level " << l;
+        for (const std::uint32_t v : indices)
+            ASSERT_LE(std::abs(static_cast<double>(pyramid.levels[l].positions[v].z)), 1e-5 * side) << "level " << l;
+    }
+}
+
+// The sides include huge and tiny lengths, lengths that floats cannot represent exactly, and slivers.
+TEST(Pyramid, FlatGridsOfAnySizeAreTiledAtEveryLevel) {
+    for (const glm::dvec2& sides :
+         {glm::dvec2(1e6), glm::dvec2(1e-6), glm::dvec2(0.1), glm::dvec2(0.7), glm::dvec2(1, 1e-3)}) {
+        SCOPED_TRACE(testing::Message() << sides.x << " × " << sides.y << " m");
+        Mesh mesh = flatGrid(48);
+        mesh.vertices.uv0.clear();
+        for (glm::vec3& p : mesh.vertices.positions) p *= glm::vec3(glm::vec2(sides), 1);
+        expectFlatLevels(mesh, sides.x * sides.y, sides.x);
+    }
+}
+
+TEST(Pyramid, TrianglesWithoutAreaDoNotChangeAFlatGrid) {
+    Mesh mesh = flatGrid(24);
+    mesh.vertices.uv0.clear();
+    std::vector<std::uint32_t>& indices = mesh.primitives[0].indices;
+    for (std::uint32_t i = 0; i < 100; ++i) indices.insert(indices.end(), {i, i, i + 1});     // repeated index
+    for (std::uint32_t i = 0; i < 20; ++i) indices.insert(indices.end(), {i, i + 1, i + 2});  // collinear corners
+    expectFlatLevels(mesh, 1, 1);
+}
+
 TEST(Pyramid, FlatSquareGetsEvenTriangles) {
     // If n right-angled triangles fill a unit square, their edges have a mean length of about 1.14·√(2/n). Slivers
     // would have far longer edges.

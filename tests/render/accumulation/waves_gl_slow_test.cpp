@@ -1,11 +1,8 @@
 // Tests that methods "accumulation" and "multirate" give the same image for any wave size, which is the number of
-// samples drawn together. Also tests the rounding error of the sum of samples.
+// samples drawn together.
 
 #include <algorithm>
-#include <cmath>
-#include <vector>
 
-#include "gl_conduct.h"
 #include "likeness.h"
 #include "render/accumulation/accumulated.h"
 #include "render/accumulation/lens_cell_renders.h"
@@ -30,33 +27,6 @@ TEST_F(Accumulation, waveSizeChangesNoBit) {
                 EXPECT_TRUE(sameBits(first, image)) << "K = " << k << ": " << largestDifference(first, image);
         }
     }
-}
-
-// The sum of samples on the GPU, with compensated rounding, agrees with a sum of the same samples in double precision.
-TEST_F(Accumulation, summationErrsLessThanOneInAMillion) {
-    SKIP_ON_SECOND_DRIVER();
-    const auto small = fiveSpheres();
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
-    const std::uint32_t n = 150;
-    std::vector<double> sum;
-    for (std::uint32_t i = 0; i < n; ++i) {
-        RenderSettings one = settingsFor(1, LodMode::off);
-        one.firstSample = i;
-        one.keepAll = true;
-        FramePlan plan = planFrame(small->world, small->view, one);
-        plan.frameSamples = n;  // the filter that widens highlights depends on the frame's sample count
-        const Image layer = imageOf(*methodNamed("accumulation").make(small->world, options), plan);
-        sum.resize(layer.pixels.size());
-        for (std::size_t p = 0; p < sum.size(); ++p) sum[p] += double(layer.pixels[p]);
-    }
-    RenderSettings all = settingsFor(n, LodMode::off);
-    all.keepAll = true;
-    const Image image = rendered(*small, all, options);
-    double worst = 0;
-    for (std::size_t p = 0; p < sum.size(); ++p)
-        if (sum[p] > 1e-3) worst = std::max(worst, std::abs(image.pixels[p] * double(n) / sum[p] - 1));
-    EXPECT_LT(worst, 1e-6);
 }
 
 int sharingObjects(const FramePlan& plan) {

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "core/error.h"
 
@@ -21,17 +24,46 @@ Kernel copyOf(int components) {
     return {kernel.begin(), kernel.end()};
 }
 
-// Returns ∫ e^(−decay·r²) over the square [−extent, extent]².
-double gaussianOverSquare(double decay, double extent) {
-    const double line = std::sqrt(pi / decay) * std::erf(extent * std::sqrt(decay));
-    return line * line;
+// Returns the value K(r) of the kernel at r² = squaredRadius.
+double profileOf(std::span<const CircularComponent> kernel, double squaredRadius) {
+    double sum = 0;
+    for (const CircularComponent& c : kernel) {
+        const std::complex<double> factor = circularFactor(c, std::sqrt(squaredRadius));
+        sum += c.cosine * factor.real() + c.sine * factor.imag();
+    }
+    return sum;
 }
 
-template <typename Function>
-double integralOverSquare(double extent, double edge, const Function& function) {
-    double sum = 0;
-    for (const RadialNode& node : squareNodes(extent, edge)) sum += node.weight * function(node.squaredRadius);
-    return sum;
+// Integrals of a kernel K over the square [−1, 1]², as midpoint sums.
+struct Integrals {
+    double kernel = 0;   // ∫K dA
+    double disk = 0;     // ∫K dA over the disk of radius 1
+    double squares = 0;  // ∫K² dA
+    double corners = 0;  // ∫K² du over 1 < u < 2, with u = r²
+};
+
+Integrals integralsOf(std::span<const CircularComponent> kernel) {
+    constexpr int steps = 1000;
+    Integrals sums;
+    for (int i = 0; i < steps; ++i) {
+        const double t = (i + 0.5) / steps;
+        const double inside = profileOf(kernel, t);  // u = t; dA = π du
+        const double outside = profileOf(kernel, 1 + t * t);
+        const double du = 2 * t / steps;
+        const double arcs = (pi - 4 * std::atan(t)) * du;  // area without the 4 arcs that the square cuts off
+        sums.disk += pi / steps * inside;
+        sums.kernel += pi / steps * inside + arcs * outside;
+        sums.squares += pi / steps * inside * inside + arcs * outside * outside;
+        sums.corners += outside * outside * du;
+    }
+    return sums;
+}
+
+// Returns the relative RMS error of the kernel, scaled to ∫K = ∫D, from the disk D of radius 1.
+double diskError(std::span<const CircularComponent> kernel) {
+    const Integrals sums = integralsOf(kernel);
+    const double gain = pi / sums.kernel;
+    return std::sqrt((gain * gain * sums.squares - 2 * gain * sums.disk) / pi + 1);
 }
 
 TEST(CircularKernel, factorsOfTwoAxesMultiplyToACircle) {
@@ -47,10 +79,8 @@ TEST(CircularKernel, factorsOfTwoAxesMultiplyToACircle) {
     }
 }
 
-TEST(CircularKernel, profileIsTheWeightedSumOfRealAndImaginaryParts) {
+TEST(CircularKernel, factorDecaysAndTurns) {
     const CircularComponent quarterTurn{0.5, pi / 2, 3, 7};  // the component's complex factor at radius 1 is e^(−1/2)·i
-    EXPECT_NEAR(circularProfile({&quarterTurn, 1}, 1), 7 * std::exp(-0.5), 1e-14);
-    EXPECT_NEAR(circularProfile({&quarterTurn, 1}, 0), 3, 1e-14);
     EXPECT_NEAR(std::abs(circularFactor(quarterTurn, 1) - std::complex<double>(0, std::exp(-0.5))), 0, 1e-14);
 }
 
@@ -60,100 +90,18 @@ TEST(CircularKernel, onlyTheNumbersOfComponentsThereAre) {
     EXPECT_THROW(circularKernel(circularKernelLimit + 1), Error);
 }
 
-TEST(CircularKernel, nodesIntegrateOverTheSquare) {
-    for (const double extent : {1.0, 1.3}) {
-        // `edge` is the radius of a disk that lies inside the square, touches it, reaches beyond its sides, or contains
-        // it.
-        for (const double edge : {0.5, 1.0, 1.2, 1.5, 2.5}) {
-            EXPECT_NEAR(integralOverSquare(extent, edge, [](double) { return 1; }), 4 * extent * extent, 1e-12);
-            EXPECT_NEAR(integralOverSquare(extent, edge, [](double u) { return u; }), 8.0 / 3 * std::pow(extent, 4),
-                        1e-12);
-        }
-    }
-    // Area of the disk without its four segments outside the square.
-    const double edge = 1.2;
-    const double angle = std::acos(1 / edge);
-    const double segment = edge * edge * angle - edge * std::sin(angle);
-    EXPECT_NEAR(integralOverSquare(1, edge, [&](double u) { return u < edge * edge ? 1 : 0; }),
-                pi * edge * edge - 4 * segment, 1e-12);
-}
-
-// The error of a single Gaussian K(r) = e^(−a·r²) of any weight agrees with closed forms. ∫K² and ∫K over the square
-// are error functions, and ∫K over a disk of radius ρ inside the square is π·(1 − e^(−a·ρ²))/a.
-TEST(CircularKernel, errorOfAGaussianInClosedForm) {
-    for (const double decay : {0.7, 2.0}) {
-        for (const double extent : {1.0, 1.25}) {
-            const Kernel kernel = {{decay, 0, 5, 0}};
-            const double over = gaussianOverSquare(decay, extent);
-            const double square = gaussianOverSquare(2 * decay, extent);
-            const double radius = 0.9;
-            double disk = pi * radius * radius;
-            double gain = disk / over;
-            const double both = pi * (1 - std::exp(-decay * radius * radius)) / decay;
-            EXPECT_NEAR(energyGain(kernel, extent, radius), gain / 5, 1e-13);
-            EXPECT_NEAR(diskProfileError(kernel, extent, radius),
-                        std::sqrt((gain * gain * square - 2 * gain * both + disk) / disk), 1e-12);
-
-            // If the square lies inside the disk, the disk's part outside the square counts fully as error.
-            const double wide = 2 * extent;
-            disk = pi * wide * wide;
-            gain = disk / over;
-            EXPECT_NEAR(diskProfileError(kernel, extent, wide),
-                        std::sqrt((gain * gain * square - 2 * gain * over + disk) / disk), 1e-12);
-        }
-    }
-}
-
-// roundingAmplification() is 1 for a Gaussian of positive weight. If components partly cancel, it is the sum of the
-// components' magnitudes divided by the magnitude of their sum.
-TEST(CircularKernel, roundingIsAmplifiedWhereComponentsCancel) {
-    const Kernel one = {{1.5, 0, 4, 0}};
-    EXPECT_NEAR(roundingAmplification(one, 1, 1), 1, 1e-12);
-    const Kernel cancelling = {{1.5, 0, 4, 0}, {1.5, 0, 0, 9}, {1.5, 0, -3, 0}};
-    EXPECT_NEAR(roundingAmplification(cancelling, 1, 1), (4 + 9 + 3) / (4.0 - 3.0), 1e-11);
-}
-
 TEST(CircularKernel, energyIsTheDisks) {
     for (int n = 1; n <= circularKernelLimit; ++n) {
-        EXPECT_NEAR(energyGain(circularKernel(n), circularKernelExtent, 1), 1, 2e-6) << n;
+        EXPECT_NEAR(integralsOf(circularKernel(n)).kernel, pi, 2e-5) << n;
     }
-}
-
-// Half floats have a relative rounding error of 2⁻¹¹ = 0.05 %. If the kernel amplifies it by less than 5, the blurred
-// image's error stays below 0.25 % of the brightest pixel.
-TEST(CircularKernel, halfFloatsSuffice) {
-    for (int n = 1; n <= circularKernelLimit; ++n) {
-        EXPECT_LT(roundingAmplification(circularKernel(n), circularKernelExtent, 1), 5) << n;
-    }
-    for (int n = 1; n <= 3; ++n)  // 32-bit floats store the results of Niemitalo's kernels of 4 or more components
-        EXPECT_LT(roundingAmplification(publishedCircularKernel(n), circularKernelExtent, 1), 5) << n;
 }
 
 TEST(CircularKernel, moreComponentsComeCloserToTheDisk) {
     double before = std::numeric_limits<double>::infinity();
     for (int n = 1; n <= circularKernelLimit; ++n) {
-        const double error = diskProfileError(circularKernel(n), circularKernelExtent, 1);
+        const double error = diskError(circularKernel(n));
         EXPECT_LT(error, 0.95 * before) << n;
         before = error;
-    }
-}
-
-// The project's fitted kernels approximate a disk at least as well as Niemitalo's kernels. Each of his kernels is
-// compared at its best extent and disk radius.
-TEST(CircularKernel, noFurtherFromTheDiskThanThePublishedKernels) {
-    const std::vector<Kernel> published = {
-        {{0.862325, 1.624835, 0.767583, 1.862321}},
-        {{0.886528, 5.268909, 0.411259, -0.548794}, {1.960518, 1.558213, 0.513282, 4.561110}}};
-    for (const Kernel& kernel : published) {
-        double min = std::numeric_limits<double>::infinity();
-        for (double extent = 1; extent < 2; extent += 0.01) {
-            for (double radius = 0.9; radius < 1.4; radius += 0.005) {
-                min = std::min(min, diskProfileError(kernel, extent, radius));
-            }
-        }
-        const auto ours = circularKernel(static_cast<int>(kernel.size()));
-        EXPECT_LE(diskProfileError(ours, circularKernelExtent, 1), min) << kernel.size();
-        EXPECT_LT(min, 0.25) << "not a disk: a published constant is mistyped";
     }
 }
 
@@ -163,11 +111,11 @@ TEST(CircularKernel, publishedKernelIsThatOfTheSlides) {
     const auto kernel = publishedCircularKernel(2);
     EXPECT_EQ(kernel[0].decay, 0.886528);
     EXPECT_EQ(kernel[1].frequency, 1.558213);
-    EXPECT_NEAR(circularProfile(kernel, 1), 0.9245, 1e-4);
+    EXPECT_NEAR(profileOf(kernel, 1), 0.9245, 1e-4);
 }
 
 // Rescaled kernels are the published ones in units of the radius of the disk that they approximate. With the extent
-// fixed, a radius 3 % larger or smaller fits a disk worse.
+// fixed, a radius 3 % larger or smaller fits a disk worse. The fitted kernels approximate the disk at least as well.
 TEST(CircularKernel, rescaledKernelsAreInRadiiOfTheirDisk) {
     EXPECT_THROW(publishedCircularKernel(0), Error);
     EXPECT_THROW(rescaledCircularKernel(publishedKernelLimit + 1), Error);
@@ -177,17 +125,18 @@ TEST(CircularKernel, rescaledKernelsAreInRadiiOfTheirDisk) {
     EXPECT_EQ(one.sine, 1.862321);
     for (int n = 1; n <= publishedKernelLimit; ++n) {
         const auto kernel = rescaledCircularKernel(n);
-        const double error = diskProfileError(kernel, circularKernelExtent, 1);
+        const double error = diskError(kernel);
         for (const double factor : {0.97, 1.03}) {
             Kernel other{kernel.begin(), kernel.end()};
             for (CircularComponent& c : other) {
                 c.decay *= factor * factor;
                 c.frequency *= factor * factor;
             }
-            EXPECT_GT(diskProfileError(other, circularKernelExtent, 1), error) << n << ", " << factor;
+            EXPECT_GT(diskError(other), error) << n << ", " << factor;
         }
+        EXPECT_LE(diskError(circularKernel(n)), error) << n;
         // A mistyped constant would fit no disk, or fit worse than the kernel with one component less.
-        EXPECT_LT(error, n == 1 ? 0.25 : diskProfileError(rescaledCircularKernel(n - 1), circularKernelExtent, 1));
+        EXPECT_LT(error, n == 1 ? 0.25 : diskError(rescaledCircularKernel(n - 1)));
     }
 }
 
@@ -196,8 +145,8 @@ TEST(CircularKernel, rescaledKernelsAreInRadiiOfTheirDisk) {
 TEST(CircularKernel, rescaledKernelsDipLess) {
     const auto lowest = [](std::span<const CircularComponent> kernel) {
         double value = 0;
-        for (double u = 0; u <= 2; u += 1e-3) value = std::min(value, circularProfile(kernel, u));
-        return value * energyGain(kernel, circularKernelExtent, 1);
+        for (double u = 0; u <= 2; u += 1e-3) value = std::min(value, profileOf(kernel, u));
+        return value * pi / integralsOf(kernel).kernel;
     };
     for (int n = 2; n <= publishedKernelLimit; ++n)
         EXPECT_GT(lowest(rescaledCircularKernel(n)), 0.4 * lowest(circularKernel(n))) << n;
@@ -205,15 +154,9 @@ TEST(CircularKernel, rescaledKernelsDipLess) {
 
 // Returns the objective that the fitted kernels minimize (see circular_kernel.h).
 double guardedSquares(const Kernel& kernel) {
-    const double error = diskProfileError(kernel, circularKernelExtent, 1);
-    const double gain = energyGain(kernel, circularKernelExtent, 1);
-    constexpr int steps = 500;
-    double corners = 0;
-    for (int i = 0; i < steps; ++i) {
-        const double value = gain * circularProfile(kernel, 1 + (i + 0.5) / steps);
-        corners += value * value / steps;
-    }
-    return pi * error * error + circularCornerGuard * pi * corners;
+    const Integrals sums = integralsOf(kernel);
+    const double gain = pi / sums.kernel;
+    return gain * gain * (sums.squares + 0.2 * pi * sums.corners) - 2 * gain * sums.disk + pi;
 }
 
 TEST(CircularKernel, noSmallChangeComesCloser) {
@@ -244,7 +187,7 @@ std::size_t at(int x, int y) {
 }
 
 Field filtered(const Field& in, const CircularComponent& component, int stepX, int stepY) {
-    const int reach = static_cast<int>(circularKernelExtent * blurRadius);
+    const int reach = blurRadius;
     Field out(in.size());
     for (int tap = -reach; tap <= reach; ++tap) {
         const std::complex<double> weight = circularFactor(component, double(tap) / blurRadius);
@@ -283,8 +226,8 @@ TEST(CircularKernel, rowsThenColumnsDrawTheKernelAroundEachPoint) {
                 for (const Point& point : points) {
                     const double dx = double(x - point.x) / blurRadius;
                     const double dy = double(y - point.y) / blurRadius;
-                    if (std::max(std::abs(dx), std::abs(dy)) > circularKernelExtent) continue;
-                    expected += point.light * circularProfile(circularKernel(n), dx * dx + dy * dy);
+                    if (std::max(std::abs(dx), std::abs(dy)) > 1) continue;
+                    expected += point.light * profileOf(circularKernel(n), dx * dx + dy * dy);
                 }
                 ASSERT_NEAR(out[at(x, y)], expected, 1e-11) << n << " components at " << x << ", " << y;
             }

@@ -198,7 +198,7 @@ TEST_P(BlendedSurfaces, comeCloserToTheAccumulation) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, BlendedSurfaces,
-                         testing::Values("circular", "circular:resolution=half", "circular:fields=combined",
+                         testing::Values("circular", "circular:resolution=half",
                                          "scheuermann:coc=thin-lens,taps=64,max-coc=unlimited"),
                          [](const auto& instance) {
                              std::string name = instance.param;
