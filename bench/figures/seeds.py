@@ -81,12 +81,12 @@ def jeong():
 
 
 def limited_work():
-    """Returns (scene, limit, speed-up, ratio of tests, ratio of swept work) by row of Figure 7, for `stochastic`."""
+    """Returns (scene, limit, speed-up, ratio of tests) by row of Figure 7, for `stochastic`."""
     rows = []
     for line in (ROOT / "bench/results/lens/figure-7.md").read_text().splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
-        if len(cells) == 8 and re.fullmatch(r"\d+ px", cells[1]):
-            rows.append((cells[0], cells[1], cells[3], cells[5], cells[7]))
+        if len(cells) == 6 and re.fullmatch(r"\d+ px", cells[1]):
+            rows.append((cells[0], cells[1], cells[3], cells[5]))
     return rows
 
 
