@@ -289,11 +289,11 @@ def tzeng():
     three = {row[1]: row[7] for row in next(iter(lens_levels().values())) if row[0] == 16}
     return [
         ["Lines through the lens are weighted by κ, which is needed (Figure 4)",
-         "[line_weights.h](../src/render/line/line_weights.h), `--line-weights`",
-         "`LineWeights.areThePapersKappa`, `LineWeights.giveARegionItsShareOfTheDisk`, `LensSpaceAlone.kappaMakesDisksUniform`", "pictures",
+         "[weights.glsl](../shaders/line/weights.glsl), `--line-weights`",
+         "`LensSpaceAlone.kappaMakesDisksUniform`, `LensSpace.hasTheShapeOfTheAperture`", "pictures",
          "without κ, the middle of a blurred point is more than 1.5 times as bright as its rim"],
-        ["Visibility along a line is exact", "[line_triangle.h](../src/render/line/line_triangle.h)",
-         "`LineTriangles.coverTheLineWhereTheirPointsDo`, `LensSpaceAlone.exactLinesFindIntersections`", "–", "–"],
+        ["Visibility along a line is exact", "[line.glsl](../shaders/line/line.glsl)",
+         "`LensSpace.convergesToTheAccumulation`, `LensSpaceAlone.exactLinesFindIntersections`", "–", "–"],
         ["Several lines share a spatial sample (Figure 2)", "`--lines-per-position`; 4 in the preset, our choice",
          "`LensSpaceAlone.linesShareSpatialPositions`", "–", "–"],
         ["Tiles have bins of fixed size", "`--bin-size`; 65,536 triangles in the preset, our choice",

@@ -16,8 +16,8 @@ namespace defocus::engine {
 
 struct LineSets {
     // GpuRay::lensAndPixel.xy is the vector (u, k·v) from the lens centre to the rim, where k = image width / height.
-    // GpuRay::values are LineLight::backward, LineLight::forwardShare and the position of the shading point in a
-    // segment, [0, 1).
+    // GpuRay::values: x is the length of the line behind the lens centre relative to the length ahead of the centre. y
+    // is the fraction of the light ahead of the centre. z is the position of the shading point in a segment, [0, 1).
     RaySets sets;
     // Per line: xy is the unit vector in (u, v) perpendicular to the mean of the line's variants (ray_sets.h); z is the
     // max distance of a variant from that mean line.
