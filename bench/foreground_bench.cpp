@@ -8,9 +8,7 @@
 //
 // Held equal: camera, lens, size, lens samples, renderer and process. Runs alternate; the fastest of each counts. CPU
 // is the time of all threads, which depends less on other load. `work` is the heat map of --aov work: triangles that
-// touch a pixel, per lens sample. `swept` is the heat map of --aov swept-work: triangles whose bounds over the complete
-// lens cover a pixel. A rasteriser tests this number of triangles at a pixel if it tests every sample within these
-// bounds.
+// touch a pixel, per lens sample.
 //
 // Then measures method "stochastic", with the circle of confusion C linear inside triangles as published: the time, and
 // the number of triangles tested for each ray, which is the paper's measure of work. The method tests a triangle only
@@ -30,7 +28,6 @@
 #include "core/error.h"
 #include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
-#include "plan/lens_cells/swept_work.h"
 #include "render/aov/work.h"
 #include "render/methods.h"
 #include "run_bench.h"
@@ -73,13 +70,11 @@ struct Figure {
 void print(const PreparedFrame& frame, const Row& row, const Row& unlimited) {
     const auto samples = static_cast<std::uint32_t>(row.plan.samples.size());
     const WorkSummary work = workSummary(renderWork(frame.world, row.plan), samples);
-    const double swept = workSummary(sweptWork(row.plan, frame.world), 1).mean;
-    const double ofUnlimited = workSummary(sweptWork(unlimited.plan, frame.world), 1).mean;
-    fmt::print("{:<12} {:>10} {:>10.0f} {:>7.2f} {:>10.0f} {:>7.2f} {:>14.2f} {:>8.2f} {:>8.1f} {:>10.1f} {:>7.2f}\n",
+    fmt::print("{:<12} {:>10} {:>10.0f} {:>7.2f} {:>10.0f} {:>7.2f} {:>14.2f} {:>8.2f} {:>8.1f}\n",
                lodModeName(row.lod), std::isinf(row.limit) ? "none" : fmt::format("{:.0f}", row.limit),
                row.milliseconds, unlimited.milliseconds / row.milliseconds, row.cpuMilliseconds,
                unlimited.cpuMilliseconds / row.cpuMilliseconds, static_cast<double>(row.plan.trianglesDrawn) / 1e6,
-               work.mean, work.max, swept, ofUnlimited / swept);
+               work.mean, work.max);
 }
 
 void measure(const Figure& figure) {
@@ -104,8 +99,8 @@ void measure(const Figure& figure) {
     for (int i = 0; i < runs; ++i)
         for (Row& row : rows) renderOnce(frame.world, row);
 
-    fmt::print("{:<12} {:>10} {:>10} {:>7} {:>10} {:>7} {:>14} {:>8} {:>8} {:>10} {:>7}\n", "levels", "limit, px",
-               "frame, ms", "ratio", "CPU, ms", "ratio", "triangles, M", "work", "most", "swept", "ratio");
+    fmt::print("{:<12} {:>10} {:>10} {:>7} {:>10} {:>7} {:>14} {:>8} {:>8}\n", "levels", "limit, px", "frame, ms",
+               "ratio", "CPU, ms", "ratio", "triangles, M", "work", "most");
     for (std::size_t i = 0; i < rows.size(); ++i)
         print(frame, rows[i], rows[i / figure.limits.size() * figure.limits.size()]);
 }
@@ -145,16 +140,12 @@ void measureStochastic(const Figure& figure) {
             for (const MethodFigure& each : renderer->stats().figures)
                 if (each.name == "triangles tested per ray") tests[row] = each.value;
         }
-    fmt::print("{:>10} {:>10} {:>7} {:>14} {:>7} {:>10} {:>7}\n", "limit, px", "frame, ms", "ratio", "tests per ray",
-               "ratio", "swept", "ratio");
-    const double sweptWithout = workSummary(sweptWork(rows[0].plan, frame.world), 1).mean;
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-        const double swept = workSummary(sweptWork(rows[row].plan, frame.world), 1).mean;
-        fmt::print("{:>10} {:>10.0f} {:>7.2f} {:>14.1f} {:>7.2f} {:>10.1f} {:>7.2f}\n",
+    fmt::print("{:>10} {:>10} {:>7} {:>14} {:>7}\n", "limit, px", "frame, ms", "ratio", "tests per ray", "ratio");
+    for (std::size_t row = 0; row < rows.size(); ++row)
+        fmt::print("{:>10} {:>10.0f} {:>7.2f} {:>14.1f} {:>7.2f}\n",
                    std::isinf(rows[row].limit) ? "none" : fmt::format("{:.0f}", rows[row].limit),
                    rows[row].milliseconds, rows[0].milliseconds / rows[row].milliseconds, tests[row],
-                   tests[0] / tests[row], swept, sweptWithout / swept);
-    }
+                   tests[0] / tests[row]);
 }
 
 int run(bool stochasticOnly) {

@@ -81,12 +81,12 @@ def jeong():
 
 
 def limited_work():
-    """Returns (scene, limit, speed-up, ratio of tests, ratio of swept work) by row of Figure 7, for `stochastic`."""
+    """Returns (scene, limit, speed-up, ratio of tests) by row of Figure 7, for `stochastic`."""
     rows = []
     for line in (ROOT / "bench/results/lens/figure-7.md").read_text().splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
-        if len(cells) == 8 and re.fullmatch(r"\d+ px", cells[1]):
-            rows.append((cells[0], cells[1], cells[3], cells[5], cells[7]))
+        if len(cells) == 6 and re.fullmatch(r"\d+ px", cells[1]):
+            rows.append((cells[0], cells[1], cells[3], cells[5]))
     return rows
 
 
@@ -127,9 +127,9 @@ def munkberg():
          "times fewer tests"],
         ["Triangles that face away for every lens point and moment are culled (Equations 5, 7 and 8, Appendix A)",
          "[bin.comp](../shaders/lens_space/bin.comp)", "`LensSpaceAlone.movingBacksAreCulled`: the same image, bit for bit", "–", "–"],
-        ["Our extension: the same for clusters of triangles, in all methods",
-         "[visibility.h](../src/plan/visible/visibility.h), [lens_facing.h](../src/plan/visible/lens_facing.h)",
-         "`LensFacing.*`, `Visibility.*`: no triangle that a random lens point sees is lost", "–",
+        ["Our extension: Equation 6 for clusters of rigid triangles, in all methods",
+         "[visibility.h](../src/plan/visible/visibility.h)",
+         "`Visibility.*`: no triangle that a random lens point sees is lost", "–",
          f"culls {100 * (away + outside) / total:.0f} % of the school's triangles, including those outside the image; {rest[3]:.2f} times as fast"],
         ["Aberrations vary over the lens, C = f(u, v) (future work)",
          "[aberrations.h](../src/lens/aberrations.h): Seidel's astigmatism and coma, `--astigmatism`, `--coma`, also in `stochastic`",

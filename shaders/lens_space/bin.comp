@@ -52,7 +52,7 @@ void add(inout Area area, vec4 corners[3], float aspect) {
     }
 }
 
-// Returns the polar form of (Nx, Ny, det) in src/plan/visible/lens_facing.h: a function of three triangles that is
+// Returns the polar form of (Nx, Ny, det) in src/plan/visible/visibility.h: a function of three triangles that is
 // linear in each of them. It equals (Nx, Ny, det) of a triangle if all three arguments are that triangle.
 vec3 polarForm(vec4 a[3], vec4 b[3], vec4 c[3]) {
     vec2 slope = vec2(0.0);

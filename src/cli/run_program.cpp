@@ -76,8 +76,7 @@ const CLI::App& chosenCommand(const CLI::App& program) {
 
 // Throws UsageError for --shader-dir with a command that doesn't use it.
 void refuseUnusedShaders(const CLI::App& program, const GlobalOptions& global) {
-    constexpr std::array drawing = {"render",  "capture", "view",        "pyramid",
-                                    "speedup", "popping", "convergence", "scaling"};
+    constexpr std::array drawing = {"render", "capture", "view", "speedup", "popping", "convergence", "scaling"};
     const std::string& command = chosenCommand(program).get_name();
     if (!global.shaderDir.empty() && std::ranges::find(drawing, command) == drawing.end())
         throw UsageError(fmt::format("--shader-dir cannot be used with '{}', which draws nothing", command));

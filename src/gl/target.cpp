@@ -40,14 +40,6 @@ Target::Target(const std::vector<const GlTexture*>& colors, const GlTexture* dep
     finish(depth);
 }
 
-Target Target::ofLayers(const GlTexture& array) {
-    Target target;
-    target.create();
-    for (int layer = 0; layer < array.info().layers; ++layer) target.addColor(array, static_cast<std::uint32_t>(layer));
-    target.finish(nullptr);
-    return target;
-}
-
 Target Target::ofImageAndLayers(const GlTexture& image, const GlTexture& array, int layers) {
     Target target;
     target.create();

@@ -16,8 +16,6 @@ public:
     // Attaches 0 to 8 colour textures and optionally `depth`. Throws Error if the driver cannot render to this
     // combination.
     explicit Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth = nullptr);
-    // Attaches each layer of an array texture (at most 8) as a colour attachment.
-    static Target ofLayers(const GlTexture& array);
     // Attaches a 2D texture and the first `layers` layers of an array texture of equal size, at most 8 colour
     // attachments in total.
     static Target ofImageAndLayers(const GlTexture& image, const GlTexture& array, int layers);

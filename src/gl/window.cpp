@@ -162,10 +162,6 @@ void Window::close() {
     glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }
 
-bool Window::keyHeld(int keyCode) const {
-    return glfwGetKey(window_, keyCode) == GLFW_PRESS;
-}
-
 bool Window::hovered() const {
     return glfwGetWindowAttrib(window_, GLFW_HOVERED) == GLFW_TRUE;
 }

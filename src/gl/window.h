@@ -70,7 +70,6 @@ public:
     std::vector<WindowEvent> poll(double seconds);
     [[nodiscard]] bool closing() const;
     void close();
-    [[nodiscard]] bool keyHeld(int keyCode) const;
     [[nodiscard]] bool hovered() const;
     [[nodiscard]] bool focused() const;
 

@@ -17,12 +17,6 @@ HalfImage halfImage(const ImageView& image) {
     return result;
 }
 
-Image fullImage(const HalfImage& image) {
-    Image result(image.width, image.height, 4);
-    std::ranges::transform(image.rgba, result.pixels.begin(), fromHalf);
-    return result;
-}
-
 void addHalves(const std::uint16_t* __restrict halves, std::size_t count, float* __restrict sums) {
     for (std::size_t i = 0; i < count; ++i) sums[i] += fromHalf(halves[i]);
 }

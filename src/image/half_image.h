@@ -34,7 +34,6 @@ inline float fromHalf(std::uint16_t half) {
 
 // Returns the RGBA image with values rounded to 16 bits and clamped to ±maxHalf.
 HalfImage halfImage(const ImageView& image);
-Image fullImage(const HalfImage& image);
 
 // Adds each of `count` finite 16-bit floats to the sum with the same index.
 void addHalves(const std::uint16_t* halves, std::size_t count, float* sums);

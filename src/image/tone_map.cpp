@@ -12,15 +12,12 @@
 #include "image/tone_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
-#include <utility>
 
-#include "core/error.h"
 #include "core/parallel.h"
 
 namespace defocus::engine {
@@ -29,9 +26,6 @@ namespace {
 
 // Inputs are clamped to this value, where all curves are flat, so that their squares stay finite.
 constexpr float brightest = 1e6f;
-
-constexpr std::array<std::pair<std::string_view, ToneMap>, 4> names = {
-    {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}, {"neutral", ToneMap::neutral}}};
 
 // Clamps to [0, brightest]. NaN gives 0, because comparisons with NaN are false.
 float finite(float value) {
@@ -104,12 +98,6 @@ glm::vec3 encoded(const glm::vec3& linear, ToneMap toneMap) {
 }
 
 }  // namespace
-
-ToneMap toneMapNamed(std::string_view name) {
-    for (const auto& [known, toneMap] : names)
-        if (name == known) return toneMap;
-    fail("unknown tone map \"{}\"; use none, aces, agx or neutral", name);
-}
 
 float srgbEncode(float linear) {
     if (!(linear > 0)) return 0;

@@ -2,15 +2,9 @@
 // Tone mapping from linear HDR to display values: exposure, an optional tone curve and sRGB encoding (IEC 61966-2-1).
 // Tone mapping is the last step before an image is written with 8 bits or displayed.
 
-#include <string_view>
-
 #include "image/image.h"
 
 namespace defocus::engine {
-
-// Returns the enumerator of "none", "aces", "agx" or "neutral". For other names, throws Error with the list of valid
-// names.
-ToneMap toneMapNamed(std::string_view name);
 
 float srgbEncode(float linear);   // [0, 1] → [0, 1]; other values are clamped, NaN gives 0
 float srgbDecode(float encoded);  // [0, 1] → [0, 1]; other values are clamped, NaN gives 0

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_inverse.hpp>
+#include <span>
 
 namespace defocus::engine {
 
@@ -20,38 +21,31 @@ void addInfluences(std::span<const glm::dmat4> matrices, const glm::u16vec4& joi
     }
 }
 
+// Returns the world matrix of a vertex: Σ w_j · M_j / Σ w_j if it has joints, else the object's matrix.
 glm::dmat4 worldFromVertex(const Vertices& vertices, const Object& object, std::size_t vertex) {
     if (!object.skinned() || vertices.joints.empty()) return object.worldFromObject;
-    return skinMatrix(vertices, object.worldFromJoint, vertex);
+    glm::dmat4 sum(0.0);
+    double weightSum = 0;
+    addInfluences(object.worldFromJoint, vertices.joints[vertex], vertices.weights[vertex], sum, weightSum);
+    if (!vertices.joints1.empty())
+        addInfluences(object.worldFromJoint, vertices.joints1[vertex], vertices.weights1[vertex], sum, weightSum);
+    return weightSum > 0 ? sum / weightSum : object.worldFromJoint.front();
 }
 
+// Returns `values`, which are positions or normals, plus Σ m_t · d_t.
 std::vector<glm::dvec3> morphed(const std::vector<glm::vec3>& values, const Mesh& mesh, const Object& object,
                                 std::vector<glm::vec3> MorphTarget::*kind) {
     std::vector<glm::dvec3> result(values.begin(), values.end());
-    addMorphs(mesh, object.morphWeights, kind, {}, result);
+    const std::vector<double>& weights = object.morphWeights;
+    for (std::size_t t = 0; t < std::min(mesh.morphTargets.size(), weights.size()); ++t) {
+        const std::vector<glm::vec3>& displacements = mesh.morphTargets[t].*kind;
+        if (weights[t] == 0 || !std::isfinite(weights[t]) || displacements.empty()) continue;
+        for (std::size_t v = 0; v < result.size(); ++v) result[v] += weights[t] * glm::dvec3(displacements[v]);
+    }
     return result;
 }
 
 }  // namespace
-
-glm::dmat4 skinMatrix(const Vertices& vertices, std::span<const glm::dmat4> joints, std::size_t vertex) {
-    glm::dmat4 sum(0.0);
-    double weightSum = 0;
-    addInfluences(joints, vertices.joints[vertex], vertices.weights[vertex], sum, weightSum);
-    if (!vertices.joints1.empty())
-        addInfluences(joints, vertices.joints1[vertex], vertices.weights1[vertex], sum, weightSum);
-    return weightSum > 0 ? sum / weightSum : joints.front();
-}
-
-void addMorphs(const Mesh& mesh, std::span<const double> weights, std::vector<glm::vec3> MorphTarget::*kind,
-               std::span<const std::uint32_t> source, std::vector<glm::dvec3>& values) {
-    for (std::size_t t = 0; t < std::min(mesh.morphTargets.size(), weights.size()); ++t) {
-        const std::vector<glm::vec3>& displacements = mesh.morphTargets[t].*kind;
-        if (weights[t] == 0 || !std::isfinite(weights[t]) || displacements.empty()) continue;
-        for (std::size_t v = 0; v < values.size(); ++v)
-            values[v] += weights[t] * glm::dvec3(displacements[source.empty() ? v : source[v]]);
-    }
-}
 
 std::vector<glm::dvec3> posedPositions(const Mesh& mesh, const Object& object) {
     std::vector<glm::dvec3> result = morphed(mesh.vertices.positions, mesh, object, &MorphTarget::positions);

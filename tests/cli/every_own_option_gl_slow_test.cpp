@@ -120,8 +120,6 @@ TEST_F(OwnOption, shaderFolderIsReadOrRefused) {
         EXPECT_EQ(outcome.exitCode, 1) << command;
         EXPECT_NE(outcome.err.find("accumulation/object.frag"), std::string::npos) << command << outcome.err;
     }
-    const Outcome sheet = run(with({"pyramid", "ball.glb", "--no-measure", "--turntable", "sheet.png"}));
-    EXPECT_NE(sheet.err.find("accumulation/object.frag"), std::string::npos) << sheet.err;
     for (const Words& line : std::vector<Words>{usualLine("plan"),
                                                 usualLine("info"),
                                                 usualLine("pyramid"),

@@ -165,7 +165,6 @@ inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
         {"pyramid --points", {.words = {"--points", "100"}}},
         {"pyramid --no-measure", {.words = {"--no-measure"}}},
         {"pyramid --export", {.words = {"--export", "levels"}}},
-        {"pyramid --turntable", {.words = {"--turntable", "sheet.png"}}},
         {"pyramid --cache-dir", {.words = {"--cache-dir", "kept"}}},
         {"pyramid --json", {.words = {"--json"}}},
 

@@ -138,7 +138,6 @@ struct Place {
 TEST(Layering, foreignLibrariesStayInTheirPlace) {
     const std::vector<Place> places = {
         {R"(#\s*include\s*<OpenImageIO/|\bOIIO::)", "^image/"},
-        {R"(#\s*include\s*<stb)", "^image/text"},
         {R"(#\s*include\s*<tiny_gltf|\btinygltf::)", "^scene/gltf/"},
         {R"(#\s*include\s*<OpenMesh/|\bOpenMesh::)", "^lod/simplify/surface_mesh\\.h$"},
         {R"(#\s*include\s*<draco/)", "^scene/gltf/"},

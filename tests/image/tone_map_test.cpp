@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/error.h"
-
 namespace defocus::engine {
 namespace {
 
@@ -43,15 +41,6 @@ TEST(Srgb, outsideIsClampedAndNanIsBlack) {
     EXPECT_EQ(srgbEncode(7.0f), 1.0f);
     EXPECT_EQ(srgbEncode(std::numeric_limits<float>::infinity()), 1.0f);
     EXPECT_EQ(srgbEncode(std::numeric_limits<float>::quiet_NaN()), 0.0f);
-}
-
-TEST(ToneMapName, isFoundOrListed) {
-    EXPECT_EQ(toneMapNamed("none"), ToneMap::none);
-    EXPECT_EQ(toneMapNamed("aces"), ToneMap::aces);
-    EXPECT_EQ(toneMapNamed("agx"), ToneMap::agx);
-    EXPECT_EQ(toneMapNamed("neutral"), ToneMap::neutral);
-    EXPECT_THROW(toneMapNamed("filmic"), Error);
-    EXPECT_THROW(toneMapNamed(""), Error);
 }
 
 TEST(ToneMapped, exposureIsInStops) {

@@ -32,11 +32,11 @@ TEST_F(Visibility, underLimitsRangesAndTiltedPlanes) {
     }
 }
 
-// With a curved focus surface, clusters are culled by the corners of their triangles (visibility.h).
+// With a curved focus surface, clusters are culled only outside the frustum (visibility.h).
 TEST_F(Visibility, curvedFocus) {
     const auto small = fiveSpheres();
     small->view.lens.fieldCurvature = 0.3;
-    EXPECT_GT(expectSameImage(*small, LodMode::off), 0.15);
+    expectSameImage(*small, LodMode::off);
 }
 
 TEST_F(Visibility, blurOfVertices) {
@@ -49,7 +49,8 @@ TEST_F(Visibility, blurOfVertices) {
         small->world.pyramids = {};
         small->world.pyramids.push_back(fullDetail(mesh));
         if (changes) small->world.shutter.poses.assign(2, small->world.pose);
-        EXPECT_GT(expectSameImage(*small, LodMode::off), 0.15) << changes;
+        SCOPED_TRACE(changes);
+        expectSameImage(*small, LodMode::off);
     }
 }
 

@@ -18,22 +18,17 @@
 
 #include "cli/command.h"
 #include "cli/commands/level_export.h"
-#include "cli/commands/turntable.h"
 #include "cli/options/option_text.h"
 #include "cli/options/request_options.h"
 #include "core/error.h"
-#include "core/file.h"
 #include "core/number_text.h"
 #include "core/parallel.h"
 #include "core/suggestion.h"
 #include "frame/report/plan_report.h"
 #include "frame/setup/prepared_frame.h"
-#include "gl/context.h"
-#include "image/image_io.h"
 #include "lod/pyramid/cache.h"
 #include "lod/pyramid/finish.h"
 #include "lod/pyramid/surface_distance.h"
-#include "scene/defaults.h"
 #include "scene/gltf/gltf.h"
 #include "scene/gltf/write.h"
 
@@ -48,7 +43,6 @@ struct PyramidArguments {
     Request request;        // only the request's scene and levelVertices are used
     std::string mesh;       // name of the mesh; empty: all meshes
     fs::path exportFolder;  // folder for exported levels; empty: no export
-    fs::path turntable;     // file of the contact sheet of the levels; empty: none
     fs::path cacheFolder;   // cache of pyramids; empty: no cache
     std::size_t points = 16'384;
     bool noMeasure = false;
@@ -65,7 +59,6 @@ struct MeshReport {
     Pyramid pyramid;
     std::optional<double> seconds;  // build time, s; nullopt if read from the cache
     std::vector<LevelReport> levels;
-    fs::path turntable;  // file of the contact sheet; empty: not drawn
 };
 
 // Returns the mesh's name as `defocus info` prints it.
@@ -186,47 +179,6 @@ std::size_t exportAll(const Scene& scene, std::vector<MeshReport>& reports, cons
     return files;
 }
 
-// ---- contact sheets -----------------------------------------------------------------------------
-
-// Returns the file of a mesh's contact sheet: sheet.png, or sheet-STEM.png if there are several meshes.
-fs::path turntableFile(const fs::path& file, const std::string& stem, bool several) {
-    if (!several) return file;
-    fs::path named = file;
-    return named.replace_filename(fmt::format("{}-{}{}", file.stem().string(), stem, file.extension().string()));
-}
-
-// Returns the first object that draws the mesh; if there is none, an object without transform.
-Object shownObject(const Scene& scene, const Pose& pose, std::size_t mesh) {
-    for (const Object& object : pose.objects)
-        if (object.mesh == static_cast<int>(mesh)) return object;
-    Object object;
-    object.mesh = static_cast<int>(mesh);
-    object.name = scene.meshes[mesh].name;
-    object.morphWeights.assign(scene.meshes[mesh].morphTargets.size(), 0);
-    return object;
-}
-
-// Draws a contact sheet for each mesh that has triangles. The sheet shows each level of the mesh from all sides.
-void drawTurntables(const std::shared_ptr<const Scene>& drawn, std::vector<MeshReport>& reports, const fs::path& file,
-                    const std::vector<std::string>& stems, const GlobalOptions& global, const Progress& progress) {
-    const Scene& scene = *drawn;
-    const Pose pose = poseAt(scene, 0, -1);
-    World world;
-    world.scene = drawn;
-    world.environment = environmentOrDefault(scene);
-    world.pyramids.resize(scene.meshes.size());
-    for (MeshReport& report : reports) {
-        if (report.pyramid.levels.front().triangleCount == 0) continue;
-        Pyramid& lent = world.pyramids[report.mesh];
-        lent = std::move(report.pyramid);
-        const TurntableSheet sheet = turntableSheet(world, shownObject(scene, pose, report.mesh),
-                                                    shownName(scene, report.mesh), global.shaderDir, progress);
-        report.pyramid = std::move(lent);
-        report.turntable = turntableFile(file, stems[report.mesh], reports.size() > 1);
-        writeImage(report.turntable, sheet.image);
-    }
-}
-
 // ---- printed report -----------------------------------------------------------------------------
 
 Json distancesJson(const Distances& distances) {
@@ -250,7 +202,6 @@ Json reportJson(const PyramidArguments& arguments, const Scene& scene, const std
     for (const MeshReport& report : reports) {
         Json mesh = jsonOf(reportedPyramid(report.pyramid, scene.meshes[report.mesh].name, report.mesh));
         mesh["buildSeconds"] = report.seconds ? Json(*report.seconds) : Json();
-        if (!report.turntable.empty()) mesh["turntable"] = report.turntable.string();
         for (std::size_t l = 0; l < report.levels.size(); ++l) addReport(mesh["levels"][l], report.levels[l]);
         json["meshes"].push_back(std::move(mesh));
     }
@@ -297,22 +248,12 @@ void printReport(const Scene& scene, const std::vector<MeshReport>& reports) {
 }
 
 void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) {
-    if (!global.shaderDir.empty() && arguments.turntable.empty())
-        throw UsageError("--shader-dir has no effect without --turntable");
     const Progress progress = terminalProgress(global);
-    const auto loaded = std::make_shared<const Scene>(loadScene(arguments.request, progress));
-    const Scene& scene = *loaded;
+    const Scene scene = loadScene(arguments.request, progress);
     std::vector<MeshReport> reports = chooseMeshes(scene, arguments.mesh);
     const std::vector<std::string> stems = fileStems(scene);
     if (!arguments.exportFolder.empty() && !reports.empty())
         prepareFolder(arguments.exportFolder, levelFile(arguments.exportFolder, stems[reports.front().mesh], 0));
-
-    std::unique_ptr<GlContext> context;
-    if (!arguments.turntable.empty() && !reports.empty()) {
-        checkImageExtension(arguments.turntable);
-        checkWritable(turntableFile(arguments.turntable, stems[reports.front().mesh], reports.size() > 1));
-        context = createHeadlessContext();
-    }
 
     WarningPrinter(global).print(damageWarnings(scene));
     PyramidOptions options;
@@ -325,7 +266,6 @@ void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) 
     if (!arguments.noMeasure) measureAll(reports, arguments.points, progress);
     std::size_t files = 0;
     if (!arguments.exportFolder.empty()) files = exportAll(scene, reports, arguments.exportFolder, stems);
-    if (context) drawTurntables(loaded, reports, arguments.turntable, stems, global, progress);
 
     if (arguments.json) {
         fmt::print("{}", documentText(reportJson(arguments, scene, reports)));
@@ -333,9 +273,6 @@ void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) 
         printReport(scene, reports);
         if (!arguments.exportFolder.empty())
             fmt::print("\n{} file{} in {}\n", files, files == 1 ? "" : "s", arguments.exportFolder.string());
-        if (context) fmt::print("\n");
-        for (const MeshReport& report : reports)
-            if (!report.turntable.empty()) fmt::print("{}\n", report.turntable.string());
     }
     std::fflush(stdout);
 }
@@ -360,11 +297,6 @@ void addPyramidCommand(CLI::App& program, const GlobalOptions& global) {
     command->add_option("--export", arguments->exportFolder, "Folder to which each level is written as a .glb file")
         ->type_name("FOLDER");
     command
-        ->add_option("--turntable", arguments->turntable,
-                     "Image file (.png, .jpg or .exr) that shows all levels from all sides. With several meshes: one "
-                     "file per mesh, FILE-MESH.png")
-        ->type_name("FILE");
-    command
         ->add_option("--cache-dir", arguments->cacheFolder,
                      "Folder from which levels are read and in which they are stored. Default: build all levels")
         ->type_name("FOLDER");
@@ -374,9 +306,8 @@ void addPyramidCommand(CLI::App& program, const GlobalOptions& global) {
         "Lengths are in the units of the mesh. The error of a level is an upper bound of the 99th percentile of the\n"
         "distances between the level and level 0, in either direction. Measured distances are the larger of both\n"
         "directions.\n\n"
-        "Examples:\n"
-        "  defocus pyramid scene.glb --mesh Body --export levels\n"
-        "  defocus pyramid scene.glb --mesh Body --no-measure --turntable levels.png");
+        "Example:\n"
+        "  defocus pyramid scene.glb --mesh Body --export levels");
     command->callback([arguments, &global] { runPyramid(*arguments, global); });
 }
 

@@ -24,7 +24,6 @@
 #include "frame/report/layer_file.h"
 #include "frame/report/picture_warnings.h"
 #include "image/image_io.h"
-#include "plan/lens_cells/swept_work.h"
 #include "render/aov/work.h"
 
 namespace defocus::engine {
@@ -32,8 +31,8 @@ namespace defocus::engine {
 namespace {
 
 void parseAovs(const std::string& text, AovRequest& aovs) {
-    const std::vector<std::string> names = {"depth", "coc", "level", "work", "swept-work"};
-    const std::array<bool*, 5> wanted = {&aovs.depth, &aovs.coc, &aovs.level, &aovs.work, &aovs.sweptWork};
+    const std::vector<std::string> names = {"depth", "coc", "level", "work"};
+    const std::array<bool*, 4> wanted = {&aovs.depth, &aovs.coc, &aovs.level, &aovs.work};
     for (const std::string& part : partsOf(text)) *wanted[parseChoice(part, names)] = true;
 }
 
@@ -41,12 +40,11 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
     const char* group = "Output";
     arguments.outputs = {"out.exr"};
     addImageOutputs(command, arguments.outputs)->group(group);
-    advanced(addParsed(command, "--aov", "depth,coc,level,work,swept-work",
+    advanced(addParsed(command, "--aov", "depth,coc,level,work",
                        "Also write auxiliary images beside the first output. depth: depth in m. coc: signed circle of "
                        "confusion in px. level: level of detail. work: triangles per pixel, including hidden ones, "
-                       "summed over the lens samples of method accumulation. swept-work: number of triangles whose "
-                       "bounds, swept over lens and exposure, cover the pixel (the triangles that a stochastic "
-                       "rasterizer would test there). depth and coc are EXR; the others EXR and PNG",
+                       "summed over the lens samples of method accumulation. depth and coc are EXR; the others EXR and "
+                       "PNG",
                        [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
                  ->group(group));
     advanced(addParsed(command, "--sample-range", "FIRST:END",
@@ -108,8 +106,6 @@ std::vector<std::filesystem::path> aovPaths(const RenderArguments& arguments) {
     if (arguments.aovs.level) paths.push_back(derivedPath(output, "level.png"));
     if (arguments.aovs.work) paths.push_back(derivedPath(output, "work.exr"));
     if (arguments.aovs.work) paths.push_back(derivedPath(output, "work.png"));
-    if (arguments.aovs.sweptWork) paths.push_back(derivedPath(output, "swept-work.exr"));
-    if (arguments.aovs.sweptWork) paths.push_back(derivedPath(output, "swept-work.png"));
     return paths;
 }
 
@@ -155,14 +151,6 @@ void writeWork(const RenderArguments& arguments, const FramePlan& plan, const Im
     const WorkSummary summary = workSummary(work, samples);
     if (!quiet)
         printMessage("work: {:.2f} triangles per pixel and lens sample, maximum {:.1f}\n", summary.mean, summary.max);
-}
-
-void writeSweptWork(const RenderArguments& arguments, const Image& work, const Metadata& metadata, bool quiet) {
-    const std::filesystem::path& output = arguments.outputs.front();
-    writeImage(derivedPath(output, "swept-work.exr"), work, metadata);
-    writeImage(derivedPath(output, "swept-work.png"), sweptWorkColourMap(work));
-    const WorkSummary summary = workSummary(work, 1);
-    if (!quiet) printMessage("swept work: {:.1f} triangles per pixel, maximum {:.0f}\n", summary.mean, summary.max);
 }
 
 void printSummary(const RenderArguments& arguments, const RenderReport& report, int rowsKept) {
@@ -286,7 +274,6 @@ void writeAllAovs(const RenderArguments& arguments, SceneDriver& driver, bool qu
     const Metadata metadata = driver.metadata();
     if (arguments.aovs.surfaces()) writeAovs(arguments, driver.aovs(), metadata);
     if (arguments.aovs.work) writeWork(arguments, driver.driver().plan(), driver.work(), metadata, quiet);
-    if (arguments.aovs.sweptWork) writeSweptWork(arguments, driver.sweptWork(), metadata, quiet);
 }
 
 void runRender(const RenderArguments& arguments, const GlobalOptions& global) {

@@ -15,9 +15,8 @@ struct AovRequest {
     bool coc = false;
     bool level = false;
     bool work = false;
-    bool sweptWork = false;
     [[nodiscard]] bool surfaces() const { return depth || coc || level; }
-    [[nodiscard]] bool any() const { return surfaces() || work || sweptWork; }
+    [[nodiscard]] bool any() const { return surfaces() || work; }
 };
 
 struct RenderArguments {

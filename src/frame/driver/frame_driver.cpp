@@ -241,6 +241,7 @@ FrameDriver::Fit FrameDriver::fitOf(const FrameOrder& order) {
             order.view.height,
             order.settings.shadows,
             order.settings.positions,
+            order.settings.layers,
             order.stop.choosesPositions,
             order.stop.given(),
             order.samples.has_value(),
@@ -274,7 +275,7 @@ void FrameDriver::fit(const FrameOrder& order) {
     const int axis = order.stop.choosesPositions ? 2 : positionsPerAxis(order.settings);
     const int width = order.view.width * axis;
     const int height = order.view.height * axis;
-    if (!order.rows && surelyFits(width, height, mapsPossible, limits, limit_)) {
+    if (!order.rows && order.settings.layers.empty() && surelyFits(width, height, mapsPossible, limits, limit_)) {
         if (!renderer_) makeRenderer();
         return renderer_->setWave({.perWave = shortWave(order),
                                    .threads = threadsWithin(width, height, limit_, wantedThreads(limits, method))});

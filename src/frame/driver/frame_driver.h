@@ -108,6 +108,7 @@ private:
         int height = 0;
         Shadows shadows = Shadows::automatic;
         std::uint32_t positions = 1;
+        std::vector<Layer> layers;
         bool choosesPositions = false;
         bool stops = false;
         bool sums = false;

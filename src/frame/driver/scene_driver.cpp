@@ -11,7 +11,6 @@
 #include "frame/setup/levels.h"
 #include "frame/setup/scene_scale.h"
 #include "frame/setup/settings_hash.h"
-#include "plan/lens_cells/swept_work.h"
 #include "render/aov/aov.h"
 #include "render/aov/work.h"
 #include "scene/ground.h"
@@ -218,10 +217,6 @@ Image SceneDriver::work() {
     const FramePlan& plan = driver().plan();
     const InContext use(*context_);
     return renderWork(frame_.world, plan, shaderFolder_);
-}
-
-Image SceneDriver::sweptWork() const {
-    return engine::sweptWork(driver().plan(), frame_.world);
 }
 
 std::vector<std::string> SceneDriver::warnings() const {

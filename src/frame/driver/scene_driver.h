@@ -76,7 +76,6 @@ public:
     [[nodiscard]] AovImages aovs();
     [[nodiscard]] std::optional<LayerImages> layerImages();  // nullopt without Request::layers
     [[nodiscard]] Image work();
-    [[nodiscard]] Image sweptWork() const;
     // Returns the settings for encoding the image as PNG and JPEG. A metered exposure is measured for the first frame
     // and then kept.
     [[nodiscard]] WriteOptions writeOptions();

@@ -2,7 +2,6 @@
 // Evaluates a half-edge collapse: its effect on the faces, its effect on the wedges (vertices at face corners,
 // wedges.h), and its cost. Each of the three is computed by a module of OpenMesh's decimater.
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -62,12 +61,10 @@ public:
     // The second choice is the most similar wedge of the same primitive. Poor: the texture would be stretched across a
     // seam. Bad: the wedge belongs to another primitive.
     Fit judge(HalfedgeHandle along);
-    // Returns the corners and wedges that the last call of judge() selected; empty after the collapse.
-    [[nodiscard]] std::span<const Handover> handovers() const { return handovers_; }
 
 private:
-    std::vector<Handover> handovers_;
-    HalfedgeHandle judged_;  // half-edge whose collapse judge() evaluated last
+    std::vector<Handover> handovers_;  // selected by the last call of judge(); empty after the collapse
+    HalfedgeHandle judged_;            // half-edge whose collapse judge() evaluated last
 };
 
 // Computes the cost of a collapse: the quadric errors of both vertices at the surviving vertex, plus a small term for

@@ -12,9 +12,6 @@
 #include <optional>
 #include <utility>
 
-#include "plan/motion/clip_vertices.h"
-#include "plan/visible/lens_facing.h"
-
 namespace defocus::engine {
 
 namespace {
@@ -26,10 +23,8 @@ constexpr double storage = 1e-6;            // relative error of a cluster's sto
 constexpr double guardBand = 1.8;           // |NDC| beyond which triangles may be clipped
 constexpr int shutterParts = 4;         // parts of the time between two shutter times; each has its own motion bound
 constexpr std::size_t maxMoments = 64;  // max shutter times for culling; with more, all clusters are drawn
-// max number of vertices per level, over all shutter times; posing them takes about 10 ms
-constexpr std::size_t maxPosedVertices = 100'000;
-constexpr double minSaving = 1.0 / 8;  // min culled fraction of a level's triangles; otherwise all are drawn
-constexpr std::uint32_t minGap = 128;  // min culled triangles between two ranges; fewer are drawn, not skipped
+constexpr double minSaving = 1.0 / 8;   // min culled fraction of a level's triangles; otherwise all are drawn
+constexpr std::uint32_t minGap = 128;   // min culled triangles between two ranges; fewer are drawn, not skipped
 
 // Bounds of the lens in object space during a part of the exposure.
 struct LensRange {
@@ -205,147 +200,6 @@ bool clusterFacesAway(const Cluster& cluster, const Bounds& box, const ObjectVie
     return staysWhole(coc, plan) && (!plan.usesCocControls || isOneLinearPiece(coc, plan));
 }
 
-// ---- cluster test by triangle corners -------------------------------------------------------------------------------
-
-// Triangle corners of a level at the shutter times, for culling if the circle of confusion C is not linear or the
-// vertices deform.
-struct LevelCorners {
-    std::vector<ClipVertices> moments;  // one entry per shutter time; a single entry if nothing moves
-    bool apart = false;                 // true: one shutter time per sample; false: linear motion between times
-    double terms = 0;                   // magnitude in m of the terms that the GPU sums to positions
-    double lensRadius = 1;              // max distance of a lens sample from the lens's centre, in lens radii
-    double sign = 1;                    // 1, or −1 for mirrored objects
-};
-
-LevelCorners levelCorners(const ObjectPlan& object, std::uint32_t level, const World& world, const FramePlan& plan) {
-    LevelCorners corners;
-    const std::size_t last = object.motion.empty() ? 0 : object.motion.size() - 1;
-    corners.apart = !object.motion.empty() && world.shutter.perSample;
-    const auto add = [&](const ObjectPose& pose, double time) {
-        corners.moments.push_back(clipVertices(plan, world, object, level, pose, time));
-        for (const glm::dmat4& matrix : pose.viewFromJoint)
-            corners.terms = std::max(corners.terms, glm::length(glm::dvec3(matrix[3])));
-    };
-    if (object.motion.empty() && !object.blurMoves) add(object.pose, 0.5);
-    if (object.motion.empty() && object.blurMoves)
-        for (const double time : {0.0, 1.0}) add(object.pose, time);
-    for (std::size_t i = 0; i < object.motion.size(); ++i)
-        add(object.motion[i], corners.apart ? static_cast<double>(plan.samples[i].time)
-                                            : static_cast<double>(i) / static_cast<double>(last));
-    // Rounding errors of a skinned position are relative to the terms of the sum over joints. A term is at most the
-    // vertex's distance plus the joint's distance from the camera.
-    const double farthest = glm::length(glm::max(glm::abs(object.viewBox.minimum), glm::abs(object.viewBox.maximum)));
-    corners.terms = 2 * (corners.terms + farthest);
-    corners.lensRadius = lensReach(plan);
-    corners.sign = object.mirrored ? -1 : 1;
-    return corners;
-}
-
-// Returns true if the clusters of a level are culled by testing triangle corners. The level's triangles must be drawn
-// undivided. Large levels are excluded, because the test would take longer than it saves.
-bool cornersDecide(const ObjectPlan& object, std::uint32_t level, const World& world, const FramePlan& plan) {
-    const bool bends = object.deformed || object.skinned;
-    if (!bends && !plan.usesCocControls) return false;
-    if (object.refinement != Refinement::none || object.nearestDepth <= plan.view.nearPlane) return false;
-    const PyramidLevel& own = world.pyramids[static_cast<std::size_t>(object.mesh)].levels[level];
-    return own.vertexCount * std::max<std::size_t>(object.motion.size(), 1) <= maxPosedVertices;
-}
-
-Bounds viewBoxOf(const IndexRange& range, const Pyramid& pyramid, const LevelCorners& corners, const FramePlan& plan) {
-    const glm::dvec3 tangents(plan.tanHalfHorizontal, plan.tanHalfHorizontal / plan.coc.aspect, -1);
-    Bounds box;
-    for (const ClipVertices& moment : corners.moments)
-        for (std::uint32_t i = range.first; i < range.first + range.count; ++i)
-            box.extend(moment.places[pyramid.indices[i]] * tangents);
-    return box;
-}
-
-LensTriangle triangleAt(const ClipVertices& moment, const std::uint32_t* indices) {
-    LensTriangle triangle;
-    for (std::size_t k = 0; k < 3; ++k) {
-        triangle.places[k] = moment.places[indices[k]];
-        triangle.coc[k] = moment.coc[indices[k]];
-    }
-    return triangle;
-}
-
-// Returns the margin by which the determinant of a triangle (lens_facing.h) must be below 0, so that rounding of the
-// vertex positions can't flip the triangle. Twice the triangle's area in px² is W·H/4·det/(w₀w₁w₂) in an image of W × H
-// px. Moving the corners by r px changes this area by at most 2r·(sum of two edges) + 8r².
-double minDeterminant(const LensTriangle& from, const LensTriangle& to, double terms, const FramePlan& plan) {
-    double min = infinity;
-    double max = 0;
-    double edge = 0;
-    for (const LensTriangle* triangle : {&from, &to})
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::size_t j = (i + 1) % 3;
-            const glm::dvec3& p = triangle->places[i];
-            const glm::dvec3& q = triangle->places[j];
-            min = std::min(min, p.z);
-            max = std::max(max, p.z);
-            const glm::dvec2 step = glm::abs(glm::dvec2(p) / p.z - glm::dvec2(q) / q.z);
-            const double blur = std::abs(triangle->coc[i] / p.z - triangle->coc[j] / q.z);
-            edge = std::max(edge, plan.view.width * (step.x / 2 + blur) + plan.view.height * step.y / 2);
-        }
-    const double focal = plan.view.width / (2 * plan.tanHalfHorizontal);
-    const double rounded = snapping + focal / min * transformation * terms;
-    const double stretched = edge * (max / min) * (max / min);
-    return (4 * rounded * stretched + 8 * rounded * rounded) * 4 / plan.view.width / plan.view.height * max * max * max;
-}
-
-// Returns true if the triangle is degenerate: two corners coincide.
-bool drawsNothing(const LensTriangle& t) {
-    const auto same = [&](std::size_t i, std::size_t j) { return t.places[i] == t.places[j] && t.coc[i] == t.coc[j]; };
-    return same(0, 1) || same(1, 2) || same(2, 0);
-}
-
-bool triangleFacesAway(const std::uint32_t* indices, const LevelCorners& corners, const FramePlan& plan) {
-    const double aspect = plan.coc.aspect;
-    const auto away = [&](LensTriangle from, LensTriangle to, int parts) {
-        if (drawsNothing(from) && drawsNothing(to)) return true;
-        if (corners.sign < 0)
-            for (LensTriangle* triangle : {&from, &to}) {
-                std::swap(triangle->places[1], triangle->places[2]);
-                std::swap(triangle->coc[1], triangle->coc[2]);
-            }
-        const double margin = minDeterminant(from, to, corners.terms, plan);
-        for (int part = 0; part < parts; ++part) {
-            const LensTriangle begin = between(from, to, static_cast<double>(part) / parts);
-            const LensTriangle end = between(from, to, static_cast<double>(part + 1) / parts);
-            if (!(largestDeterminant(begin, end, aspect, corners.lensRadius) <= -margin)) return false;
-        }
-        return true;
-    };
-    const std::vector<ClipVertices>& moments = corners.moments;
-    if (moments.size() == 1 || corners.apart)
-        return std::all_of(moments.begin(), moments.end(), [&](const ClipVertices& moment) {
-            const LensTriangle triangle = triangleAt(moment, indices);
-            return away(triangle, triangle, 1);
-        });
-    for (std::size_t i = 0; i + 1 < moments.size(); ++i)
-        if (!away(triangleAt(moments[i], indices), triangleAt(moments[i + 1], indices), shutterParts)) return false;
-    return true;
-}
-
-// Returns true if the circle of confusion C of each corner is linear in time between two shutter times. This holds for
-// the thin lens, because w is linear, and for a C that is a single linear function of the position.
-bool goesEvenly(const CocBox& coc, const LevelCorners& corners, const ObjectPlan& object, const FramePlan& plan) {
-    if (corners.apart || corners.moments.size() == 1 || object.motion.empty()) return true;
-    if (object.blurMoves) return false;
-    return plan.coc.thinLens() || isOneLinearPiece(coc, plan);
-}
-
-bool cornersFaceAway(const IndexRange& range, const Bounds& box, const LevelCorners& corners, const ObjectPlan& object,
-                     const Pyramid& pyramid, const FramePlan& plan) {
-    if (!(-box.maximum.z > plan.view.nearPlane * (1 + storage))) return false;
-    if (plan.coc.chromatic > 0 || plan.coc.aberrates()) return false;
-    const CocBox coc = cocBoxOf(box, object.own, plan);
-    if (!staysWhole(coc, plan) || !goesEvenly(coc, corners, object, plan)) return false;
-    for (std::uint32_t i = range.first; i < range.first + range.count; i += 3)
-        if (!triangleFacesAway(&pyramid.indices[i], corners, plan)) return false;
-    return true;
-}
-
 // ---- culling of levels ---------------------------------------------------------------------------------------------
 
 bool clusterOutside(const Bounds& box, const ObjectViews& views, const FramePlan& plan) {
@@ -395,22 +249,16 @@ VisibleLevel levelWithoutHidden(const ObjectViews& views, const ObjectPlan& obje
     const Mesh& mesh = world.scene->meshes[static_cast<std::size_t>(object.mesh)];
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
     const PyramidLevel& level = pyramid.levels[number];
-    std::optional<LevelCorners> corners;
-    if (cornersDecide(object, number, world, plan)) corners = levelCorners(object, number, world, plan);
-    const bool bends = object.deformed || object.skinned;
-    if (!corners && bends) return visible;
     auto cluster = level.clusters.begin();
     for (std::size_t p = 0; p < level.primitives.size(); ++p) {
         Runs runs(visible);
         const bool oneSided = !doubleSided(*world.scene, mesh.primitives[p]);
         const std::uint32_t end = level.primitives[p].first + level.primitives[p].count;
         for (; cluster != level.clusters.end() && cluster->indices.first < end; ++cluster) {
-            const Bounds box =
-                corners ? viewBoxOf(cluster->indices, pyramid, *corners, plan) : viewBoxOf(*cluster, views);
+            const Bounds box = viewBoxOf(*cluster, views);
             if (clusterOutside(box, views, plan))
                 runs.hideOutside(cluster->indices.count / 3);
-            else if (oneSided && ((!bends && clusterFacesAway(*cluster, box, views, plan)) ||
-                                  (corners && cornersFaceAway(cluster->indices, box, *corners, object, pyramid, plan))))
+            else if (oneSided && clusterFacesAway(*cluster, box, views, plan))
                 runs.hideFacingAway(cluster->indices.count / 3);
             else
                 runs.show(cluster->indices);
@@ -491,10 +339,8 @@ bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const O
 }
 
 void leaveOutClusters(ObjectPlan& object, const World& world, const FramePlan& plan) {
-    if (object.motion.size() > maxMoments) return;
-    ObjectViews views;
-    views.own = object.own;
-    if (!object.deformed && !object.skinned) views = objectViews(object, world, plan);
+    if (object.deformed || object.skinned || object.motion.size() > maxMoments) return;
+    const ObjectViews views = objectViews(object, world, plan);
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
     for (LevelDraw* draw : {&object.coarse, &object.fine}) {
         if (draw->sampleCount == 0) continue;

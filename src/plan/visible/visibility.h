@@ -17,11 +17,9 @@
 //
 // Clusters. A cluster faces away if the whole disk lies behind the planes of all its triangles at every t. The test
 // uses the cone of the cluster's normals in object space, where mirrored objects need no special case. The cone test
-// needs a C that is one linear function inside the cluster's box. It also needs rigid vertices without blur modifiers,
-// so no skins or morph targets. Otherwise each triangle of the cluster is posed on the CPU and tested by its corners.
-// Static triangles use Eq. 5, moving ones Eq. 7 and 8 (lens_facing.h). The corner test is valid only for triangles that
-// are drawn undivided. Clusters that would need it are not culled if the object's triangles are divided, or if the mesh
-// is so large that the test would take too long.
+// needs a C that is one linear function inside the cluster's box, and the same blur modifiers at all vertices. Other
+// clusters are culled only outside the frustum. Skins and morph targets move vertices out of the stored bounds, so
+// deforming objects are culled only as a whole.
 //
 // Rounding. A renderer rounds positions, to 1/256 px at best, and this may flip a narrow triangle. The lens must
 // therefore lie behind the planes by a margin larger than any rounding. Then no culled triangle would have drawn a
@@ -46,8 +44,8 @@ bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const O
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,
                            const PixelRectangle& area);
 
-// Culls clusters that no lens sample sees. Fills object.visible and reduces the triangle counts of object.coarse and
-// object.fine.
+// Culls clusters of a rigid object that no lens sample sees. Fills object.visible and reduces the triangle counts of
+// object.coarse and object.fine.
 void leaveOutClusters(ObjectPlan& object, const World& world, const FramePlan& plan);
 
 }  // namespace defocus::engine

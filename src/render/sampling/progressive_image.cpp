@@ -92,7 +92,6 @@ std::optional<double> ProgressiveImage::estimatedError() const {
 
 bool ProgressiveImage::grow(double milliseconds) {
     const Clock::time_point begin = Clock::now();
-    const std::uint32_t before = samples();
     while (!finished_) {
         const Clock::time_point waveBegin = Clock::now();
         if (renderer_->samples() == renderer_->sampleTotal()) {
@@ -105,8 +104,6 @@ bool ProgressiveImage::grow(double milliseconds) {
         glFinish();
         if (millisecondsSince(begin) + millisecondsSince(waveBegin) > milliseconds) break;
     }
-    const std::uint32_t drawn = samples() > before ? samples() - before : 0;
-    if (drawn > 0) millisecondsPerSample_ = millisecondsSince(begin) / drawn;
     return !finished_;
 }
 

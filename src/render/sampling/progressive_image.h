@@ -41,9 +41,6 @@ public:
     [[nodiscard]] const FramePlan& plan() const { return plan_; }  // plan of the latest frame or block
     [[nodiscard]] const GlTexture* texture() { return renderer_->imageTexture(); }
     [[nodiscard]] RenderStats stats() const { return renderer_->stats(); }
-    [[nodiscard]] double millisecondsPerSample() const {
-        return millisecondsPerSample_;
-    }  // measured in the latest grow()
 
 private:
     void planBlock();
@@ -61,7 +58,6 @@ private:
     bool usesLensSamples_ = true;
     bool sumsBlocks_ = false;
     bool finished_ = true;
-    double millisecondsPerSample_ = 0;
 };
 
 }  // namespace defocus::engine

@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "gl/context.h"
 #include "gl/device_memory.h"
+#include "render/accumulation/lens_layers.h"
 #include "render/gpu_scene/frame_uniforms.h"
 #include "render/gpu_scene/shadow_maps.h"
 #include "render/layer_format.h"
@@ -71,7 +72,10 @@ TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLi
     needs.height = plan.view.height;
     needs.rows = {0, plan.view.height};
     const std::uint64_t backdropFactor = plan.usesTransmission ? 2 : 1;
-    needs.layerPixel = layerPixelBytes(chosenLayerFormat(world, limits.layerFormat)) * backdropFactor;
+    const std::vector<Layer>& data = plan.settings.layers;
+    needs.layerPixel =
+        layerPixelBytes(chosenLayerFormat(world, limits.layerFormat)) * backdropFactor + LensLayers::layerBytes(data);
+    needs.dataPixel = LensLayers::sumBytes(data);
     needs.layerMaps = shadowMapBytes(*world.scene, plan);
     needs.waveBytes = RendererOptions{}.waveBytes;
     needs.askedWave = limits.wave;
@@ -90,6 +94,13 @@ TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLi
     }
     needs.mayUseCells = !plan.usesTransmission;
     return needs;
+}
+
+// Returns the bytes of the accumulation buffers of an image without tiles. If the device shares the main memory, adds
+// the bytes of the images on the host.
+std::uint64_t untiledBytes(const TilingNeeds& needs) {
+    const std::uint64_t sums = sumPixelBytes + needs.dataPixel;
+    return pixelsOf(needs.width, needs.height) * (needs.shared ? sums + wholePixelBytes + needs.dataPixel : sums);
 }
 
 // Subtracts `bytes`, the memory that the scene will take, from the available memory. Only for software drivers.
@@ -137,10 +148,8 @@ std::uint64_t waveBytesWithin(std::uint64_t limit, std::uint32_t threads) {
 }
 
 std::uint32_t threadsWithin(const TilingNeeds& needs, std::uint32_t wanted) {
-    const std::uint64_t pixels = pixelsOf(needs.width, needs.height);
-    const std::uint64_t layer = pixels * needs.layerPixel + needs.layerMaps;
-    const std::uint64_t others = pixels * (sumPixelBytes + (needs.shared ? wholePixelBytes : 0)) + layer;
-    return threadsIn(remainder(needs.deviceMemory, others), layer, wanted);
+    const std::uint64_t layer = pixelsOf(needs.width, needs.height) * needs.layerPixel + needs.layerMaps;
+    return threadsIn(remainder(needs.deviceMemory, untiledBytes(needs) + layer), layer, wanted);
 }
 
 std::uint32_t threadsWithin(int width, int height, std::uint64_t limit, std::uint32_t wanted) {
@@ -158,11 +167,9 @@ std::uint64_t pendingBytesWithin(std::uint64_t limit) {
 
 std::uint32_t waveWithin(const TilingNeeds& needs) {
     if (needs.askedWave > 0) return needs.askedWave;
-    const std::uint64_t pixels = pixelsOf(needs.width, needs.height);
-    const std::uint64_t others = pixels * (sumPixelBytes + (needs.shared ? wholePixelBytes : 0));
     const std::uint64_t bytes =
-        std::min({needs.waveBytes, needs.deviceMemory / 4, remainder(needs.deviceMemory, others)});
-    const std::uint64_t layer = pixels * needs.layerPixel + needs.layerMaps;
+        std::min({needs.waveBytes, needs.deviceMemory / 4, remainder(needs.deviceMemory, untiledBytes(needs))});
+    const std::uint64_t layer = pixelsOf(needs.width, needs.height) * needs.layerPixel + needs.layerMaps;
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(bytes / layer, 1, blockSamples));
 }
 

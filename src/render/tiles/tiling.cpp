@@ -83,8 +83,8 @@ Band bandOf(const std::vector<PixelRectangle>& cells, const RowRange& rows) {
 bool fitsInOnePiece(const TilingNeeds& needs) {
     if (cellsFor(needs).size() > 1) return false;
     const std::uint64_t pixels = product(needs.width, needs.height);
-    const std::uint64_t device = pixels * (needs.layerPixel + sumPixelBytes) + needs.layerMaps;
-    const std::uint64_t host = pixels * wholePixelBytes + needs.keptBytes;
+    const std::uint64_t device = pixels * (needs.layerPixel + sumPixelBytes + needs.dataPixel) + needs.layerMaps;
+    const std::uint64_t host = pixels * (wholePixelBytes + needs.dataPixel) + needs.keptBytes;
     return needs.shared ? device + host <= needs.deviceMemory
                         : device <= needs.deviceMemory && host <= needs.hostMemory;
 }

@@ -16,6 +16,7 @@ struct TilingNeeds {
     RowRange rows;                   // rows to draw
     std::uint64_t layerPixel = 12;   // bytes per pixel of a layer: colour, depth and backdrop
     std::uint64_t layerMaps = 0;     // bytes of shadow maps per layer
+    std::uint64_t dataPixel = 0;     // bytes per pixel of the sums of data layers; the host needs as many again
     std::uint64_t waveBytes = 0;     // max bytes of all layers
     std::uint32_t askedWave = 0;     // requested number of samples drawn together; 0: as many as fit into waveBytes
     std::uint64_t deviceMemory = 0;  // free bytes for layers and accumulation buffers

@@ -1,9 +1,9 @@
 #include "view/widgets/look.h"
 
+#include <array>
 #include <filesystem>
 #include <optional>
-
-#include "image/text.h"
+#include <system_error>
 
 namespace defocus::engine {
 
@@ -53,6 +53,23 @@ void setColors(ImGuiStyle& style, bool dark) {
     style.Colors[ImGuiCol_PlotHistogramHovered] =
         dark ? ImVec4(0.94f, 0.63f, 0.24f, 1) : ImVec4(0.80f, 0.44f, 0.05f, 1);
     style.Colors[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, 0.3f};  // leave the picture visible behind a dialog
+}
+
+// Returns the path of a sans-serif TrueType font with Latin and Greek letters, if one is installed in a common
+// location.
+std::optional<std::filesystem::path> sansSerifFile() {
+    constexpr std::array files = {
+        "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+        "/usr/share/fonts/TTF/DejaVuSans.ttf",
+        "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+        "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
+        "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
+        "/Library/Fonts/Arial Unicode.ttf",
+    };
+    std::error_code ignored;
+    for (const char* file : files)
+        if (std::filesystem::is_regular_file(file, ignored)) return file;
+    return std::nullopt;
 }
 
 }  // namespace

@@ -345,16 +345,6 @@ TEST_F(Render, workIsThatOfAllSamplesHoweverManyAreDrawnAtOnce) {
     EXPECT_EQ(*images[0].at(10, 80), 0);
 }
 
-TEST_F(Render, sweptWorkIsOfBoundsOverTheLens) {
-    const Outcome outcome = render({"-o", "a.png", "--aov", "swept-work", "--no-dof"});
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("swept work: "), std::string::npos) << outcome.err;
-    EXPECT_TRUE(fs::exists(folder() / "a.swept-work.png"));
-    const Image work = readImage(folder() / "a.swept-work.exr");
-    EXPECT_EQ(*work.at(63, 21), 2);  // both triangles count, since each has the square's bounding rectangle
-    EXPECT_EQ(*work.at(10, 80), 0);
-}
-
 TEST_F(Render, transparentBackgroundHasNoCoverage) {
     ASSERT_EQ(render({"-o", "a.exr", "--background", "none", "--no-dof"}).exitCode, 0);
     const Image image = readImage(folder() / "a.exr");

@@ -53,10 +53,7 @@ std::vector<std::uint32_t> together(std::vector<std::uint32_t> a, const std::vec
 
 TEST(WedgeModule, insideAChartCornersDrawTheSurvivor) {
     DrawnSurface surface(grid(), {together(leftTriangles, rightTriangles)});
-    WedgeModule& wedges = surface.modules().wedges;
-    EXPECT_EQ(wedges.judge(surface.edge(4, 5)), Fit::good);
-    ASSERT_EQ(wedges.handovers().size(), 4u);
-    for (const Handover& handover : wedges.handovers()) EXPECT_EQ(handover.wedge, WedgeNumber{5});
+    EXPECT_EQ(surface.modules().wedges.judge(surface.edge(4, 5)), Fit::good);
     surface.collapse(4, 5);
     EXPECT_EQ(drawnFaces(surface.mesh()),
               (std::vector<Face>{{0, 1, 5}, {0, 5, 3}, {1, 2, 5}, {3, 5, 7}, {3, 7, 6}, {5, 8, 7}}));

@@ -86,13 +86,7 @@ ClipTriangle clipTriangle(const FramePlan& plan, const World& world, const Objec
         const double w = -p.z;
         triangle.p[k] = {p.x / plan.tanHalfHorizontal, p.y * plan.coc.aspect / plan.tanHalfHorizontal, w};
         const glm::dvec2 ndc = glm::dvec2(triangle.p[k]) / w;
-        VertexBlur blur;
-        if (!pyramid.vertices.blurs.empty()) blur = pyramid.vertices.blurs[pyramid.indices[first + k]];
-        const double millimetres = (1 - time) * double(blur.opening) + time * double(blur.closing);
-        triangle.c[k] = w *
-                        circleOfConfusion(plan.coc, w, plan.view.width, ndc, object.cocScale * double(blur.factor),
-                                          object.cocScale * millimetres / plan.view.lens.horizontalAperture) /
-                        plan.view.width;
+        triangle.c[k] = w * circleOfConfusion(plan.coc, w, 1, ndc, object.cocScale);
     }
     return triangle;
 }
@@ -146,7 +140,7 @@ Counts checkTriangles(const SmallWorld& small, const FramePlan& plan) {
     for (const ObjectPlan& object : plan.objects) {
         const VisibleLevel* visible = visibleLevel(object, 0);
         const double sign = object.mirrored ? -1 : 1;
-        const bool moves = !object.motion.empty() || object.blurMoves;
+        const bool moves = !object.motion.empty();
         bool away = true;
         bool unseen = true;
         for (int step = 0; step <= (moves ? 24 : 0); ++step) {
@@ -228,14 +222,11 @@ TEST(Visibility, randomTrianglesUnderControlsOfTheBlur) {
         SCOPED_TRACE(variant);
         const FramePlan plan = planFrame(small->world, small->view, settingsFor(64));
         const Counts counts = checkTriangles(*small, plan);
-        if (variant == 5) {
-            EXPECT_GT(counts.away, 0) << "undivided triangles are culled too";
-            continue;
-        }
+        if (variant == 5) continue;  // C of a curved focus surface has no linear piece
         away += counts.away;
         could += counts.couldBeAway;
     }
-    EXPECT_GT(away, 0.7 * could) << "the rest lies across a kink of C";
+    EXPECT_GT(away, 0.5 * could) << "some boxes of clusters contain a kink of C";
 }
 
 TEST(Visibility, randomTrianglesThatMoveDuringTheExposure) {
@@ -255,32 +246,6 @@ TEST(Visibility, randomTrianglesThatMoveDuringTheExposure) {
         EXPECT_GT(counts.couldBeAway, 200);
         EXPECT_GT(counts.away, (speed < 0.1 ? 0.6 : 0.4) * counts.couldBeAway) << "speed " << speed;
     }
-}
-
-// No visible triangle is culled if each corner has its own blur, which may change during the exposure.
-TEST(Visibility, randomTrianglesWhoseCornersHaveTheirOwnBlur) {
-    Random random(5);
-    for (const bool changes : {false, true})
-        for (const double size : {0.05, 0.2}) {
-            const auto small = looseTriangles(random, 1500, size);
-            for (std::size_t i = 0; i < small->scene.meshes.size(); ++i) {
-                Mesh& mesh = small->scene.meshes[i];
-                for (int k = 0; k < 3; ++k) {
-                    const auto opening = static_cast<float>(random(-0.5, 0.5));
-                    const auto closing = changes ? static_cast<float>(random(-0.5, 0.5)) : opening;
-                    mesh.vertices.blurs.push_back({static_cast<float>(random(0, 1.5)), opening, closing});
-                }
-                mesh.blurBounds = boundsOf(mesh.vertices.blurs);
-                small->world.pose.objects[i].cocScale = i % 3 == 0 ? random(0, 1.5) : 1;
-            }
-            finish(*small);
-            if (changes) small->world.shutter.poses.assign(2, small->world.pose);
-            RenderSettings settings = settingsFor(64);
-            settings.cocTolerance = 1e6;  // a tolerance so large that no triangle is divided
-            const Counts counts = checkTriangles(*small, planFrame(small->world, small->view, settings));
-            EXPECT_GT(counts.couldBeAway, 100);
-            EXPECT_GT(counts.away, 0.6 * counts.couldBeAway) << "size " << size << ", changes: " << changes;
-        }
 }
 
 // The frustum for culling is widened by the object's own blur, which may exceed the blur of the lens.
@@ -346,26 +311,16 @@ TEST(Visibility, farSideOfASphereIsLeftOut) {
     }
 }
 
-// Clusters of skinned meshes are culled by the corners of their triangles instead of by normal cones. A skin of one
-// static joint has about as many culled triangles as the rigid mesh.
-TEST(Visibility, aSkinnedSpheresFarSideIsLeftOut) {
-    const auto rigid = oneSphere(at(0, -4));
+// The bounds of clusters hold in the rest pose only, so a skin may move clusters out of their bounds.
+TEST(Visibility, clustersOfASkinnedSphereAreKept) {
     const auto skinned = oneSphere(at(0, -4));
     Vertices& vertices = skinned->scene.meshes[0].vertices;
     vertices.joints.assign(vertices.count(), glm::u16vec4(0));
     vertices.weights.assign(vertices.count(), glm::vec4(1, 0, 0, 0));
     finish(*skinned);
     skinned->world.pose.objects[0].worldFromJoint = {at(0, -4)};
-    const FramePlan expected = planFrame(rigid->world, rigid->view, settingsFor(16));
-    const FramePlan found = planFrame(skinned->world, skinned->view, settingsFor(16));
-    EXPECT_GT(share(found.trianglesFacingAway, found), 0.35);
-    EXPECT_NEAR(share(found.trianglesFacingAway, found), share(expected.trianglesFacingAway, expected), 0.08);
-    // A cluster on a rotating joint must face away during the entire exposure.
-    skinned->world.shutter.poses.assign(2, skinned->world.pose);
-    skinned->world.shutter.poses[1].objects[0].worldFromJoint = {glm::rotate(at(0, -4), 0.2, glm::dvec3(0, 1, 0))};
-    const FramePlan turning = planFrame(skinned->world, skinned->view, settingsFor(16));
-    EXPECT_GT(share(turning.trianglesFacingAway, turning), 0.25);
-    EXPECT_LT(turning.trianglesFacingAway, found.trianglesFacingAway);
+    const FramePlan plan = planFrame(skinned->world, skinned->view, settingsFor(16));
+    EXPECT_EQ(plan.trianglesDrawn, plan.trianglesAtFullDetail);
 }
 
 TEST(Visibility, doubleSidedSurfacesNeverFaceAway) {

@@ -85,6 +85,15 @@ TEST(Tiling, onePieceIsWhatFitsWithItsPicture) {
     EXPECT_TRUE(fitsInOnePiece(oneCell));
 }
 
+// The sums of data layers and their images on the host take memory beside the picture.
+TEST(Tiling, dataLayersTakeMemoryTwice) {
+    TilingNeeds needs = needsOf(100, 100, 10'000 * (12 + sumPixelBytes + wholePixelBytes + 2 * 96));
+    needs.dataPixel = 96;
+    EXPECT_TRUE(fitsInOnePiece(needs));
+    needs.dataPixel = 97;
+    EXPECT_FALSE(fitsInOnePiece(needs));
+}
+
 TEST(Tiling, aDeviceWithMemoryOfItsOwnIsLookedAtApart) {
     TilingNeeds needs = needsOf(1000, 1000, 100 << 20);
     needs.shared = false;
