@@ -241,10 +241,6 @@ def layers():
 
 
 def parts(summary=False):
-    def fastest(sky):
-        rows = [line.split() for line in lines_of("llvmpipe-waves") if line.startswith(sky) and " rgba16f " in line]
-        return min(float(row[3]) for row in rows)
-
     def of_both(texts):
         return f"{texts[0]} at full detail, {texts[1]} with levels"
 
@@ -253,9 +249,9 @@ def parts(summary=False):
     clusters = [numbers_after(lines[:at], levels) for levels in ("off", "fractional")]
     hidden = [numbers_after(lines[at:], f"hidden, {levels}") for levels in ("off", "fractional")]
     elisions = lines_of("llvmpipe-elisions")
+    out_of_view, sharp = (f"{numbers_after(elisions, beginning)[2]:.1f}" for beginning in
+                          ("most fish out of view (culling)", "f/64: nothing blurred (lens samples)"))
     if summary:
-        out_of_view, sharp = (f"{numbers_after(elisions, beginning)[2]:.1f}" for beginning in
-                              ("most fish out of view (culling)", "f/64: nothing blurred (lens samples)"))
         return table(["what is left out: times as fast", "full detail", "levels"], [
             ["clusters that face away or lie outside, school of fish", *(f"{row[6]:.2f}" for row in clusters)],
             ["hidden parts, on the CPU, twenty FlightHelmets", *(f"{row[4]:.2f}" for row in hidden)],
@@ -263,25 +259,25 @@ def parts(summary=False):
             ["48 of 64 samples where no blur reaches half a pixel (f/64)", "", sharp]
         ]) + ("\nCommand: `defocus_cluster_bench` ([run](../bench/results/llvmpipe-clusters.txt)), `defocus_elision_bench` "
               "([run](../bench/results/llvmpipe-elisions.txt)).\n")
+    empty = max((row for row in run_of("llvmpipe-scaling")["rows"] if row["lod"] == "off"), key=lambda row: row["samples"])
     separable, direct = numbers_after(lines_of("llvmpipe-post-process"), "  exponent")
     rows = [
-        ["one lens sample of 1024 × 768 px in which nothing is drawn: clear, compose, add",
-         f"{fastest('uniform'):.1f} ms; {fastest('gradient'):.1f} ms with a gradient sky", "wave"],
-        ["clusters that face away or lie outside are left out: share of the triangles, school of fish",
-         of_both([f"{100 * (away + outside) / total:.0f} %" for total, away, outside, *_ in clusters]), "cluster"],
-        ["the same: times as fast, same image", of_both([f"{row[6]:.2f}" for row in clusters]), "cluster"],
-        ["what lies behind others is left out, on the CPU: share of the triangles of twenty FlightHelmets",
-         of_both([f"{100 * row[1] / row[0]:.0f} %" for row in hidden]), "cluster"],
-        ["the same: times as fast, same image", of_both([f"{row[4]:.2f}" for row in hidden]), "cluster"],
-        ["objects that no lens sample sees are left out, most fish out of view: times as fast",
-         f"{numbers_after(elisions, 'most fish out of view (culling)')[2]:.1f}", "elision"],
-        ["16 samples instead of 64 if no blur reaches half a pixel (f/64): times as fast",
-         f"{numbers_after(elisions, 'f/64: nothing blurred (lens samples)')[2]:.1f}", "elision"],
+        [f"one lens sample of {empty['width']} × {empty['height']} px in which nothing is drawn: clear and add",
+         f"{empty['layersMilliseconds'] / empty['samples']:.1f} ms", "defocus bench scaling", "scaling.json"],
+        *([what, of_both(texts), "defocus_cluster_bench", "clusters.txt"] for what, texts in (
+            ["clusters that face away or lie outside are left out: share of the triangles, school of fish",
+             [f"{100 * (away + outside) / total:.0f} %" for total, away, outside, *_ in clusters]],
+            ["the same: times as fast, same image", [f"{row[6]:.2f}" for row in clusters]],
+            ["what lies behind others is left out, on the CPU: share of the triangles of twenty FlightHelmets",
+             [f"{100 * row[1] / row[0]:.0f} %" for row in hidden]],
+            ["the same: times as fast, same image", [f"{row[4]:.2f}" for row in hidden]])),
+        ["objects that no lens sample sees are left out, most fish out of view: times as fast", out_of_view, "defocus_elision_bench",
+         "elisions.txt"],
+        ["16 samples instead of 64 if no blur reaches half a pixel (f/64): times as fast", sharp, "defocus_elision_bench", "elisions.txt"],
         ["cost of a circular disk over its radius, 8 to 64 px: exponent", f"{separable:.2f} separable, {direct:.2f} direct",
-         "post_process"]]
-    runs = {"wave": "waves", "cluster": "clusters", "elision": "elisions", "post_process": "post-process"}
+         "defocus_post_process_bench", "post-process.txt"]]
     return table(["what", "figure", "command"], [
-        [what, figure, f"`defocus_{bench}_bench` ([run](../bench/results/llvmpipe-{runs[bench]}.txt))"] for what, figure, bench in rows
+        [what, figure, f"`{command}` ([run](../bench/results/llvmpipe-{run}))"] for what, figure, command, run in rows
     ]) + by_size_only("`defocus_elision_bench` has")
 
 
