@@ -13,12 +13,6 @@ def span(values, digits):
     return low if low == high else f"{low} to {high}"
 
 
-def by_size_only(bench_has):
-    """Returns the sentence under a table of levels chosen by size only. bench_has: words such as "This bench has"."""
-    return (f"\nThe run chose levels by size (`--lod-metric size`). {bench_has} no option for it, so only the commit of the run "
-            "repeats the figures.\n")
-
-
 def scaling(with_parts=True):
     axes = {"triangles": "triangles, 100 k to 10 M", "instances": "instances, 1 to 10,000", "samples": "lens samples, 2 to 64",
             "pixels": "pixels, 640 × 480 to 3840 × 2160", "blur": "blur, f/16 to f/1"}
@@ -28,7 +22,9 @@ def scaling(with_parts=True):
     header = ["what grows", "exponent, full detail", "exponent, levels", "what takes the time, with levels"]
     if not with_parts:
         return run_table("llvmpipe-scaling", header[:-1], [row[:-1] for row in rows])
-    return run_table("llvmpipe-scaling", header, rows) + by_size_only("This bench has")
+    return run_table("llvmpipe-scaling", header, rows) + (
+        "\nThe run chose levels by size (`--lod-metric size`). This bench has no option for it, so only the commit of the run repeats "
+        "the figures.\n")
 
 
 # ---- tables about pyramids ------------------------------------------------------------------------------------------
@@ -258,7 +254,7 @@ def parts(summary=False):
             ["objects that no lens sample sees, most fish out of view", "", out_of_view],
             ["48 of 64 samples where no blur reaches half a pixel (f/64)", "", sharp]
         ]) + ("\nCommand: `defocus_cluster_bench` ([run](../bench/results/llvmpipe-clusters.txt)), `defocus_elision_bench` "
-              "([run](../bench/results/llvmpipe-elisions.txt)).\n")
+              "of commit 74044bcd ([run](../bench/results/llvmpipe-elisions.txt)).\n")
     empty = max((row for row in run_of("llvmpipe-scaling")["rows"] if row["lod"] == "off"), key=lambda row: row["samples"])
     separable, direct = numbers_after(lines_of("llvmpipe-post-process"), "  exponent")
     rows = [
@@ -278,7 +274,7 @@ def parts(summary=False):
          "defocus_post_process_bench", "post-process.txt"]]
     return table(["what", "figure", "command"], [
         [what, figure, f"`{command}` ([run](../bench/results/llvmpipe-{run}))"] for what, figure, command, run in rows
-    ]) + by_size_only("`defocus_elision_bench` has")
+    ]) + "\nCommit 74044bcd has the program `defocus_elision_bench`. The program chose levels by size (`--lod-metric size`).\n"
 
 
 def lens_space_rows():
