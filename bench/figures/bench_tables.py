@@ -81,7 +81,6 @@ def pyramids(summary=False):
     large = [(name, values) for name, values in timed if values[0] >= 50_000]
     fish = min((values for name, values in timed if name == "fish"), key=lambda values: values[0])
     fitted = [values for _, values in ending_in_numbers(normals, 9)]
-    loads = [numbers(line)[5] / 1000 for line in lines_of("llvmpipe-cache") if re.match(r" *\d+ ", line)]
     if summary:
         every = dict(ending_in_numbers(distances, 5))["all"]
         gains = [values[4] - values[5] for _, values in ending_in_numbers(looks, 8)]
@@ -106,8 +105,7 @@ def pyramids(summary=False):
         ["peak memory of building the same pyramids",
          f"{memory_of_large} bytes a triangle; with flat shading "
          f"{bytes_each['fish, flat-shaded']:.0f} (a fish of a million), with texture coordinates too {bytes_each['bike']:.0f} (bike), "
-         f"of a small mesh {bytes_each['Suzanne']:.0f} (Suzanne)"],
-        ["loading the pyramids of 1.8 M triangles from the cache (`defocus_cache_bench`)", f"{span(loads, 2)} s"]]
+         f"of a small mesh {bytes_each['Suzanne']:.0f} (Suzanne)"]]
     return table(["what", "figure"], rows) + source(
         "defocus_pyramid_bench --million MODEL…", "mesh and number of triangles; for the images also camera, lens, level and lens samples",
         "llvmpipe-pyramids.txt")
