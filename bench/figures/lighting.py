@@ -8,15 +8,11 @@ over all cores (medians; the runs alternate).
 """
 
 import json
-import pathlib
 import statistics
 import struct
-import tempfile
 
-from figures.command import add_program, parser_of, path
-from figures.files import write_file
 from figures.frames import Frames
-from figures.timed import facts
+from figures.timed import alternating, time_scenes
 
 EXTENSION = "KHR_materials_unlit"
 GLB_HEADER, CHUNK_HEADER = struct.Struct("<4sII"), struct.Struct("<I4s")
@@ -53,33 +49,16 @@ def row_of(name, times):
     return f"{name:32}{lit:10.2f}{plain:10.2f}{lit / plain:10.2f}"
 
 
-def main(words):
-    parser = parser_of("lighting", __doc__)
-    parser.add_argument("scenes", nargs="+", metavar="SCENE", type=path)
-    parser.add_argument("--runs", type=int, default=5, help="runs of each image (default: %(default)s)")
-    parser.add_argument("--samples", type=int, default=64, help="lens samples (default: %(default)s)")
-    parser.add_argument("--size", default="1024x768", metavar="WxH", help="default: %(default)s")
-    parser.add_argument("--output", type=path, help="text file for the table (default: none)")
-    add_program(parser)
-    arguments = parser.parse_args(words)
+def rows(arguments, scene, folder):
+    variant = folder / "unlit"
+    variant.mkdir()
     options = ["--size", arguments.size, "--method", "accumulation", "--samples", arguments.samples]
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        lines = [facts(arguments.program, folder, arguments.output), "Other programs may run at the same time.", "",
-                 f"$ scripts/figures lighting {' '.join(scene.name for scene in arguments.scenes)} --runs {arguments.runs} "
-                 f"--samples {arguments.samples} --size {arguments.size}",
-                 f"{'scene':32}{'lit, s':>10}{'unlit, s':>10}{'ratio':>10}"]
-        print(*lines, sep="\n", flush=True)
-        for scene in arguments.scenes:
-            variant = folder / scene.stem
-            variant.mkdir()
-            forms = {"lit": Frames(arguments.program, folder, scene, *options),
-                     "unlit": Frames(arguments.program, folder, write_unlit(scene, variant), *options)}
-            times = {form: [] for form in forms}
-            for _ in range(arguments.runs):
-                for form, frames in forms.items():
-                    times[form].append(frames.render(f"{form}.exr")["cpuMilliseconds"] / 1000)
-            lines.append(row_of(scene.stem, times))
-            print(lines[-1], flush=True)
-    if arguments.output:
-        write_file(arguments.output, "\n".join(lines) + "\n")
+    forms = {"lit": Frames(arguments.program, folder, scene, *options),
+             "unlit": Frames(arguments.program, folder, write_unlit(scene, variant), *options)}
+    return [row_of(scene.stem, alternating(arguments.runs, forms,
+                                           lambda form: forms[form].render(f"{form}.exr")["cpuMilliseconds"] / 1000))]
+
+
+def main(words):
+    time_scenes(words, "lighting", __doc__, {"runs": 5, "samples": 64, "size": "1024x768"}, "",
+                f"{'scene':32}{'lit, s':>10}{'unlit, s':>10}{'ratio':>10}", rows)
