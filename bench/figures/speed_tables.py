@@ -170,21 +170,6 @@ def gpu_speed():
                             "times the FLIP"], rows)
 
 
-def gpu_equal_error():
-    def cell(time):
-        if time["milliseconds"] is None:
-            return "not reached"
-        return f"{'< ' if time['atMost'] else ''}{time['milliseconds']:.0f}"
-
-    scenes = {"h200-school": "Fish school", "h200-helmets": "FlightHelmet 20 times"}
-    errors = [f"RMSE {time['rmse']}" for time in run_of("h200-school")["timesToErrors"][0]["times"]]
-    rows = []
-    for name, scene in scenes.items():
-        rows.append([f"**{scene}**"] + [""] * len(errors))
-        rows += [[method["name"], *map(cell, method["times"])] for method in run_of(name)["timesToErrors"]]
-    return table(["milliseconds a frame", *errors], rows) + "".join(map(run_source, scenes))
-
-
 def error_times():
     """Returns the table of times to an RMSE of 0.005 on both machines."""
     runs = {"llvmpipe-multirate-fish": "school", "llvmpipe-multirate-helmets": "helmets", "h200-school": "school, H200",
@@ -230,7 +215,7 @@ def window():
                                        "at rest: first picture after", "converged after", "samples after 10 s", "PSNR"], rows)
 
 
-TABLES = {"window": window, "gpu speed": gpu_speed, "gpu equal error": gpu_equal_error, "speed": speed_sentence, "demo": demo, "seeds": seeds,
+TABLES = {"window": window, "gpu speed": gpu_speed, "speed": speed_sentence, "demo": demo, "seeds": seeds,
           "speedup": lambda: speed_table(FISH), "helmets": lambda: speed_table("llvmpipe-speedup-helmets"), "measured": measured,
           "levels": levels, "pop shares": pop_shares, "error times": error_times, "published ratios": published_ratios,
           "published": published, "lenses": lenses, "popping": popping, "peers": peers}
