@@ -9,11 +9,8 @@ import tempfile
 import time
 from typing import NamedTuple
 
-from figures.command import ROOT, add_program, parser_of, path, run
+from figures.command import ROOT, add_options, add_program, parser_of, path, run
 from figures.files import read_json, write_file
-
-OPTIONS = {"runs": "runs of each image", "size": "image size, WIDTHxHEIGHT in px", "samples": "lens samples",
-           "reference-samples": "lens samples of the reference", "options": "further options of defocus render"}
 
 
 class Times(NamedTuple):
@@ -61,15 +58,13 @@ def alternating(runs, forms, measure):
 def time_scenes(words, name, text, options, remark, header, rows, scenes=()):
     """Runs `scripts/figures NAME`, which prints a table of times by scene, and writes the table to --output.
 
-    text: the parser's description. options: {option of OPTIONS: default}, in the order of the recorded command.
+    text: the parser's description. options: {option: default} for add_options(), in the order of the recorded command.
     rows(arguments, scene, folder): returns the lines of a scene. It may write to the folder, which is empty.
     scenes: the default scenes, relative to the repository root; without them, the user must name a scene.
     """
     parser = parser_of(name, text)
     parser.add_argument("scenes", nargs="*" if scenes else "+", type=path, default=[ROOT / scene for scene in scenes], metavar="SCENE")
-    for option, default in options.items():
-        parser.add_argument(f"--{option}", type=type(default), default=default,
-                            help=OPTIONS[option] + (" (default: %(default)s)" if default else ""))
+    add_options(parser, options)
     parser.add_argument("--output", type=path, help="text file for the table (default: none)")
     add_program(parser)
     arguments = parser.parse_args(words)
