@@ -24,6 +24,7 @@ import tempfile
 import time
 
 from figures.command import ROOT, add_program, executable, parser_of, path
+from figures.glb import glb
 from figures.markdown import table
 from figures.results import run_of
 from figures.timed import timed
@@ -37,15 +38,6 @@ MANY = [("roots", 300_000, 41), ("nodes in a chain", 100_000, 17), ("materials",
 TRIANGLE = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
 
 
-def write_glb(path, document, data):
-    """Writes a binary glTF file. data: bytes of the only buffer; a multiple of 4."""
-    document["buffers"] = [{"byteLength": len(data)}]
-    text = json.dumps(document, separators=(",", ":")).encode()
-    text += b" " * (-len(text) % 4)
-    path.write_bytes(struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(data)) + struct.pack("<I4s", len(text), b"JSON") +
-                     text + struct.pack("<I4s", len(data), b"BIN\0") + data)
-
-
 def place(number, count):
     """Returns the position of part `number` of `count` parts of a scene, in a square grid with a spacing of 2 units."""
     side = int(count**0.5) + 1
@@ -53,7 +45,7 @@ def place(number, count):
 
 
 def many(kind, count):
-    """Returns the document and the data of a glTF file with `count` parts of this kind, such as meshes."""
+    """Returns a .glb file with `count` parts of this kind, such as meshes."""
     data = TRIANGLE
     accessor = {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}
     document = {"asset": {"version": "2.0"}, "scene": 0, "accessors": [accessor]}
@@ -78,7 +70,8 @@ def many(kind, count):
         document["nodes"] = [{"mesh": i if kind == "meshes" else 0, "translation": place(i, count)} for i in parts]
         document["scenes"] = [{"nodes": list(parts)}]
     document["bufferViews"] = [{"buffer": 0, "byteLength": len(data)}]
-    return document, data
+    document["buffers"] = [{"byteLength": len(data)}]
+    return glb(document, struct.pack("<I4s", len(data), b"BIN\0") + data)  # the data's length is a multiple of 4
 
 
 def cost(program, scene, picture):
@@ -92,7 +85,7 @@ def costs(program, folder, arguments):
     rows = []
     for kind, count, first in MANY:
         scene = folder / "many.glb"
-        write_glb(scene, *many(kind, count))
+        scene.write_bytes(many(kind, count))
         before, now = [], []
         for _ in range(PAIRS):
             if arguments.before:

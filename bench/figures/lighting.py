@@ -9,13 +9,12 @@ over all cores (medians; the runs alternate).
 
 import json
 import statistics
-import struct
 
 from figures.frames import Frames
+from figures.glb import glb, read_glb
 from figures.timed import alternating, time_scenes
 
 EXTENSION = "KHR_materials_unlit"
-GLB_HEADER, CHUNK_HEADER = struct.Struct("<4sII"), struct.Struct("<I4s")
 
 
 def unlit(document):
@@ -28,13 +27,8 @@ def write_unlit(scene, folder):
     """Writes the scene with unlit materials to a folder. Returns the path of the file."""
     written = folder / scene.name
     if scene.suffix == ".glb":
-        data = scene.read_bytes()
-        start = GLB_HEADER.size + CHUNK_HEADER.size
-        length, _ = CHUNK_HEADER.unpack_from(data, GLB_HEADER.size)
-        text = json.dumps(unlit(json.loads(data[start:start + length]))).encode()
-        text += b" " * (-len(text) % 4)
-        rest = data[start + length:]
-        written.write_bytes(GLB_HEADER.pack(b"glTF", 2, start + len(text) + len(rest)) + CHUNK_HEADER.pack(len(text), b"JSON") + text + rest)
+        document, chunks = read_glb(scene.read_bytes())
+        written.write_bytes(glb(unlit(document), chunks))
         return written
     for other in scene.parent.iterdir():
         if other != scene:
