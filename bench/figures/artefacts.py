@@ -8,8 +8,9 @@ Held equal in a strip: scene, camera, lens, image size.
 
 import json
 
-from figures.command import add_program, parser_of, path, run
+from figures.command import add_program, parser_of, path
 from figures.files import write_file
+from figures.frames import Frames
 
 SIZE = "600x400"
 METHODS = [
@@ -41,15 +42,14 @@ ARTEFACTS = [
 
 def strip(program, folder, name, title, text):
     """Renders the pictures of one artefact and returns their entry for strips.json."""
-    images = []
+    images, frames = [], Frames(program, folder, f"meshes/artefact-{name}.gltf", "--size", SIZE)
     for index, (label, options) in enumerate(METHODS):
-        base = folder / f"{name}-{index}"
-        run(program, "render", f"meshes/artefact-{name}.gltf", "--size", SIZE, "-o", f"{base}.png", "-o", f"{base}.exr", "--quiet", *options)
+        file = f"{name}-{index}"
+        frames.render(f"{file}.exr", *options, "-o", folder / f"{file}.png")
         if index > 0:
-            figures = json.loads(run(program, "compare", folder / f"{name}-0.exr", f"{base}.exr", "--json"))
-            label += f" · FLIP {figures['flip']:.3f}"
-        images.append({"label": label, "file": f"{base.name}.png"})
-    for file in folder.glob(f"{name}-*.exr"):
+            label += f" · FLIP {frames.difference(f'{name}-0.exr', f'{file}.exr')['flip']:.3f}"
+        images.append({"label": label, "file": f"{file}.png"})
+    for file in (folder / "stats.json", *folder.glob(f"{name}-*.exr")):
         file.unlink()
     print(f"{title}: {len(images)} images", flush=True)
     return {"title": title, "text": text, "images": images}

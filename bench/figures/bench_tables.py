@@ -13,12 +13,6 @@ def span(values, digits):
     return low if low == high else f"{low} to {high}"
 
 
-def by_size_only(bench_has):
-    """Returns the sentence under a table of levels chosen by size only. bench_has: words such as "This bench has"."""
-    return (f"\nThe run chose levels by size (`--lod-metric size`). {bench_has} no option for it, so only the commit of the run "
-            "repeats the figures.\n")
-
-
 def scaling(with_parts=True):
     axes = {"triangles": "triangles, 100 k to 10 M", "instances": "instances, 1 to 10,000", "samples": "lens samples, 2 to 64",
             "pixels": "pixels, 640 × 480 to 3840 × 2160", "blur": "blur, f/16 to f/1"}
@@ -28,7 +22,9 @@ def scaling(with_parts=True):
     header = ["what grows", "exponent, full detail", "exponent, levels", "what takes the time, with levels"]
     if not with_parts:
         return run_table("llvmpipe-scaling", header[:-1], [row[:-1] for row in rows])
-    return run_table("llvmpipe-scaling", header, rows) + by_size_only("This bench has")
+    return run_table("llvmpipe-scaling", header, rows) + (
+        "\nThe run chose levels by size (`--lod-metric size`). This bench has no option for it, so only the commit of the run repeats "
+        "the figures.\n")
 
 
 # ---- tables about pyramids ------------------------------------------------------------------------------------------
@@ -85,7 +81,6 @@ def pyramids(summary=False):
     large = [(name, values) for name, values in timed if values[0] >= 50_000]
     fish = min((values for name, values in timed if name == "fish"), key=lambda values: values[0])
     fitted = [values for _, values in ending_in_numbers(normals, 9)]
-    loads = [numbers(line)[5] / 1000 for line in lines_of("llvmpipe-cache") if re.match(r" *\d+ ", line)]
     if summary:
         every = dict(ending_in_numbers(distances, 5))["all"]
         gains = [values[4] - values[5] for _, values in ending_in_numbers(looks, 8)]
@@ -110,8 +105,7 @@ def pyramids(summary=False):
         ["peak memory of building the same pyramids",
          f"{memory_of_large} bytes a triangle; with flat shading "
          f"{bytes_each['fish, flat-shaded']:.0f} (a fish of a million), with texture coordinates too {bytes_each['bike']:.0f} (bike), "
-         f"of a small mesh {bytes_each['Suzanne']:.0f} (Suzanne)"],
-        ["loading the pyramids of 1.8 M triangles from the cache (`defocus_cache_bench`)", f"{span(loads, 2)} s"]]
+         f"of a small mesh {bytes_each['Suzanne']:.0f} (Suzanne)"]]
     return table(["what", "figure"], rows) + source(
         "defocus_pyramid_bench --million MODEL…", "mesh and number of triangles; for the images also camera, lens, level and lens samples",
         "llvmpipe-pyramids.txt")
@@ -241,10 +235,6 @@ def layers():
 
 
 def parts(summary=False):
-    def fastest(sky):
-        rows = [line.split() for line in lines_of("llvmpipe-waves") if line.startswith(sky) and " rgba16f " in line]
-        return min(float(row[3]) for row in rows)
-
     def of_both(texts):
         return f"{texts[0]} at full detail, {texts[1]} with levels"
 
@@ -253,36 +243,36 @@ def parts(summary=False):
     clusters = [numbers_after(lines[:at], levels) for levels in ("off", "fractional")]
     hidden = [numbers_after(lines[at:], f"hidden, {levels}") for levels in ("off", "fractional")]
     elisions = lines_of("llvmpipe-elisions")
+    out_of_view, sharp = (f"{numbers_after(elisions, beginning)[2]:.1f}" for beginning in
+                          ("most fish out of view (culling)", "f/64: nothing blurred (lens samples)"))
     if summary:
-        out_of_view, sharp = (f"{numbers_after(elisions, beginning)[2]:.1f}" for beginning in
-                              ("most fish out of view (culling)", "f/64: nothing blurred (lens samples)"))
         return table(["what is left out: times as fast", "full detail", "levels"], [
             ["clusters that face away or lie outside, school of fish", *(f"{row[6]:.2f}" for row in clusters)],
             ["hidden parts, on the CPU, twenty FlightHelmets", *(f"{row[4]:.2f}" for row in hidden)],
             ["objects that no lens sample sees, most fish out of view", "", out_of_view],
             ["48 of 64 samples where no blur reaches half a pixel (f/64)", "", sharp]
         ]) + ("\nCommand: `defocus_cluster_bench` ([run](../bench/results/llvmpipe-clusters.txt)), `defocus_elision_bench` "
-              "([run](../bench/results/llvmpipe-elisions.txt)).\n")
+              "of commit 74044bcd ([run](../bench/results/llvmpipe-elisions.txt)).\n")
+    empty = max((row for row in run_of("llvmpipe-scaling")["rows"] if row["lod"] == "off"), key=lambda row: row["samples"])
     separable, direct = numbers_after(lines_of("llvmpipe-post-process"), "  exponent")
     rows = [
-        ["one lens sample of 1024 × 768 px in which nothing is drawn: clear, compose, add",
-         f"{fastest('uniform'):.1f} ms; {fastest('gradient'):.1f} ms with a gradient sky", "wave"],
-        ["clusters that face away or lie outside are left out: share of the triangles, school of fish",
-         of_both([f"{100 * (away + outside) / total:.0f} %" for total, away, outside, *_ in clusters]), "cluster"],
-        ["the same: times as fast, same image", of_both([f"{row[6]:.2f}" for row in clusters]), "cluster"],
-        ["what lies behind others is left out, on the CPU: share of the triangles of twenty FlightHelmets",
-         of_both([f"{100 * row[1] / row[0]:.0f} %" for row in hidden]), "cluster"],
-        ["the same: times as fast, same image", of_both([f"{row[4]:.2f}" for row in hidden]), "cluster"],
-        ["objects that no lens sample sees are left out, most fish out of view: times as fast",
-         f"{numbers_after(elisions, 'most fish out of view (culling)')[2]:.1f}", "elision"],
-        ["16 samples instead of 64 if no blur reaches half a pixel (f/64): times as fast",
-         f"{numbers_after(elisions, 'f/64: nothing blurred (lens samples)')[2]:.1f}", "elision"],
+        [f"one lens sample of {empty['width']} × {empty['height']} px in which nothing is drawn: clear and add",
+         f"{empty['layersMilliseconds'] / empty['samples']:.1f} ms", "defocus bench scaling", "scaling.json"],
+        *([what, of_both(texts), "defocus_cluster_bench", "clusters.txt"] for what, texts in (
+            ["clusters that face away or lie outside are left out: share of the triangles, school of fish",
+             [f"{100 * (away + outside) / total:.0f} %" for total, away, outside, *_ in clusters]],
+            ["the same: times as fast, same image", [f"{row[6]:.2f}" for row in clusters]],
+            ["what lies behind others is left out, on the CPU: share of the triangles of twenty FlightHelmets",
+             [f"{100 * row[1] / row[0]:.0f} %" for row in hidden]],
+            ["the same: times as fast, same image", [f"{row[4]:.2f}" for row in hidden]])),
+        ["objects that no lens sample sees are left out, most fish out of view: times as fast", out_of_view, "defocus_elision_bench",
+         "elisions.txt"],
+        ["16 samples instead of 64 if no blur reaches half a pixel (f/64): times as fast", sharp, "defocus_elision_bench", "elisions.txt"],
         ["cost of a circular disk over its radius, 8 to 64 px: exponent", f"{separable:.2f} separable, {direct:.2f} direct",
-         "post_process"]]
-    runs = {"wave": "waves", "cluster": "clusters", "elision": "elisions", "post_process": "post-process"}
+         "defocus_post_process_bench", "post-process.txt"]]
     return table(["what", "figure", "command"], [
-        [what, figure, f"`defocus_{bench}_bench` ([run](../bench/results/llvmpipe-{runs[bench]}.txt))"] for what, figure, bench in rows
-    ]) + by_size_only("`defocus_elision_bench` has")
+        [what, figure, f"`{command}` ([run](../bench/results/llvmpipe-{run}))"] for what, figure, command, run in rows
+    ]) + "\nCommit 74044bcd has the program `defocus_elision_bench`. The program chose levels by size (`--lod-metric size`).\n"
 
 
 def lens_space_rows():

@@ -11,11 +11,8 @@ import pathlib
 import statistics
 import tempfile
 
-from figures.command import add_program, parser_of, path
-from figures.files import write_file
-from figures.timed import Times, facts, timed
+from figures.timed import Times, alternating, time_scenes, timed
 
-SCENES = ("meshes/chess.glb",)
 FORMS = {"default": [], "fractional": ["--lod", "fractional"]}
 
 
@@ -36,26 +33,13 @@ def first_picture(program, scene, options):
     """Renders a scene once with empty caches, and returns the times of the run."""
     with tempfile.TemporaryDirectory() as name:
         words = [program, "render", scene, *options, "--quiet", "-o", pathlib.Path(name) / "image.png"]
-        return timed(words, f"the picture of {pathlib.Path(scene).name}", name)
+        return timed(words, f"the picture of {scene.name}", name)
+
+
+def rows(arguments, scene, _):
+    times = alternating(arguments.runs, FORMS, lambda form: first_picture(arguments.program, scene, FORMS[form]))
+    return [row_of(scene.stem, {form: medians(runs) for form, runs in times.items()})]
 
 
 def main(words):
-    parser = parser_of("cold", __doc__)
-    parser.add_argument("scenes", nargs="*", metavar="SCENE")
-    parser.add_argument("--runs", type=int, default=3, help="of each form (default: %(default)s)")
-    parser.add_argument("--output", type=path, help="text file for the table (default: none)")
-    add_program(parser)
-    arguments = parser.parse_args(words)
-    scenes = [path(scene) for scene in arguments.scenes] or SCENES
-    with tempfile.TemporaryDirectory() as name:
-        lines = [facts(arguments.program, pathlib.Path(name), arguments.output)]
-    lines += ["Empty caches. Other programs may run at the same time.", "",
-              f"$ scripts/figures cold {' '.join(pathlib.Path(scene).name for scene in scenes)} --runs {arguments.runs}", header()]
-    print(*lines, sep="\n", flush=True)
-    for scene in scenes:
-        rounds = [{form: first_picture(arguments.program, scene, options) for form, options in FORMS.items()}
-                  for _ in range(arguments.runs)]
-        lines.append(row_of(pathlib.Path(scene).stem, {form: medians([times[form] for times in rounds]) for form in FORMS}))
-        print(lines[-1], flush=True)
-    if arguments.output:
-        write_file(arguments.output, "\n".join(lines) + "\n")
+    time_scenes(words, "cold", __doc__, {"runs": 3}, "Empty caches.", header(), rows, ["meshes/chess.glb"])

@@ -30,6 +30,17 @@ def add_program(parser):
                         help="the program (default: build/release/defocus)")
 
 
+OPTIONS = {"runs": "runs of each image", "size": "image size, WIDTHxHEIGHT in px", "samples": "lens samples",
+           "reference-samples": "lens samples of the reference", "options": "further options of the program's command"}
+
+
+def add_options(parser, options):
+    """Adds options that several figures have. options: {name in OPTIONS: default}."""
+    for name, default in options.items():
+        parser.add_argument(f"--{name}", type=type(default), default=default,
+                            help=OPTIONS[name] + (" (default: %(default)s)" if default else ""))
+
+
 def run(*words, cwd=ROOT):
     """Runs a program in a folder (default: repository root). Returns its output, or exits with its error message."""
     done = subprocess.run([str(word) for word in words], capture_output=True, text=True, cwd=cwd)

@@ -5,7 +5,6 @@
 The levels are exported by `defocus pyramid`. The other figures are computed from the formulas on that page.
 """
 
-import json
 import math
 import pathlib
 import struct
@@ -13,6 +12,7 @@ import tempfile
 
 from figures.command import ROOT, add_program, parser_of, run
 from figures.files import write_file
+from figures.glb import read_glb
 
 FOLDER = ROOT / "docs" / "concepts"
 INK, GREY, BLUE, ORANGE, GREEN = "#333333", "#9a9a9a", "#0063a8", "#c24e00", "#00805c"  # palette after Okabe and Ito
@@ -29,18 +29,14 @@ class Drawing:
                      f'<rect width="{width}" height="{height}" fill="white"/>\n')
         self.parts = []
 
-    def line(self, start, end, colour=INK, width=1.2, dash=""):
+    def paths(self, paths, colour=INK, width=1.2, dash="", end=""):
+        """Draws lines through points. end: "Z" closes each line."""
+        steps = "".join(f"M{'L'.join(f'{x:.1f} {y:.1f}' for x, y in points)}{end}" for points in paths)
         dashes = f' stroke-dasharray="{dash}"' if dash else ""
-        self.parts.append(f'<path d="M{start[0]:.1f} {start[1]:.1f}L{end[0]:.1f} {end[1]:.1f}" stroke="{colour}" '
-                          f'stroke-width="{width}" fill="none"{dashes}/>')
+        self.parts.append(f'<path d="{steps}" stroke="{colour}" stroke-width="{width}" fill="none"{dashes}/>')
 
-    def path(self, points, colour=INK, width=1.2):
-        steps = "L".join(f"{x:.1f} {y:.1f}" for x, y in points)
-        self.parts.append(f'<path d="M{steps}" stroke="{colour}" stroke-width="{width}" fill="none"/>')
-
-    def outlines(self, polygons, colour, width):
-        steps = "".join(f"M{'L'.join(f'{x:.1f} {y:.1f}' for x, y in polygon)}Z" for polygon in polygons)
-        self.parts.append(f'<path d="{steps}" stroke="{colour}" stroke-width="{width}" fill="none"/>')
+    def line(self, start, end, *style):
+        self.paths([(start, end)], *style)
 
     def dot(self, centre, radius=4.0, colour=INK, outline="none", opacity=1):
         self.parts.append(f'<circle cx="{centre[0]:.1f}" cy="{centre[1]:.1f}" r="{radius:.1f}" fill="{colour}" '
@@ -120,7 +116,7 @@ def draw_circle_of_confusion():
     drawing.text((place(FOCUS, 0)[0] + 8, top + 14), "focus distance, 2 m", "start", GREEN)
     for colour, begin, end in ((ORANGE, first, FOCUS), (BLUE, FOCUS, last)):
         depths = [begin + (end - begin) * step / 80 for step in range(81)]
-        drawing.path([place(depth, diameter(depth)) for depth in depths], colour, 2.2)
+        drawing.paths([[place(depth, diameter(depth)) for depth in depths]], colour, 2.2)
     drawing.line(place(first, scale / FOCUS), place(last, scale / FOCUS), GREY, 1, "2 4")
     drawing.text((right, place(last, scale / FOCUS)[1] - 6), "at infinity", "end", GREY)
     for depth in (1, 2, 3, 4, 5, 6, 7, 8):
@@ -133,15 +129,14 @@ def draw_circle_of_confusion():
 
 def triangles_of(data):
     """Returns the triangles of a GLB file with a single buffer, each as its three vertex positions."""
-    length = struct.unpack_from("<I", data, 12)[0]
-    document, binary = json.loads(data[20:20 + length]), data[28 + length:]
+    document, chunks = read_glb(data)
 
     def values(index, code, size, count):
         accessor = document["accessors"][index]
         view = document["bufferViews"][accessor["bufferView"]]
         start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
         stride = view.get("byteStride", size * count)
-        return [struct.unpack_from(f"<{count}{code}", binary, start + stride * i) for i in range(accessor["count"])]
+        return [struct.unpack_from(f"<{count}{code}", chunks, 8 + start + stride * i) for i in range(accessor["count"])]
     triangles = []
     for mesh in document["meshes"]:
         for primitive in mesh["primitives"]:
@@ -167,9 +162,9 @@ def draw_pyramid(program):
     scale = min(210 / (high[wide] - low[wide]), 180 / (high[tall] - low[tall]))
     for column, (level, triangles) in enumerate(levels[:5:2]):
         middle = 120 + 240 * column
-        drawing.outlines([[(middle + scale * (corner[wide] - (low[wide] + high[wide]) / 2),
-                            105 - scale * (corner[tall] - (low[tall] + high[tall]) / 2)) for corner in triangle]
-                          for triangle in triangles], BLUE, 0.4)
+        drawing.paths([[(middle + scale * (corner[wide] - (low[wide] + high[wide]) / 2),
+                         105 - scale * (corner[tall] - (low[tall] + high[tall]) / 2)) for corner in triangle]
+                       for triangle in triangles], BLUE, 0.4, end="Z")
         drawing.text((middle, 228), f"level {level}: {len(triangles):,} triangles", "middle")
     drawing.save("pyramid.svg")
 

@@ -1,6 +1,11 @@
 """Draws contact sheets: for each scene its name and several pictures side by side. Needs Pillow and fonts-dejavu-core."""
 
+import pathlib
+import tempfile
+
 from PIL import Image, ImageDraw, ImageFont
+
+from figures.command import ROOT, add_program, parser_of, path
 
 WIDTH, HEIGHT, GAP, LINE = 208, 156, 4, 20  # px: image width, image height, gap, line height
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
@@ -24,3 +29,18 @@ def contact_sheet(titles, names, pictures_of, columns=2):
                 pen.text((x, 2), title, fill=(90, 90, 90), font=font)
             image.paste(picture, (x, y))
     return image
+
+
+def draw_models(words, name, text, file, titles, names, pictures_of, quality):
+    """Runs `scripts/figures NAME MODELS`, which draws a contact sheet of models to a file of docs.
+
+    text: the parser's description. pictures_of(program, models, index, folder): the pictures of names[index]. It may write
+    to the folder.
+    """
+    parser = parser_of(name, text)
+    parser.add_argument("models", type=path)
+    add_program(parser)
+    arguments = parser.parse_args(words)
+    with tempfile.TemporaryDirectory() as folder:
+        image = contact_sheet(titles, names, lambda index: pictures_of(arguments.program, arguments.models, index, pathlib.Path(folder)))
+    image.save(ROOT / "docs" / file, quality=quality)

@@ -12,10 +12,10 @@ import json
 import math
 import os
 import pathlib
-import struct
 
 from figures.command import add_program, parser_of, path, run
 from figures.files import write_file
+from figures.glb import read_glb
 
 TANGENT = 18 / 50  # tangent of half the camera's horizontal field of view
 SPREAD = (0.7548776662466927, 0.5698402909980532)  # increments of the R2 sequence
@@ -69,10 +69,9 @@ def document_of(scene, output):
             if not entry.get("uri", "data:").startswith("data:"):
                 entry["uri"] = pathlib.PurePosixPath(folder, entry["uri"]).as_posix()
         return document
-    length = struct.unpack_from("<I", data, 12)[0]
-    document = json.loads(data[20:20 + length])
+    document, chunks = read_glb(data)
     binary = output.with_suffix(".bin")
-    write_file(binary, data[28 + length:])
+    write_file(binary, chunks[8:])
     document["buffers"][0]["uri"] = binary.name
     return document
 

@@ -1,11 +1,10 @@
 """Measures how defocus endures long runs, kills, fuzzing and files of many parts, and writes bench/results/endurance.md.
 
     scripts/fuzz --minutes 10 >fuzz.txt
-    scripts/figures endurance --fuzz fuzz.txt [--before PROGRAM] [--program build/release/defocus] [--frames 2500]
-                              [--kills 20] [--output bench/results/endurance.md]
+    scripts/figures endurance --fuzz fuzz.txt [--program build/release/defocus] [--frames 2500] [--kills 20]
+                              [--output bench/results/endurance.md]
     scripts/figures endurance --only "A long film"
 
-PROGRAM is a build of commit FIRST. Its processor times are compared with those of the current program.
 Takes about half an hour on two cores. Exits with 1 if a measurement fails.
 """
 
@@ -23,27 +22,15 @@ import sys
 import tempfile
 import time
 
-from figures.command import ROOT, add_program, executable, parser_of, path
+from figures.command import ROOT, add_program, parser_of, path
+from figures.glb import glb
 from figures.markdown import table
 from figures.results import run_of
 from figures.timed import timed
 
-# Commit of an old program that is compared with the current program on files with many parts.
-FIRST = "f7ddc1ab"
-PAIRS = 3  # number of runs of each program; the two programs alternate
-# Files with many parts: name and number of the parts, and the render time in s of the first measurement, on a busier
-# machine.
-MANY = [("roots", 300_000, 41), ("nodes in a chain", 100_000, 17), ("materials", 65_000, 7.6), ("meshes", 65_000, 12)]
+RUNS = 3  # number of runs of each file with many parts
+MANY = [("roots", 300_000), ("nodes in a chain", 100_000), ("materials", 65_000), ("meshes", 65_000)]  # name and number of the parts
 TRIANGLE = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
-
-
-def write_glb(path, document, data):
-    """Writes a binary glTF file. data: bytes of the only buffer; a multiple of 4."""
-    document["buffers"] = [{"byteLength": len(data)}]
-    text = json.dumps(document, separators=(",", ":")).encode()
-    text += b" " * (-len(text) % 4)
-    path.write_bytes(struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(data)) + struct.pack("<I4s", len(text), b"JSON") +
-                     text + struct.pack("<I4s", len(data), b"BIN\0") + data)
 
 
 def place(number, count):
@@ -53,7 +40,7 @@ def place(number, count):
 
 
 def many(kind, count):
-    """Returns the document and the data of a glTF file with `count` parts of this kind, such as meshes."""
+    """Returns a .glb file with `count` parts of this kind, such as meshes."""
     data = TRIANGLE
     accessor = {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}
     document = {"asset": {"version": "2.0"}, "scene": 0, "accessors": [accessor]}
@@ -78,7 +65,8 @@ def many(kind, count):
         document["nodes"] = [{"mesh": i if kind == "meshes" else 0, "translation": place(i, count)} for i in parts]
         document["scenes"] = [{"nodes": list(parts)}]
     document["bufferViews"] = [{"buffer": 0, "byteLength": len(data)}]
-    return document, data
+    document["buffers"] = [{"byteLength": len(data)}]
+    return glb(document, struct.pack("<I4s", len(data), b"BIN\0") + data)  # the data's length is a multiple of 4
 
 
 def cost(program, scene, picture):
@@ -87,31 +75,16 @@ def cost(program, scene, picture):
     return timed(words, f"the picture of {scene.name}")
 
 
-def costs(program, folder, arguments):
+def costs(program, folder, _):
     """Renders each file of many parts. Returns the lines of the page, and True, because no time is a failure."""
     rows = []
-    for kind, count, first in MANY:
+    for kind, count in MANY:
         scene = folder / "many.glb"
-        write_glb(scene, *many(kind, count))
-        before, now = [], []
-        for _ in range(PAIRS):
-            if arguments.before:
-                before.append(cost(arguments.before, scene, folder / "many.png"))
-            now.append(cost(program, scene, folder / "many.png"))
-        seconds, processor, memory = (statistics.median(values) for values in zip(*now))
-        row = [f"{count:,} {kind}", f"{first:g} s", f"{seconds:.1f} s", f"{memory:,.0f} MiB", f"{processor:.1f} s"]
-        if before:
-            earlier = statistics.median(run[1] for run in before)
-            row += [f"{earlier:.1f} s", f"{earlier / processor:.1f}", f"{statistics.median(run[2] for run in before):,.0f} MiB"]
-        rows.append(row)
-    columns = ["parts", "first measurement", "now", "peak memory", "time of all cores"]
-    lines = ["Each file has one triangle per part. `defocus render FILE --no-cache --samples 4 --size 320x240`, "
-             f"medians of {PAIRS} runs:", ""]
-    if arguments.before:
-        columns += [f"at commit {FIRST}", "ratio", "memory then"]
-        lines[0] = lines[0].replace(":", f". Runs of commit {FIRST} alternate with those of the current program; the ratio is that of the "
-                                    "times of all cores:")
-    return [*lines, table(columns, rows).rstrip()], True
+        scene.write_bytes(many(kind, count))
+        seconds, processor, memory = map(statistics.median, zip(*(cost(program, scene, folder / "many.png") for _ in range(RUNS))))
+        rows.append([f"{count:,} {kind}", f"{seconds:.1f} s", f"{processor:.1f} s", f"{memory:,.0f} MiB"])
+    return ["Each file has one triangle per part. `defocus render FILE --no-cache --samples 4 --size 320x240`, "
+            f"medians of {RUNS} runs:", "", table(["parts", "time", "time of all cores", "peak memory"], rows).rstrip()], True
 
 
 def resident(process):
@@ -235,7 +208,6 @@ def main(words):
     parser = parser_of("endurance", __doc__)
     add_program(parser)
     parser.add_argument("--fuzz", type=path, help="output of scripts/fuzz")
-    parser.add_argument("--before", type=executable, help=f"program of commit {FIRST}, to compare with (default: none)")
     parser.add_argument("--frames", type=int, default=2500, help="of the long film (default: %(default)s)")
     parser.add_argument("--kills", type=int, default=20, help="captures to kill (default: %(default)s)")
     parser.add_argument("--only", choices=[title for title, _ in PARTS], help="measure this part and leave the others as the page has them")

@@ -9,12 +9,11 @@ Needs Pillow (Debian: python3-pil) and the font of fonts-dejavu-core.
 """
 
 import pathlib
-import tempfile
 
 from PIL import Image
 
-from figures.command import ROOT, add_program, parser_of, path, run
-from figures.contact_sheet import HEIGHT, WIDTH, contact_sheet
+from figures.command import run
+from figures.contact_sheet import HEIGHT, WIDTH, draw_models
 
 SCENES = ["FlightHelmet/FlightHelmet.gltf", "Fox.glb", "Suzanne.glb", "WaterBottle.glb", "bike.glb",
           "japanese-bridge-garden-meshopt.glb", "GlassVaseFlowers.glb", "MetalRoughSpheresNoTextures.glb", "CornellBox.glb",
@@ -24,22 +23,18 @@ FORMS = [("before", ["--units", "m", "--tonemap", "none", "--exposure", "0"]), (
 COMMON = ["--fstop", "1.4", "--size", "512x384", "--quiet"]
 
 
-def render(program, models, scene, options, folder):
-    picture = pathlib.Path(folder) / "picture.png"
-    named = [models / scene] if scene else []
-    swims = scene is None and options == ["--ground"]
-    run(program, "render", *named, "-o", picture, *COMMON, *([] if swims else options))
-    with Image.open(picture) as image:
-        return image.convert("RGB").resize((WIDTH, HEIGHT), Image.LANCZOS)
+def pictures(program, models, index, folder):
+    """Returns the pictures of a scene, in the order of FORMS."""
+    named = [models / SCENES[index]] if SCENES[index] else []
+    result = []
+    for _, options in FORMS:
+        options = options if named or options != ["--ground"] else []  # the school of fish swims
+        run(program, "render", *named, "-o", folder / "picture.png", *COMMON, *options)
+        with Image.open(folder / "picture.png") as image:
+            result.append(image.convert("RGB").resize((WIDTH, HEIGHT), Image.LANCZOS))
+    return result
 
 
 def main(words):
-    parser = parser_of("first-pictures", __doc__)
-    parser.add_argument("models", type=path)
-    add_program(parser)
-    arguments = parser.parse_args(words)
-    with tempfile.TemporaryDirectory() as folder:
-        image = contact_sheet(
-            [form for form, _ in FORMS], [pathlib.Path(scene).stem if scene else "the built-in school" for scene in SCENES],
-            lambda index: [render(arguments.program, arguments.models, SCENES[index], options, folder) for _, options in FORMS])
-    image.save(ROOT / "docs" / "first-pictures.jpg", quality=88)
+    draw_models(words, "first-pictures", __doc__, "first-pictures.jpg", [form for form, _ in FORMS],
+                [pathlib.Path(scene).stem if scene else "the built-in school" for scene in SCENES], pictures, 88)

@@ -11,10 +11,10 @@ class Frames:
     def __init__(self, program, folder, *subject):
         self.program, self.folder, self.subject = program, folder, subject
 
-    def render(self, file, *options, program=None):
-        """Renders an image and returns its statistics. program: replaces the usual program."""
+    def render(self, file, *options):
+        """Renders an image and returns its statistics."""
         stats = self.folder / "stats.json"
-        run(program or self.program, "render", *self.subject, "--quiet", *options, "--stats", stats, "-o", self.folder / file)
+        run(self.program, "render", *self.subject, "--quiet", *options, "--stats", stats, "-o", self.folder / file)
         return json.loads(stats.read_text())
 
     def difference(self, reference, file):

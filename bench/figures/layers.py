@@ -9,15 +9,10 @@ each fills the caches and is not counted. Each time is divided by the time of th
 table has the medians of these ratios.
 """
 
-import pathlib
 import statistics
-import tempfile
 
-from figures.command import add_program, parser_of, path
-from figures.files import write_file
-from figures.timed import facts, timed
+from figures.timed import time_scenes, timed
 
-SCENES = ("school", "meshes/chess.glb")
 TOGETHER = "depth,normal,albedo"
 LAYERS = ("depth", "normal", "albedo", TOGETHER, "position", "objects")
 WIDTHS = (9, 9, 9, len(TOGETHER) + 3, 11, 10)  # widths of the columns, characters
@@ -43,35 +38,16 @@ def header():
     return f"{'scene':24}{'picture':>11}" + "".join(f"{layers:>{width}}" for layers, width in zip(LAYERS, WIDTHS))
 
 
-def measure(command, runs, folder):
-    """Renders all rounds. Returns the processor times of each round."""
+def rows(arguments, scene, folder):
+    """Renders all rounds of a scene. Returns the line of the table."""
+    command = [arguments.program, "render", *([] if scene.name == "school" else [scene]), "--size", arguments.size,
+               "--samples", arguments.samples, "--method", "accumulation", "--quiet"]
     for layers in ("", *LAYERS):
         render(command, folder, layers)
-    return [{layers: render(command, folder, layers) for layers in ("", *LAYERS)} for _ in range(runs)]
+    rounds = [{layers: render(command, folder, layers) for layers in ("", *LAYERS)} for _ in range(arguments.runs)]
+    return [row_of(scene.stem, rounds)]
 
 
 def main(words):
-    parser = parser_of("layers", __doc__)
-    parser.add_argument("scenes", nargs="*", metavar="SCENE")
-    parser.add_argument("--runs", type=int, default=5, help="rounds of each scene (default: %(default)s)")
-    parser.add_argument("--size", default="640x480", metavar="WxH", help="default: %(default)s")
-    parser.add_argument("--samples", type=int, default=64, help="lens samples (default: %(default)s)")
-    parser.add_argument("--output", type=path, help="text file for the table (default: none)")
-    add_program(parser)
-    arguments = parser.parse_args(words)
-    scenes = arguments.scenes or SCENES
-    options = ["--size", arguments.size, "--samples", arguments.samples, "--method", "accumulation"]
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        lines = [facts(arguments.program, folder, arguments.output),
-                 "Processor time of the whole program, as ratios to the picture alone. Other programs may run at the same time.", "",
-                 f"$ scripts/figures layers {' '.join(pathlib.Path(scene).name for scene in scenes)} --size {arguments.size} "
-                 f"--samples {arguments.samples} --runs {arguments.runs}", header()]
-        print(*lines, sep="\n", flush=True)
-        for scene in scenes:
-            subject = [] if scene == "school" else [path(scene) if arguments.scenes else scene]
-            rounds = measure([arguments.program, "render", *subject, *options, "--quiet"], arguments.runs, folder)
-            lines.append(row_of(pathlib.Path(scene).stem, rounds))
-            print(lines[-1], flush=True)
-    if arguments.output:
-        write_file(arguments.output, "\n".join(lines) + "\n")
+    time_scenes(words, "layers", __doc__, {"size": "640x480", "samples": 64, "runs": 5},
+                "Processor time of the whole program, as ratios to the picture alone.", header(), rows, ["school", "meshes/chess.glb"])

@@ -14,7 +14,7 @@ import statistics
 import sys
 import tempfile
 
-from figures.command import ROOT, add_program, parser_of, path, run
+from figures.command import ROOT, add_options, add_program, parser_of, path, run
 from figures.copies import write_copies
 
 OBJECTS = ("wires", "leaves", "relief", "lattice")
@@ -29,7 +29,7 @@ def measured(arguments, subject, folder):
     scene = folder / "copies.gltf"
     write_copies(arguments.program, source, int(count), scene, size=1)
     run(arguments.program, "bench", "speedup", scene, "--size", arguments.size, "--counts", arguments.counts, "--runs", arguments.runs,
-        "--reference-samples", arguments.reference_samples, "-o", folder, *arguments.options)
+        "--reference-samples", arguments.reference_samples, "-o", folder, *arguments.options.split())
     return source.stem, json.loads((folder / "speedup.json").read_text())
 
 
@@ -38,10 +38,7 @@ def main(words):
     parser.add_argument("objects", nargs="*", metavar="OBJECT", help="default: wires leaves relief lattice")
     parser.add_argument("-n", type=int, default=5, metavar="COPIES", help="number of copies (default: 5)")
     parser.add_argument("--counts", default="16,64,256", help="numbers of lens samples (default: 16,64,256)")
-    parser.add_argument("--size", default="384x288", metavar="WxH", help="default: 384x288")
-    parser.add_argument("--runs", type=int, default=1, help="runs of each image (default: 1)")
-    parser.add_argument("--reference-samples", type=int, default=1024, help="lens samples of the reference (default: 1024)")
-    parser.add_argument("--options", type=str.split, default=[], metavar="TEXT", help="further options of defocus bench speedup")
+    add_options(parser, {"size": "384x288", "runs": 1, "reference-samples": 1024, "options": ""})
     add_program(parser)
     arguments = parser.parse_args(words)
     print(f"{'object':34}{'samples':>8}{'triangles':>11}{'times RMSE':>12}{'times FLIP':>12}{'times fast':>12}")

@@ -5,6 +5,7 @@ import math
 from figures.files import read_json
 from figures.markdown import table
 from figures.results import RESULTS, command_of, run_of
+from figures.rows import median, rmse
 
 # Names of the results, keyed by --blur-scale.
 VIEWS = {0.5: "llvmpipe-teapots-half-blur", 1: "llvmpipe-teapots", 2: "llvmpipe-teapots-double-blur"}
@@ -43,25 +44,21 @@ def text_of(method, samples):
     return f"{samples} {NAMES[method]}"
 
 
-def milliseconds(row):
-    return row["milliseconds"]["median"]
-
-
 def equal_time_points():
     """Returns the number of points whose render time is nearest to that of 16 lines."""
-    lines = milliseconds(row_of(1, EXACT, 16))
-    return min(COUNTS[POINTS], key=lambda count: abs(math.log(milliseconds(row_of(1, POINTS, count)) / lines)))
+    lines = median(row_of(1, EXACT, 16))
+    return min(COUNTS[POINTS], key=lambda count: abs(math.log(median(row_of(1, POINTS, count)) / lines)))
 
 
 def quality_ratio(method):
     """Returns the RMSE of 16 lines divided by the RMSE of 256 points."""
-    return math.sqrt(row_of(1, method, 16)["mse"] / row_of(1, POINTS, 256)["mse"])
+    return rmse(row_of(1, method, 16)) / rmse(row_of(1, POINTS, 256))
 
 
 def cells(blur, method, samples):
     row = row_of(blur, method, samples)
-    times = f"{milliseconds(row_of(blur, POINTS, 256)) / milliseconds(row):.2f}"
-    return [text_of(method, samples), f"{milliseconds(row) / 1000:.2f} s", times, f"{math.sqrt(row['mse']):.4f}", f"{row['flip']:.4f}"]
+    times = f"{median(row_of(blur, POINTS, 256)) / median(row):.2f}"
+    return [text_of(method, samples), f"{median(row) / 1000:.2f} s", times, f"{rmse(row):.4f}", f"{row['flip']:.4f}"]
 
 
 HEADER = ["method", "frame", "times as fast as 256 points", "RMSE", "FLIP"]

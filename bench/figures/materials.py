@@ -6,13 +6,10 @@ MODELS is a folder with the models in SCENES (NAME.glb) and the picture of each 
 defaults and without blur. Needs Pillow (Debian: python3-pil) and the font of fonts-dejavu-core.
 """
 
-import pathlib
-import tempfile
-
 from PIL import Image, ImageOps
 
-from figures.command import ROOT, add_program, parser_of, path, run
-from figures.contact_sheet import HEIGHT, PAPER, WIDTH, contact_sheet
+from figures.command import run
+from figures.contact_sheet import HEIGHT, PAPER, WIDTH, draw_models
 
 SCENES = ["AnisotropyRotationTest", "AnisotropyStrengthTest", "IridescenceSuzanne", "SpecularTest", "ClearCoatTest", "ClearcoatWicker",
           "AttenuationTest", "TransmissionTest", "GlassHurricaneCandleHolder", "GlamVelvetSofa", "EmissiveStrengthTest",
@@ -20,29 +17,17 @@ SCENES = ["AnisotropyRotationTest", "AnisotropyStrengthTest", "IridescenceSuzann
 OPTIONS = ["--no-dof", "--samples", "64", "--size", "512x384", "--environment", "studio", "--quiet"]
 
 
-def fitted(image):
-    """Returns the image, scaled to the size of a picture on the contact sheet."""
-    return ImageOps.pad(image.convert("RGB"), (WIDTH, HEIGHT), Image.LANCZOS, PAPER)
-
-
-def pictures(program, models, scene, folder):
+def pictures(program, models, index, folder):
     """Returns the picture that the program renders, and the picture by the model's authors."""
-    drawn = pathlib.Path(folder) / "picture.png"
-    run(program, "render", models / f"{scene}.glb", "-o", drawn, *OPTIONS)
-    theirs = next(models / f"{scene}{end}" for end in (".jpg", ".png") if (models / f"{scene}{end}").exists())
+    scene = models / f"{SCENES[index]}.glb"
+    run(program, "render", scene, "-o", folder / "picture.png", *OPTIONS)
+    theirs = next(file for file in (scene.with_suffix(".jpg"), scene.with_suffix(".png")) if file.exists())
     result = []
-    for file in (drawn, theirs):
+    for file in (folder / "picture.png", theirs):
         with Image.open(file) as image:
-            result.append(fitted(image))
+            result.append(ImageOps.pad(image.convert("RGB"), (WIDTH, HEIGHT), Image.LANCZOS, PAPER))
     return result
 
 
 def main(words):
-    parser = parser_of("materials", __doc__)
-    parser.add_argument("models", type=path)
-    add_program(parser)
-    arguments = parser.parse_args(words)
-    with tempfile.TemporaryDirectory() as folder:
-        image = contact_sheet(("defocus", "authors"), SCENES,
-                              lambda index: pictures(arguments.program, arguments.models, SCENES[index], folder))
-    image.save(ROOT / "docs" / "materials.jpg", quality=85)
+    draw_models(words, "materials", __doc__, "materials.jpg", ("defocus", "authors"), SCENES, pictures, 85)

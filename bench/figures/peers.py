@@ -30,10 +30,11 @@ import sys
 import tempfile
 from typing import NamedTuple
 
-from figures.command import ROOT, executable, parser_of, path, run
+from figures.command import ROOT, executable, parser_of, path
 from figures.copies import write_copies
 from figures.cycles import blender, size, start_blender
 from figures.files import write_file
+from figures.frames import Frames
 from figures.timed import processor
 
 COUNTS = (2, 4, 8, 16, 32, 64, 128, 256)
@@ -121,10 +122,6 @@ def json_lines(process, what):
     return [json.loads(line) for line in lines if line.startswith("{")]
 
 
-def difference(program, folder, first, second):
-    return json.loads(run(program, "compare", folder / f"{first}.exr", folder / f"{second}.exr", "--json"))
-
-
 def rendered_with_eevee(program, settings):
     """Returns EEVEE's images, or a text that says why there are none."""
     if not os.environ.get("DISPLAY") and not shutil.which("xvfb-run"):
@@ -158,14 +155,14 @@ def measure(arguments, name, folder):
         "method": "cycles", "counts": COUNTS, "referenceSamples": arguments.reference_samples}), "Cycles"))
     eevee = rendered_with_eevee(program, settings | {"method": "eevee", "counts": EEVEE_COUNTS, "referenceSamples": 0})
     notes = [eevee] if isinstance(eevee, str) else []
-    points = {}
+    points, frames = {}, Frames(arguments.defocus, folder)
     for image in images + (eevee if not notes else []):
         method = image["method"]
-        error = difference(arguments.defocus, folder, f"{REFERENCES[method]}-reference", f"{method}-{image['samples']}")
+        error = frames.difference(f"{REFERENCES[method]}-reference.exr", f"{method}-{image['samples']}.exr")
         points.setdefault(method, []).append(Point(image["cpuSeconds"], image["seconds"], error["rmse"], error["flip"]))
     if "eevee" in points:
         notes.append(f"EEVEE's image of {EEVEE_COUNTS[-1]} samples is {-20 * math.log10(points['eevee'][-1].rmse):.1f} dB from Cycles' reference.")
-    distances = [f"{second} {difference(arguments.defocus, folder, 'accumulation-reference', f'{second}-reference')['psnr']:.1f} dB"
+    distances = [f"{second} {frames.difference('accumulation-reference.exr', f'{second}-reference.exr')['psnr']:.1f} dB"
                  for second in ("embree", "cycles")]
     drawn = ", then ".join(dict.fromkeys(image["drawnBy"] for image in images if image["method"] == "auto"))
     return [f"{name}: {facts['triangles']:,} triangles, f/{facts['fStop']:.3g}; auto draws with {drawn}", *table(points),

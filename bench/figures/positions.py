@@ -8,14 +8,10 @@ the processor time of drawing the samples, over all cores (median over the runs,
 against a reference of another seed.
 """
 
-import pathlib
 import statistics
-import tempfile
 
-from figures.command import add_program, parser_of, path
-from figures.files import write_file
 from figures.frames import Frames
-from figures.timed import facts
+from figures.timed import alternating, time_scenes
 
 DRAWN = ((32, 1), (8, 4), (64, 1), (16, 4))  # (lens samples, pixel positions per sample)
 
@@ -24,44 +20,22 @@ def name_of(drawn):
     return f"{drawn[0]} x {drawn[1]}"
 
 
-def measure(frames, runs, reference_samples):
-    """Returns a row of the table for each pair of DRAWN."""
-    frames.render("reference.exr", "--samples", reference_samples, "--seed", 9)
-    seconds = {drawn: [] for drawn in DRAWN}
-    for _ in range(runs):
-        for drawn in DRAWN:
-            stats = frames.render(f"{name_of(drawn)}.exr", "--samples", drawn[0], "--positions", drawn[1])
-            seconds[drawn].append(stats["cpuMilliseconds"] / 1000)
-    rows = []
-    for drawn in DRAWN:
-        error = frames.difference("reference.exr", f"{name_of(drawn)}.exr")
-        rows.append(f"{name_of(drawn):>20}{statistics.median(seconds[drawn]):10.2f}{error['rmse']:9.4f}{error['flip']:9.4f}")
-    return [f"largest blur {stats['largestBlur']:.1f} px", *rows]
+def rows(arguments, scene, folder):
+    """Returns the largest blur of a scene, and a line for each pair of DRAWN."""
+    frames = Frames(arguments.program, folder, scene, "--size", arguments.size, "--method", "accumulation", "--lod", "off",
+                    *arguments.options.split())
+    frames.render("reference.exr", "--samples", arguments.reference_samples, "--seed", 9)
+    drawn = alternating(arguments.runs, DRAWN, lambda drawn: frames.render(
+        f"{name_of(drawn)}.exr", "--samples", drawn[0], "--positions", drawn[1]))
+    lines = []
+    for pair, runs in drawn.items():
+        seconds = statistics.median(stats["cpuMilliseconds"] / 1000 for stats in runs)
+        error = frames.difference("reference.exr", f"{name_of(pair)}.exr")
+        lines.append(f"{name_of(pair):>20}{seconds:10.2f}{error['rmse']:9.4f}{error['flip']:9.4f}")
+    return [f"{scene.stem}, largest blur {runs[-1]['largestBlur']:.1f} px", *lines]
 
 
 def main(words):
-    parser = parser_of("positions", __doc__)
-    parser.add_argument("scenes", nargs="+", metavar="SCENE", type=path)
-    parser.add_argument("--runs", type=int, default=3, help="runs of each image (default: %(default)s)")
-    parser.add_argument("--size", default="1024x768", metavar="WxH", help="default: %(default)s")
-    parser.add_argument("--reference-samples", type=int, default=1024, help="lens samples of the reference (default: %(default)s)")
-    parser.add_argument("--options", default="", metavar="TEXT", help="further options of defocus render")
-    parser.add_argument("--output", type=path, help="text file for the table (default: none)")
-    add_program(parser)
-    arguments = parser.parse_args(words)
-    options = ["--size", arguments.size, "--method", "accumulation", "--lod", "off", *arguments.options.split()]
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        lines = [facts(arguments.program, folder, arguments.output),
-                 "Processor time of drawing all samples; RMSE and FLIP against a reference. Other programs may run at the same time.", "",
-                 f"$ scripts/figures positions {' '.join(scene.name for scene in arguments.scenes)} --size {arguments.size} "
-                 f"--runs {arguments.runs} --reference-samples {arguments.reference_samples}"
-                 + (f" --options '{arguments.options}'" if arguments.options else ""),
-                 f"{'samples x positions':>20}{'seconds':>10}{'RMSE':>9}{'FLIP':>9}"]
-        print(*lines, sep="\n", flush=True)
-        for scene in arguments.scenes:
-            rows = measure(Frames(arguments.program, folder, scene, *options), arguments.runs, arguments.reference_samples)
-            lines += [f"{scene.stem}, {rows[0]}", *rows[1:]]
-            print(*lines[-len(DRAWN) - 1:], sep="\n", flush=True)
-    if arguments.output:
-        write_file(arguments.output, "\n".join(lines) + "\n")
+    time_scenes(words, "positions", __doc__, {"size": "1024x768", "runs": 3, "reference-samples": 1024, "options": ""},
+                "Processor time of drawing all samples; RMSE and FLIP against a reference.",
+                f"{'samples x positions':>20}{'seconds':>10}{'RMSE':>9}{'FLIP':>9}", rows)

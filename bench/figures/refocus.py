@@ -14,11 +14,11 @@ film's time is extrapolated. The last columns are the seconds of a rendered and 
 import json
 import pathlib
 import tempfile
-import time
 from typing import NamedTuple
 
 from figures.command import add_program, parser_of, run
 from figures.frames import Frames
+from figures.timed import timed
 
 FRAMES = 96
 
@@ -42,12 +42,6 @@ def school(fish, size):
 
 SCENES = (school(3, "128x96"), school(4, "320x240"), school(20, "512x384"),
           Scene("chess", ("meshes/chess.glb", "--fstop", "1.4"), "128x96", "1", "0.5", "5", ("0.5", "5")))
-
-
-def seconds_of(*words):
-    begin = time.monotonic()
-    run(*words)
-    return time.monotonic() - begin
 
 
 def print_errors(program, scene, folder):
@@ -74,10 +68,10 @@ def print_film(program, scene, folder):
     filming = [program, "capture", shot, *scene.words(), "--quiet", "-o", folder / "####.png"]
     rendering = [*filming, "--method", "accumulation", "--range"]
     run(*rendering, "0")  # fills the driver's shader cache
-    one, four = (seconds_of(*rendering, frames) for frames in ("0", "0:3"))
+    one, four = (timed([*rendering, frames], f"the film of {scene.name}").wall for frames in ("0", "0:3"))
     each = (four - one) / 3
     rendered = one + (FRAMES - 1) * each
-    refocused = seconds_of(*filming, "--refocus")
+    refocused = timed([*filming, "--refocus"], f"the refocused film of {scene.name}").wall
     times = [json.loads(line)["renderMilliseconds"] for line in (folder / "timings.jsonl").read_text().splitlines()]
     picture = sum(times[1:]) / (len(times) - 1) / 1000
     print(f"{scene.name:>8}{scene.size:>9}{rendered:10.1f}{refocused:11.1f}{rendered / refocused:7.1f}{each:10.3f}{picture:11.3f}",

@@ -3,7 +3,7 @@
 import re
 import textwrap
 
-from figures.markdown import run_source, run_table, source, table
+from figures.markdown import run_table, source, table
 from figures.results import (accumulation_rows, command_of, error_ratio, lines_of, numbers, numbers_after, run_of, samples_sweep,
                              seconds)
 
@@ -19,74 +19,61 @@ def limited(value, limit):
     return f"**{value:.2f}**" if value > limit else f"{value:.2f}"
 
 
-def error_ratios(modes):
-    return [limited(error_ratio(modes, error), MAX_ERROR_RATIO) for error in ("rmse", "flip")]
+def time_of(row, unit="s"):
+    return f"{seconds(row):.2f} s" if unit == "s" else f"{1000 * seconds(row):.0f} ms"
 
 
-def times(modes, unit="s"):
-    return [f"{seconds(modes[mode]):.2f} s" if unit == "s" else f"{1000 * seconds(modes[mode]):.0f} ms" for mode in ("off", "fractional")]
+def columns_of(modes, unit):
+    """Returns {column: text}, with the speed and error of levels at one number of samples. modes: {level mode: row}."""
+    full, levels = modes["off"], modes["fractional"]
+    speed_ups = {"times as fast": levels, "size only": levels.get("sizeOnly"), "blur only": levels.get("blurOnly")}
+    columns = {name: f"{part['speedUp']:.1f}" if part else "–" for name, part in speed_ups.items()}
+    for name, row in (("full detail", full), ("levels", levels)):
+        columns |= {name: time_of(row, unit), f"triangles, {name}": f"{row['triangles'] / 1e6:.1f} M",
+                    **{f"{error.upper()}, {name}": f"{row['fromReference'][error]:.4f}" for error in ("rmse", "flip")}}
+    for error in ("rmse", "flip"):
+        columns[f"times the {error.upper()}"] = limited(error_ratio(modes, error), MAX_ERROR_RATIO)
+    other = levels["fromFullDetail"]
+    return columns | {"PSNR between the two": f"{other['psnr']:.1f} dB", "FLIP between the two": f"{other['flip']:.4f}"}
 
 
-def speed_ups(levels):
-    """Returns the speed-ups of levels chosen by size and blur, by size only, and by blur only; a dash if not measured."""
-    return [f"{part['speedUp']:.1f}" if part else "–" for part in (levels, levels["sizeOnly"], levels["blurOnly"])]
+def speed_rows(name, columns, preset=""):
+    """Returns {number of lens samples: texts of these columns}."""
+    rows = {count: columns_of(modes, "ms" if name == H200 else "s") for count, modes in samples_sweep(name, preset)}
+    return {count: [row[column] for column in columns] for count, row in rows.items()}
 
 
-def speed_table(name):
-    rows = []
-    for count, modes in samples_sweep(name):
-        off, levels = modes["off"], modes["fractional"]
-        rows.append([count, *times(modes), f"{levels['speedUp']:.1f}",
-                     f"{off['fromReference']['rmse']:.4f}", f"{levels['fromReference']['rmse']:.4f}", error_ratios(modes)[0],
-                     f"{levels['fromFullDetail']['psnr']:.1f} dB", f"{levels['fromFullDetail']['flip']:.4f}"])
-    return run_table(name, ["lens samples", "full detail", "levels", "times as fast", "RMSE, full detail", "RMSE, levels",
-                            "times the error", "PSNR between the two", "FLIP between the two"], rows)
+def speed_table(name, *columns):
+    return run_table(name, ["lens samples", *columns], [[count, *row] for count, row in speed_rows(name, columns).items()])
 
 
-def measured():
-    """Returns the table of speed-ups and errors of levels that are chosen by measured error."""
-    rows = []
-    for count, modes in samples_sweep(OWN):
-        full, levels = modes["off"], modes["fractional"]
-        rmse_ratio, flip_ratio = error_ratios(modes)
-        rows.append([count, f"{full['triangles'] / 1e6:.1f} M", f"{levels['triangles'] / 1e6:.1f} M", *times(modes), *speed_ups(levels),
-                     f"{full['fromReference']['rmse']:.4f}", rmse_ratio, f"{full['fromReference']['flip']:.4f}", flip_ratio])
-    return run_table(OWN, ["lens samples", "triangles, full detail", "triangles, levels", "full detail", "levels", "times as fast",
-                           "size only", "blur only", "RMSE, full detail", "times that, levels", "FLIP, full detail",
-                           "times that, levels"], rows)
+SPEED, RATIOS, PARTS = ("full detail", "levels", "times as fast"), ("times the RMSE", "times the FLIP"), ("size only", "blur only")
+ERRORS = ("RMSE, full detail", "RMSE, levels", "times the RMSE")
+BOTH = (*SPEED, *ERRORS, "PSNR between the two", "FLIP between the two")
 
 
 def levels():
     """Returns the table of times and errors, on two machines, of levels chosen by measured error from size and blur."""
-    def own_times(modes):
-        return [*(f"{seconds(modes[mode]):.2f}" for mode in ("off", "fractional")), f"{modes['fractional']['speedUp']:.1f}"]
-
-    card = dict(samples_sweep(H200))
-    rows = [[count, *own_times(modes), *error_ratios(modes), *own_times(card[count])] for count, modes in samples_sweep(OWN)]
-    return run_table(OWN, ["lens samples", "full detail, s", "levels, s", "times as fast", "times the RMSE", "times the FLIP",
-                           "H200: full detail, s", "levels, s", "times as fast"], rows)
+    card = speed_rows(H200, SPEED)
+    return run_table(OWN, ["lens samples", *SPEED, *RATIOS, "H200: full detail", "levels", "times as fast"],
+                     [[count, *row, *card[count]] for count, row in speed_rows(OWN, (*SPEED, *RATIOS)).items()])
 
 
 def published_ratios():
     """Returns the table of speed-ups and errors of levels, as published and by default."""
-    def ratios(modes):
-        return [f"{modes['fractional']['speedUp']:.1f}", error_ratios(modes)[0]]
-
-    own = dict(samples_sweep(OWN))
-    rows = [[count, *ratios(theirs), *ratios(own[count])] for count, theirs in samples_sweep(OWN, "jeong2011")]
+    columns = ("times as fast", "times the RMSE")
+    own = speed_rows(OWN, columns)
     return run_table(OWN, ["lens samples", "`jeong2011`: times as fast", "times the RMSE", "default: times as fast", "times the RMSE"],
-                     rows)
+                     [[count, *row, *own[count]] for count, row in speed_rows(OWN, columns, "jeong2011").items()])
 
 
 def published():
     """Returns the table of frame times over lens samples, as published and by default, like Figure 2 of the paper."""
-    own = dict(samples_sweep(OWN))
-    rows = [[count, name, *times(modes), *speed_ups(modes["fractional"]), f"{modes['off']['fromReference']['rmse']:.4f}",
-             f"{modes['fractional']['fromReference']['rmse']:.4f}", error_ratios(modes)[0]]
-            for count, theirs in samples_sweep(OWN, "jeong2011")
-            for name, modes in (("`jeong2011`, Halton", theirs), ("default, Sobol", own[count]))]
-    return run_table(OWN, ["lens samples", "settings", "full detail", "levels", "times as fast", "size only", "blur only",
-                           "RMSE, full detail", "RMSE, levels", "times the error"], rows)
+    columns = (*SPEED, *PARTS, *ERRORS)
+    own = speed_rows(OWN, columns)
+    rows = [[count, *row] for count, theirs in speed_rows(OWN, columns, "jeong2011").items()
+            for row in (["`jeong2011`, Halton", *theirs], ["default, Sobol", *own[count]])]
+    return run_table(OWN, ["lens samples", "settings", *columns], rows)
 
 
 def lenses():
@@ -94,7 +81,7 @@ def lenses():
     lens = ("sweep", "samples", "fStop", "focusDistance")
     full = {tuple(row[key] for key in lens): row for row in accumulation_rows(name) if row["lod"] == "off"}
     rows = [[f"f/{row['fStop']:g}", f"{row['focusDistance']:g} m",
-             *times({"off": full[tuple(row[key] for key in lens)], "fractional": row}), f"{row['speedUp']:.1f}",
+             time_of(full[tuple(row[key] for key in lens)]), time_of(row), f"{row['speedUp']:.1f}",
              f"{row['fromFullDetail']['psnr']:.1f} dB"]
             for row in accumulation_rows(name) if row["lod"] == "fractional" and row["samples"] == 64]
     return run_table(name, ["f-number", "focus", "full detail", "levels", "times as fast", "PSNR between the two"], rows)
@@ -164,27 +151,6 @@ def pop_shares():
     return run_table("llvmpipe-popping", ["movement", MODES["nearest"], *(f"share, {MODES[mode]}" for mode in MAX_POP_RATIO)], cells)
 
 
-def gpu_speed():
-    rows = [[count, *times(modes, "ms"), *speed_ups(modes["fractional"]), *error_ratios(modes)] for count, modes in samples_sweep(H200)]
-    return run_table(H200, ["lens samples", "full detail", "levels", "times as fast", "size only", "blur only", "times the RMSE",
-                            "times the FLIP"], rows)
-
-
-def gpu_equal_error():
-    def cell(time):
-        if time["milliseconds"] is None:
-            return "not reached"
-        return f"{'< ' if time['atMost'] else ''}{time['milliseconds']:.0f}"
-
-    scenes = {"h200-school": "Fish school", "h200-helmets": "FlightHelmet 20 times"}
-    errors = [f"RMSE {time['rmse']}" for time in run_of("h200-school")["timesToErrors"][0]["times"]]
-    rows = []
-    for name, scene in scenes.items():
-        rows.append([f"**{scene}**"] + [""] * len(errors))
-        rows += [[method["name"], *map(cell, method["times"])] for method in run_of(name)["timesToErrors"]]
-    return table(["milliseconds a frame", *errors], rows) + "".join(map(run_source, scenes))
-
-
 def error_times():
     """Returns the table of times to an RMSE of 0.005 on both machines."""
     runs = {"llvmpipe-multirate-fish": "school", "llvmpipe-multirate-helmets": "helmets", "h200-school": "school, H200",
@@ -230,7 +196,9 @@ def window():
                                        "at rest: first picture after", "converged after", "samples after 10 s", "PSNR"], rows)
 
 
-TABLES = {"window": window, "gpu speed": gpu_speed, "gpu equal error": gpu_equal_error, "speed": speed_sentence, "demo": demo, "seeds": seeds,
-          "speedup": lambda: speed_table(FISH), "helmets": lambda: speed_table("llvmpipe-speedup-helmets"), "measured": measured,
+TABLES = {"window": window, "gpu speed": lambda: speed_table(H200, *SPEED, *PARTS, *RATIOS), "speed": speed_sentence, "demo": demo, "seeds": seeds,
+          "speedup": lambda: speed_table(FISH, *BOTH), "helmets": lambda: speed_table("llvmpipe-speedup-helmets", *BOTH),
+          "measured": lambda: speed_table(OWN, "triangles, full detail", "triangles, levels", *SPEED, *PARTS,
+                                          "RMSE, full detail", "times the RMSE", "FLIP, full detail", "times the FLIP"),
           "levels": levels, "pop shares": pop_shares, "error times": error_times, "published ratios": published_ratios,
           "published": published, "lenses": lenses, "popping": popping, "peers": peers}

@@ -49,7 +49,7 @@ def held_equal(results):
     runs = "one run" if results["runs"] == 1 else f"median of {results['runs']} interleaved runs"
     return (f"{results['width']} × {results['height']}, f/{results['lens']['fStop']:g}, against "
             f"{results['reference']['samples']:,} lens samples at full detail; {results['device'].split(' (')[0]}, "
-            f"{results['machine']['threads']} shared cores, {runs}")
+            f"{results['machine']['threads']} cores, {runs}")
 
 
 def seconds_to_error(time, first):

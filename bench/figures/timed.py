@@ -1,13 +1,16 @@
-"""Times runs of a program, and describes the program and the machine."""
+"""Times runs of a program by scene, and describes the program and the machine."""
 
 import os
+import pathlib
+import shlex
 import subprocess
 import sys
+import tempfile
 import time
 from typing import NamedTuple
 
-from figures.command import ROOT, run
-from figures.files import read_json
+from figures.command import ROOT, add_options, add_program, parser_of, path, run
+from figures.files import read_json, write_file
 
 
 class Times(NamedTuple):
@@ -45,3 +48,36 @@ def facts(program, folder, recorded):
 def processor():
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         return next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "unknown processor")
+
+
+def alternating(runs, forms, measure):
+    """Returns {form: results of measure(form) in each run}. The runs alternate between the forms."""
+    return dict(zip(forms, zip(*[[measure(form) for form in forms] for _ in range(runs)])))
+
+
+def time_scenes(words, name, text, options, remark, header, rows, scenes=()):
+    """Runs `scripts/figures NAME`, which prints a table of times by scene, and writes the table to --output.
+
+    text: the parser's description. options: {option: default} for add_options(), in the order of the recorded command.
+    rows(arguments, scene, folder): returns the lines of a scene. It may write to the folder, which is empty.
+    scenes: the default scenes, relative to the repository root; without them, the user must name a scene.
+    """
+    parser = parser_of(name, text)
+    parser.add_argument("scenes", nargs="*" if scenes else "+", type=path, default=[ROOT / scene for scene in scenes], metavar="SCENE")
+    add_options(parser, options)
+    parser.add_argument("--output", type=path, help="text file for the table (default: none)")
+    add_program(parser)
+    arguments = parser.parse_args(words)
+    values = {option: getattr(arguments, option.replace("-", "_")) for option in options}
+    command = ["scripts/figures", name, *(scene.name for scene in arguments.scenes),
+               *(word for option, value in values.items() if value for word in (f"--{option}", shlex.quote(str(value))))]
+    with tempfile.TemporaryDirectory() as folder:
+        lines = [facts(arguments.program, pathlib.Path(folder), arguments.output)]
+    lines += [f"{remark} Other programs may run at the same time.".lstrip(), "", f"$ {' '.join(command)}", header]
+    print(*lines, sep="\n", flush=True)
+    for scene in arguments.scenes:
+        with tempfile.TemporaryDirectory() as folder:
+            lines += (found := rows(arguments, scene, pathlib.Path(folder)))
+        print(*found, sep="\n", flush=True)
+    if arguments.output:
+        write_file(arguments.output, "\n".join(lines) + "\n")
