@@ -7,21 +7,15 @@
 
 #include "bokeh.h"
 #include "core/error.h"
-#include "gl/context.h"
 #include "gl_conduct.h"
+#include "gl_context_test.h"
 #include "lens/aberrations.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
 namespace {
 
-class Aberrations : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> Aberrations::context_;
+using Aberrations = GlContextTest;
 
 View viewOf(double astigmatism, double coma) {
     View view;

@@ -4,21 +4,17 @@
 
 #include "aperture_shapes.h"
 #include "bokeh.h"
-#include "gl/context.h"
 #include "gl_conduct.h"
+#include "gl_context_test.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
 namespace {
 
-class ApertureBokeh : public testing::Test {
+class ApertureBokeh : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
-    static std::unique_ptr<GlContext> context_;
 };
-std::unique_ptr<GlContext> ApertureBokeh::context_;
 
 constexpr double square = 5;  // side of the bright square, px
 constexpr double energy = 2500;

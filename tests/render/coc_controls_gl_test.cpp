@@ -8,6 +8,7 @@
 #include <random>
 
 #include "gl/context.h"
+#include "gl_context_test.h"
 #include "image/metrics.h"
 #include "lens/circle_of_confusion.h"
 #include "render/aov/aov.h"
@@ -18,13 +19,7 @@
 namespace defocus::engine {
 namespace {
 
-class CocControls : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> CocControls::context_;
+using CocControls = GlContextTest;
 
 Image rendered(const SmallWorld& small, std::uint32_t samples, double tolerance = 0.5,
                const char* method = "accumulation") {

@@ -3,21 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus::engine {
 namespace {
 
-class Glints : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
-};
+using Glints = GlContextTest;
 
 // Returns a ball about 40 px across with ripples that are 5 to 10 px long.
 std::unique_ptr<SmallWorld> rippledBall(float roughness, float metallic) {

@@ -4,21 +4,17 @@
 #include <cmath>
 
 #include "bokeh.h"
-#include "gl/context.h"
 #include "gl_conduct.h"
+#include "gl_context_test.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
 namespace {
 
-class LensColour : public testing::Test {
+class LensColour : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
-    static std::unique_ptr<GlContext> context_;
 };
-std::unique_ptr<GlContext> LensColour::context_;
 
 struct Blob {
     glm::dvec3 energy{0};  // Σ radiance

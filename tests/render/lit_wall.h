@@ -11,7 +11,7 @@
 #include <numbers>
 #include <vector>
 
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "plan/frame_plan.h"
 #include "render/methods.h"
 #include "render/rendered.h"
@@ -180,13 +180,6 @@ inline void expectLitRadiance(const Image& image, const WallPoint& point, const 
     expectRadiance(image, point, expected, relative * glm::max(expected, glm::dvec3(0.05)) + slope);
 }
 
-class LitWall : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
-};
+using LitWall = GlContextTest;
 
 }  // namespace defocus::engine

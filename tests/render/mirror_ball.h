@@ -6,18 +6,16 @@
 #include <cmath>
 #include <memory>
 
-#include "gl/context.h"
 #include "gl_conduct.h"
+#include "gl_context_test.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus::engine {
 
-class Mirror : public testing::Test {
+class Mirror : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
 
     // distance in m, so large that all light towards the camera has almost the same direction
@@ -73,9 +71,6 @@ protected:
         settings.lod = LodMode::off;
         return settings;
     }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 }  // namespace defocus::engine

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "image/metrics.h"
 #include "models.h"
 #include "posed_world.h"
@@ -13,13 +13,7 @@
 namespace defocus::engine {
 namespace {
 
-class Posing : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> Posing::context_;
+using Posing = GlContextTest;
 
 Image renderedInHalf(const SmallWorld& small, const RenderSettings& settings, const char* method = "accumulation") {
     RendererOptions options;

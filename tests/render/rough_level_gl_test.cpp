@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "lod/shapes.h"
 #include "render/rendered.h"
 #include "small_world.h"
@@ -13,14 +13,7 @@
 namespace defocus::engine {
 namespace {
 
-class RoughLevels : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
-};
+using RoughLevels = GlContextTest;
 
 // Returns a square of side 2 with 12 × 12 hills. Slopes reach 27°, and the normals are those of the hills.
 Mesh hills() {

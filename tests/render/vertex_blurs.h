@@ -9,18 +9,15 @@
 #include <string>
 
 #include "bokeh.h"
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus::engine {
 
-class VertexBlurs : public testing::Test {
+class VertexBlurs : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
     static constexpr double blurredSide = 4;  // side of the blurred square, px
     static constexpr double focus = 2;        // focus distance, m
     static constexpr int blurSamples = 256;
@@ -105,9 +102,6 @@ protected:
         small->world.environment = blackBackground();
         return small;
     }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 }  // namespace defocus::engine

@@ -3,21 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus::engine {
 namespace {
 
-class WireHighlight : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
-};
+using WireHighlight = GlContextTest;
 
 // Returns a torus around the z axis, of radius 1 and with a wire of radius 0.04.
 Mesh ringMesh() {

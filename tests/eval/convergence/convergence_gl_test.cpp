@@ -11,8 +11,8 @@
 #include "eval/convergence/convergence.h"
 #include "eval/convergence/crops.h"
 #include "eval/convergence/rows.h"
-#include "gl/context.h"
 #include "gl_conduct.h"
+#include "gl_context_test.h"
 #include "scratch_folder.h"
 #include "small_world.h"
 
@@ -42,17 +42,16 @@ private:
     std::uint32_t claimed_;
 };
 
-class Convergence : public testing::Test {
+class Convergence : public GlContextTest {
 protected:
     // Renders the reference image once for all tests, since this takes longer than rendering most of the compared
     // images.
     static void SetUpTestSuite() {
-        context_ = createHeadlessContext();
+        GlContextTest::SetUpTestSuite();
         const std::unique_ptr<SmallWorld> small = smallSpheres();
         const ScratchFolder folder;
         reference_ = referenceImage(small->world, small->view, {256, {}}, folder.path());
     }
-    static void TearDownTestSuite() { context_.reset(); }
 
     static std::unique_ptr<SmallWorld> smallSpheres() {
         auto small = fiveSpheres();
@@ -91,7 +90,6 @@ protected:
         return runs;
     }
 
-    static inline std::unique_ptr<GlContext> context_;
     static inline ReferenceImage reference_;
 
     std::unique_ptr<SmallWorld> small_ = smallSpheres();

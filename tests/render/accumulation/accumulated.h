@@ -3,20 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
-
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus::engine {
 
-class Accumulation : public testing::Test {
+class Accumulation : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
     static RenderSettings settingsFor(std::uint32_t samples, LodMode lod = LodMode::fractional) {
         RenderSettings settings;
         settings.sampleCount = samples;
@@ -30,18 +25,12 @@ protected:
         const auto renderer = methodNamed("accumulation").make(small.world, options);
         return imageOf(*renderer, planFrame(small.world, small.view, settings));
     }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 // Fixture for images in which one sample may draw two levels of detail of an object, each in some of the pixels
 // (LodMode::continuous).
-class ScreenDoor : public testing::Test {
+class ScreenDoor : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
     static RenderSettings continuousFor(std::uint32_t samples) {
         RenderSettings settings;
         settings.sampleCount = samples;
@@ -55,9 +44,6 @@ protected:
         const auto renderer = methodNamed("accumulation").make(small.world, options);
         return imageOf(*renderer, plan);
     }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 }  // namespace defocus::engine

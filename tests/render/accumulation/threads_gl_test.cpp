@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "gl_conduct.h"
+#include "gl_context_test.h"
 #include "likeness.h"
 #include "plan/sample_range.h"
 #include "render/accumulation/lens_cell_renders.h"
@@ -14,11 +15,8 @@
 namespace defocus::engine {
 namespace {
 
-class DrawingThreads : public testing::Test {
+class DrawingThreads : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
     static RendererOptions inThreads(std::uint32_t threads, LayerFormat format = LayerFormat::rgba16f) {
         RendererOptions options;
         options.layerFormat = format;
@@ -44,8 +42,6 @@ protected:
     void SetUp() override {
         if (!drawsInThreads(currentDevice(), currentDriver())) GTEST_SKIP() << currentDriver() << " may crash";
     }
-
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 TEST_F(DrawingThreads, changeNoBitOfLevelsOfDetail) {

@@ -4,21 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus::engine {
 
-class Layered : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static inline std::unique_ptr<GlContext> context_;
-};
+using Layered = GlContextTest;
 
 inline RenderSettings samplesOf(std::uint32_t samples) {
     RenderSettings settings;

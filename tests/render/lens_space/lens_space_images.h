@@ -9,8 +9,8 @@
 #include <string>
 
 #include "core/error.h"
-#include "gl/context.h"
 #include "gl_conduct.h"
+#include "gl_context_test.h"
 #include "image/metrics.h"
 #include "render/methods.h"
 #include "render/rendered.h"
@@ -97,12 +97,9 @@ inline void expectRefusal(const char* method, const SmallWorld& small, const std
     }
 }
 
-class LensSpace : public testing::TestWithParam<const char*> {
+class LensSpace : public GlContextTest, public testing::WithParamInterface<const char*> {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
     void TearDown() override { EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR}); }
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 // Returns a grid that covers 6 × 6 px within one tile. It has side² squares of two triangles each.
@@ -139,12 +136,9 @@ inline std::unique_ptr<SmallWorld> gridInATile(std::uint32_t side) {
 // software driver.
 inline constexpr std::uint32_t longerThanLoops = 184;
 
-class LensSpaceAlone : public testing::Test {
+class LensSpaceAlone : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 }  // namespace defocus::engine

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gl/context.h"
+#include "gl_context_test.h"
 #include "models.h"
 #include "posed_world.h"
 #include "render/methods.h"
@@ -11,16 +12,12 @@
 namespace defocus::engine {
 namespace {
 
-class OccludedSurfaces : public testing::Test {
+class OccludedSurfaces : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override {
         if (!currentIsSoftware()) GTEST_SKIP() << "a GPU draws everything";
     }
-    static std::unique_ptr<GlContext> context_;
 };
-std::unique_ptr<GlContext> OccludedSurfaces::context_;
 
 struct OpaqueDrawn {
     Image image;

@@ -9,7 +9,7 @@
 
 #include "bokeh.h"
 #include "core/error.h"
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "render/post_process/boards.h"
 #include "render/rendered.h"
 #include "small_world.h"
@@ -17,21 +17,9 @@
 namespace defocus::engine {
 namespace {
 
-class PostProcesses : public testing::TestWithParam<const char*> {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> PostProcesses::context_;
+class PostProcesses : public GlContextTest, public testing::WithParamInterface<const char*> {};
 
-class PostProcessesAlone : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> PostProcessesAlone::context_;
+using PostProcessesAlone = GlContextTest;
 
 bool inTenBits(std::string_view method) {
     return method.find("r10g10b10a2") != std::string_view::npos;

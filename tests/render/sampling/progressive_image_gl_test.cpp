@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "gl/context.h"
 #include "gl/read_back.h"
 #include "gl_conduct.h"
+#include "gl_context_test.h"
 #include "image/metrics.h"
 #include "image/tone_map.h"
 #include "likeness.h"
@@ -19,10 +19,8 @@
 namespace defocus::engine {
 namespace {
 
-class Growing : public testing::Test {
+class Growing : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override {
         SKIP_ON_SECOND_DRIVER();
         small_ = fiveSpheres();
@@ -60,9 +58,7 @@ protected:
     }
 
     std::unique_ptr<SmallWorld> small_;
-    static std::unique_ptr<GlContext> context_;
 };
-std::unique_ptr<GlContext> Growing::context_;
 
 TEST_F(Growing, blocksAddUpToTheFrameRenderedAtOnce) {
     ProgressiveImage image = progressive();

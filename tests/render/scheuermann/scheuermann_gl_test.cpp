@@ -8,7 +8,7 @@
 #include "aperture_shapes.h"
 #include "bokeh.h"
 #include "core/error.h"
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "image/tone_map.h"
 #include "render/methods.h"
 #include "render/post_process/boards.h"
@@ -19,13 +19,7 @@
 namespace defocus::engine {
 namespace {
 
-class ScheuermannImage : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> ScheuermannImage::context_;
+using ScheuermannImage = GlContextTest;
 
 constexpr double lightSide = 6;  // side of the bright square, px
 constexpr double lightEnergy = 360;

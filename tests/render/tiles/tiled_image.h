@@ -5,10 +5,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <vector>
 
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "likeness.h"
 #include "plan/visible/tiles.h"
 #include "render/methods.h"
@@ -17,11 +16,8 @@
 
 namespace defocus::engine {
 
-class Tiles : public testing::Test {
+class Tiles : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
     static PixelRectangle wholeOf(const FramePlan& plan) { return {0, 0, plan.view.width, plan.view.height}; }
 
     // Returns the image assembled from tiles, each of which is rendered separately. Pixels that no tile covers are NaN.
@@ -77,9 +73,6 @@ protected:
         settings.thresholds = {0.5, 2};
         return planFrame(small.world, view, settings);
     }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 }  // namespace defocus::engine
