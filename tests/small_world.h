@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <memory>
 #include <numbers>
+#include <vector>
 
 #include "lod/pyramid/pyramid.h"
 #include "plan/view.h"
@@ -64,6 +65,18 @@ inline Mesh quad(int material) {
     mesh.vertices.normals.assign(4, {0, 0, 1});
     mesh.primitives.push_back({material, {0, 1, 2, 0, 2, 3}});
     return mesh;
+}
+
+// Returns the triangles of a grid of `cells` × `cells` squares; its vertices are ordered by row, then by column.
+inline std::vector<std::uint32_t> gridIndices(std::uint32_t cells) {
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t y = 0; y < cells; ++y)
+        for (std::uint32_t x = 0; x < cells; ++x) {
+            const std::uint32_t first = y * (cells + 1) + x;
+            const std::uint32_t next = first + cells + 1;
+            indices.insert(indices.end(), {first, first + 1, next, first + 1, next + 1, next});
+        }
+    return indices;
 }
 
 inline Material unlitMaterial(const glm::vec4& color) {

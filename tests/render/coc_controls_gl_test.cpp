@@ -64,19 +64,14 @@ std::unique_ptr<SmallWorld> checkeredFloor(int cells, double begin, double end) 
 
     Mesh mesh;
     mesh.name = "floor";
-    Primitive primitive{0, {}};
     for (int y = 0; y <= cells; ++y)
         for (int x = 0; x <= cells; ++x) {
             const glm::dvec2 part = glm::dvec2(x, y) / double(cells);
             mesh.vertices.positions.emplace_back(-2.5 + 5 * part.x, -0.5, -(begin + (end - begin) * part.y));
             mesh.vertices.normals.emplace_back(0, 1, 0);
             mesh.vertices.uv0.emplace_back(part);
-            if (x == cells || y == cells) continue;
-            const auto first = static_cast<std::uint32_t>(y * (cells + 1) + x);
-            const auto next = first + static_cast<std::uint32_t>(cells) + 1;
-            primitive.indices.insert(primitive.indices.end(), {first, first + 1, next, first + 1, next + 1, next});
         }
-    mesh.primitives.push_back(primitive);
+    mesh.primitives.push_back({0, gridIndices(static_cast<std::uint32_t>(cells))});
     small->scene.meshes.push_back(mesh);
     place(*small, 0, glm::dmat4(1));
     small->world.pyramids.push_back(fullDetail(small->scene.meshes[0]));

@@ -44,15 +44,35 @@ inline std::unique_ptr<SmallWorld> litWall(const Material& material) {
     return small;
 }
 
-inline FramePlan wallPlan(const SmallWorld& small) {
+inline FramePlan wallPlan(const SmallWorld& small, bool multipleScattering = false) {
     RenderSettings settings;
     settings.sampleCount = 1;
     settings.lod = LodMode::off;
+    settings.multipleScattering = multipleScattering;
     return planFrame(small.world, small.view, settings);
 }
 
 inline Image wallImage(const SmallWorld& small) {
     return imageInFloats(small.world, wallPlan(small));
+}
+
+// Returns the image of a wall in a white furnace, an environment of radiance 1. The wall fills the frame. The angle
+// between its normal and the view axis has approximately the given cosine.
+inline Image furnaceImage(const Material& material, double cosine, bool multipleScattering = false) {
+    const auto small = litWall(material);
+    glm::dmat4& placed = small->world.pose.objects[0].worldFromObject;
+    placed = glm::scale(glm::rotate(placed, std::acos(cosine), {0, 1, 0}), glm::dvec3(1000));
+    small->world.environment.zenith = glm::vec3(1);
+    return imageInFloats(small->world, wallPlan(*small, multipleScattering));
+}
+
+// Returns the largest difference of an image's colour channels from `expected`.
+inline double farthestFrom(const Image& image, const glm::dvec3& expected) {
+    double max = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c) max = std::max(max, std::abs(image.at(x, y)[c] - expected[c]));
+    return max;
 }
 
 // The point of the wall that the single sample of pixel (x, y) sees, in world coordinates.

@@ -10,21 +10,6 @@ namespace {
 
 class MaterialExtensions : public Transmission {
 protected:
-    // Returns the image of a wall in an environment of radiance 1. The angle between the wall's normal and the view
-    // axis has approximately the given cosine.
-    static Image furnaceImage(const Material& material, double cosine, bool multipleScattering = false) {
-        auto small = litWall(material);
-        const glm::dmat4 turned =
-            glm::rotate(small->world.pose.objects[0].worldFromObject, std::acos(cosine), {0, 1, 0});
-        small->world.pose.objects[0].worldFromObject = glm::scale(turned, glm::dvec3(1000));
-        small->world.environment.zenith = glm::vec3(1);
-        RenderSettings settings;
-        settings.sampleCount = 1;
-        settings.lod = LodMode::off;
-        settings.multipleScattering = multipleScattering;
-        return imageInFloats(small->world, planFrame(small->world, small->view, settings));
-    }
-
     // Returns the mean of the four middle pixels, at whose common corner the view axis passes.
     static glm::dvec3 middleOf(const Image& image) {
         glm::dvec3 sum(0);

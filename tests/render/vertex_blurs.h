@@ -82,19 +82,14 @@ protected:
         white.doubleSided = true;
         small->scene.materials.push_back(white);
         Mesh mesh;
-        Primitive primitive{0, {}};
         for (int y = 0; y <= cells; ++y)
             for (int x = 0; x <= cells; ++x) {
                 const double far = double(y) / cells;
                 mesh.vertices.positions.emplace_back((double(x) / cells - 0.5) * 0.4, -0.2 + 0.3 * far, -(1 + 3 * far));
                 mesh.vertices.normals.emplace_back(0, 1, 0);
                 mesh.vertices.blurs.push_back(blur(far));
-                if (x == cells || y == cells) continue;
-                const auto first = static_cast<std::uint32_t>(y * (cells + 1) + x);
-                const auto next = first + static_cast<std::uint32_t>(cells) + 1;
-                primitive.indices.insert(primitive.indices.end(), {first, first + 1, next, first + 1, next + 1, next});
             }
-        mesh.primitives.push_back(primitive);
+        mesh.primitives.push_back({0, gridIndices(static_cast<std::uint32_t>(cells))});
         mesh.blurBounds = boundsOf(mesh.vertices.blurs);
         small->scene.meshes.push_back(mesh);
         place(*small, 0, glm::dmat4(1));
