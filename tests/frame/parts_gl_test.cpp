@@ -25,11 +25,7 @@ protected:
     void TearDown() override { fs::remove_all(folder_); }
 
     static RenderSettings settingsWith(LodMode mode) {
-        RenderSettings settings;
-        settings.sampleCount = 150;
-        settings.lod = mode;
-        settings.thresholds = {0.5, 2};
-        return settings;
+        return {.sampleCount = 150, .lod = mode, .thresholds = {0.5, 2}};
     }
 
     // Draws all samples, or only the samples in `range`. At most `wave` samples are drawn together (0: the default).

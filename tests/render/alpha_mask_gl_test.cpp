@@ -44,10 +44,7 @@ std::unique_ptr<SmallWorld> cutWall(double pixels) {
 }
 
 Image cutImage(const SmallWorld& small, std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    settings.keepAll = true;
+    const RenderSettings settings{.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
     return imageInFloats(small.world, planFrame(small.world, small.view, settings));
 }
 

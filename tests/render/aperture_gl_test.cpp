@@ -34,11 +34,8 @@ Image bokehOf(const View& view) {
                                        glm::vec3(static_cast<float>(energy / (square * square))));
     World world = flatWorld(scene, blackBackground());
     world.pyramids.push_back(fullDetail(scene.meshes.front()));
-    RenderSettings settings;
-    settings.sampleCount = 1024;
-    settings.lod = LodMode::off;
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
+    const RenderSettings settings{.sampleCount = 1024, .lod = LodMode::off};
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const auto renderer = methodNamed("accumulation").make(world, options);
     return renderedImage(*renderer, planFrame(world, view, settings));
 }

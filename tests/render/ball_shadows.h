@@ -48,10 +48,7 @@ protected:
     }
 
     static Image drawn(const SmallWorld& small, Renderer& renderer, Shadows shadows, std::uint32_t samples) {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        settings.lod = LodMode::off;
-        settings.shadows = shadows;
+        const RenderSettings settings{.sampleCount = samples, .lod = LodMode::off, .shadows = shadows};
         renderer.start(planFrame(small.world, small.view, settings));
         while (renderer.advance()) {
         }

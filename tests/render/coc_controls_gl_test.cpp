@@ -23,11 +23,9 @@ using CocControls = GlContextTest;
 
 Image rendered(const SmallWorld& small, std::uint32_t samples, double tolerance = 0.5,
                const char* method = "accumulation") {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    settings.cocTolerance = tolerance;
-    settings.keepAll = true;  // by default, a pinhole image uses fewer samples
+    // by default, a pinhole image uses fewer samples
+    const RenderSettings settings{
+        .sampleCount = samples, .lod = LodMode::off, .cocTolerance = tolerance, .keepAll = true};
     return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
 }
 
@@ -119,9 +117,7 @@ std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end
 TEST_F(CocControls, dividedTrianglesNeedNoCuts) {
     const auto floor = checkeredFloor(3, 2, 12);
     floor->view.lens.fieldCurvature = 0.5;
-    RenderSettings settings;
-    settings.sampleCount = 16;
-    settings.lod = LodMode::off;
+    const RenderSettings settings{.sampleCount = 16, .lod = LodMode::off};
     FramePlan plan = planFrame(floor->world, floor->view, settings);
     ASSERT_EQ(plan.objects.at(0).refinement, Refinement::subdivide);
     ASSERT_FALSE(plan.objects[0].cuts);
@@ -133,10 +129,7 @@ TEST_F(CocControls, dividedTrianglesNeedNoCuts) {
 TEST_F(CocControls, maxPartsBoundTheDivision) {
     const auto floor = checkeredFloor(3, 2, 12);
     floor->view.lens.fieldCurvature = 2;
-    RenderSettings settings;
-    settings.sampleCount = 16;
-    settings.lod = LodMode::off;
-    settings.cocTolerance = 0.05;
+    const RenderSettings settings{.sampleCount = 16, .lod = LodMode::off, .cocTolerance = 0.05};
     FramePlan plan = planFrame(floor->world, floor->view, settings);
     EXPECT_EQ(plan.objects.at(0).maxParts, maxEdgeParts);
     const Image whole = imageInFloats(floor->world, plan);

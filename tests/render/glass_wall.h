@@ -36,11 +36,8 @@ protected:
     }
 
     static Image drawnBy(const char* method, const SmallWorld& small, std::uint32_t samples) {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        settings.lod = LodMode::off;
-        RendererOptions options;
-        options.layerFormat = LayerFormat::rgba32f;
+        RenderSettings settings{.sampleCount = samples, .lod = LodMode::off};
+        RendererOptions options{.layerFormat = LayerFormat::rgba32f};
         const MethodUse use = parseMethodUse(method);
         options.settings = use.settings;
         return imageOf(*use.method->make(small.world, options), planFrame(small.world, small.view, settings));

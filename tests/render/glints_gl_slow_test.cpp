@@ -55,11 +55,8 @@ std::vector<PlacedLight> sunsAllAround(std::uint32_t set) {
 // Renders the ball with or without the filter that spreads glints. The filter acts on a frame's first samples only, so
 // unfiltered images use sample indices from 2²⁰ on.
 Image ballImage(const SmallWorld& small, std::uint32_t samples, bool filtered) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.firstSample = filtered ? 0 : 1u << 20;
-    settings.keepAll = true;
-    settings.lod = LodMode::off;
+    const RenderSettings settings{
+        .sampleCount = samples, .firstSample = filtered ? 0 : 1u << 20, .lod = LodMode::off, .keepAll = true};
     return imageInFloats(small.world, planFrame(small.world, small.view, settings));
 }
 

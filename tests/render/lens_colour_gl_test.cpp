@@ -49,11 +49,8 @@ Image renderedPoint(const View& view, double column, double row, double depth, c
     environment.zenith = environment.horizon = environment.nadir = background;
     World world = flatWorld(scene, environment);
     world.pyramids = buildPyramids(scene.meshes);
-    RenderSettings settings;
-    settings.sampleCount = 4096;
-    settings.lod = LodMode::off;
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
+    const RenderSettings settings{.sampleCount = 4096, .lod = LodMode::off};
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const auto renderer = methodNamed("accumulation").make(world, options);
     return renderedImage(*renderer, planFrame(world, view, settings));
 }
@@ -112,11 +109,8 @@ TEST_F(LensColour, greyStaysGrey) {
         for (const bool catEye : {false, true}) {
             View view = viewOf(1);
             (catEye ? view.lens.catEye : view.lens.axialChromaticAberration) = 0.7;
-            RenderSettings settings;
-            settings.sampleCount = samples;
-            settings.keepAll = true;
-            RendererOptions options;
-            options.layerFormat = LayerFormat::rgba32f;
+            const RenderSettings settings{.sampleCount = samples, .keepAll = true};
+            const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
             const auto renderer = methodNamed("accumulation").make(world, options);
             const Image image = renderedImage(*renderer, planFrame(world, view, settings));
             for (std::size_t i = 0; i < image.pixels.size(); i += 4)

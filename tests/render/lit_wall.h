@@ -45,10 +45,7 @@ inline std::unique_ptr<SmallWorld> litWall(const Material& material) {
 }
 
 inline FramePlan wallPlan(const SmallWorld& small, bool multipleScattering = false) {
-    RenderSettings settings;
-    settings.sampleCount = 1;
-    settings.lod = LodMode::off;
-    settings.multipleScattering = multipleScattering;
+    const RenderSettings settings{.sampleCount = 1, .lod = LodMode::off, .multipleScattering = multipleScattering};
     return planFrame(small.world, small.view, settings);
 }
 

@@ -65,11 +65,7 @@ protected:
     }
 
     static RenderSettings ballSettings(std::uint32_t samples, std::uint32_t seed) {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        settings.seed = seed;
-        settings.lod = LodMode::off;
-        return settings;
+        return {.sampleCount = samples, .seed = seed, .lod = LodMode::off};
     }
 };
 

@@ -21,11 +21,7 @@ namespace {
 using Motion = GlContextTest;
 
 RenderSettings fullDetailFor(std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    settings.keepAll = true;
-    return settings;
+    return {.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
 }
 
 Image renderedInFloat(const World& world, const View& view, const RenderSettings& settings) {

@@ -16,17 +16,13 @@ namespace {
 using Posing = GlContextTest;
 
 Image renderedInHalf(const SmallWorld& small, const RenderSettings& settings, const char* method = "accumulation") {
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba16f;
+    const RendererOptions options{.layerFormat = LayerFormat::rgba16f};
     const auto renderer = methodNamed(method).make(small.world, options);
     return imageOf(*renderer, planFrame(small.world, small.view, settings));
 }
 
 RenderSettings levelZeroSettings() {
-    RenderSettings settings;
-    settings.sampleCount = 4;
-    settings.lod = LodMode::off;
-    return settings;
+    return {.sampleCount = 4, .lod = LodMode::off};
 }
 
 // Expects the images of GPU-posed and CPU-posed (`baked`) meshes to be equal up to rounding. Single precision rounds

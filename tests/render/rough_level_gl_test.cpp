@@ -37,11 +37,7 @@ Mesh hills() {
 }
 
 double meanLight(const SmallWorld& small, LodMode lod) {
-    RenderSettings settings;
-    settings.sampleCount = 64;
-    settings.lod = lod;
-    settings.metric = LodMetric::size;
-    settings.thresholds = {0.0, 40.0};
+    const RenderSettings settings{.sampleCount = 64, .lod = lod, .metric = LodMetric::size, .thresholds = {0.0, 40.0}};
     const Image image = imageInFloats(small.world, planFrame(small.world, small.view, settings));
     double sum = 0;
     double covered = 0;

@@ -59,18 +59,12 @@ protected:
     }
 
     static RenderSettings settingsFor(std::uint32_t samples, Shadows shadows) {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        settings.lod = LodMode::off;
-        settings.shadows = shadows;
-        return settings;
+        return {.sampleCount = samples, .lod = LodMode::off, .shadows = shadows};
     }
 
     static Image shadowImage(const SmallWorld& small, const RenderSettings& settings,
                              const std::string& method = "accumulation", std::uint32_t wave = 0) {
-        RendererOptions options;
-        options.layerFormat = LayerFormat::rgba32f;
-        options.wave = wave;
+        RendererOptions options{.layerFormat = LayerFormat::rgba32f, .wave = wave};
         const MethodUse use = parseMethodUse(method);
         options.settings = use.settings;
         const auto renderer = use.method->make(small.world, options);

@@ -41,10 +41,8 @@ std::unique_ptr<SmallWorld> halfWhiteWall(double degrees) {
 
 // Returns the distance in px over which the middle column changes from 10 % to 90 % of the texture's white.
 double edgeWidth(const SmallWorld& small, const char* method, std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    settings.keepAll = true;  // without keepAll, an image without blur is drawn with only 16 samples
+    // without keepAll, an image without blur is drawn with only 16 samples
+    const RenderSettings settings{.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
     const Image image = imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
     const auto crossing = [&](double level) {
         for (int y = 8; y < image.height - 8; ++y) {

@@ -19,8 +19,7 @@ namespace defocus::engine {
 namespace {
 
 Image rasterised(const World& world, const View& view, const RenderSettings& settings) {
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(world, options);
     return renderedImage(*renderer, planFrame(world, view, settings));
 }

@@ -29,8 +29,7 @@ std::unique_ptr<TruthScene> nearSchool() {
 }
 
 Image rasterised(const TruthScene& baked, const RenderSettings& settings) {
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     return renderedImage(*methodNamed("accumulation").make(baked.world, options),
                          planFrame(baked.world, baked.view, settings));
 }

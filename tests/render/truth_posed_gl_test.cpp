@@ -15,9 +15,7 @@ namespace defocus::engine {
 namespace {
 
 Image rendered(const SmallWorld& small, Renderer& renderer) {
-    RenderSettings settings;
-    settings.sampleCount = 32;
-    settings.lod = LodMode::off;
+    const RenderSettings settings{.sampleCount = 32, .lod = LodMode::off};
     renderer.start(planFrame(small.world, small.view, settings));
     while (renderer.advance()) {
     }

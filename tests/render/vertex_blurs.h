@@ -41,9 +41,7 @@ protected:
 
     static Image renderedBlur(const SmallWorld& small, const char* method = "accumulation",
                               std::uint32_t count = blurSamples) {
-        RenderSettings settings;
-        settings.sampleCount = count;
-        settings.lod = LodMode::off;
+        const RenderSettings settings{.sampleCount = count, .lod = LodMode::off};
         return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
     }
 

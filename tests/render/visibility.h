@@ -21,17 +21,11 @@ protected:
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
 
     static RenderSettings settingsFor(LodMode lod, bool keepAll) {
-        RenderSettings settings;
-        settings.sampleCount = 24;
-        settings.lod = lod;
-        settings.thresholds = {0.5, 2};
-        settings.keepAll = keepAll;
-        return settings;
+        return {.sampleCount = 24, .lod = lod, .thresholds = {0.5, 2}, .keepAll = keepAll};
     }
 
     static Image rendered(const SmallWorld& small, const FramePlan& plan, std::uint32_t wave) {
-        RendererOptions options;
-        options.wave = wave;
+        const RendererOptions options{.wave = wave};
         const auto renderer = methodNamed("accumulation").make(small.world, options);
         renderer->start(plan);
         while (renderer->advance()) {

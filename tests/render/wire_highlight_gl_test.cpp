@@ -57,11 +57,8 @@ std::unique_ptr<SmallWorld> ring() {
 // Returns the sums of the red channel over the quarters of the ring at its right, top, left and bottom. The renderer
 // widens highlights only in the first samples of a frame, so images without widened highlights begin with sample 2²⁰.
 glm::dvec4 lightOfQuarters(const SmallWorld& small, std::uint32_t samples, bool widened) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.firstSample = widened ? 0 : 1u << 20;
-    settings.keepAll = true;
-    settings.lod = LodMode::off;
+    const RenderSettings settings{
+        .sampleCount = samples, .firstSample = widened ? 0 : 1u << 20, .lod = LodMode::off, .keepAll = true};
     const Image image = imageInFloats(small.world, planFrame(small.world, small.view, settings));
     glm::dvec4 sums(0);
     for (int y = 0; y < image.height; ++y)

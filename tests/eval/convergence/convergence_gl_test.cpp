@@ -253,14 +253,10 @@ TEST_F(Convergence, methodsDrawMotionIfTheySaySo) {
     Pose moved = small_->world.pose;
     for (Object& object : moved.objects) object.worldFromObject[3].x += 0.2;
     const std::vector<Pose> moving = {small_->world.pose, moved};
-    RenderSettings settings;
-    settings.sampleCount = 8;
-    settings.lod = LodMode::off;
-    settings.keepAll = true;
+    RenderSettings settings{.sampleCount = 8, .lod = LodMode::off, .keepAll = true};
     for (const char* name : {"accumulation", "scheuermann", "circular"}) {
         const MethodUse use = parseMethodUse(name);
-        RendererOptions own;
-        own.settings = use.settings;
+        const RendererOptions own{.settings = use.settings};
         const auto imageOf = [&](const std::vector<Pose>& poses) {
             small_->world.shutter.poses = poses;
             const auto renderer = use.method->make(small_->world, own);

@@ -39,13 +39,9 @@ protected:
 
 TEST_F(ConvergenceReference, isTheMeanOfAllItsSamplesAtFullDetail) {
     const ReferenceImage mean = reference(31);
-    RenderSettings settings;
-    settings.sampleCount = 31;
-    settings.sequence = referenceSequence;
-    settings.firstSample = referenceOffset;
-    settings.lod = LodMode::off;
-    RendererOptions precise;
-    precise.layerFormat = LayerFormat::rgba32f;
+    const RenderSettings settings{
+        .sampleCount = 31, .sequence = referenceSequence, .firstSample = referenceOffset, .lod = LodMode::off};
+    const RendererOptions precise{.layerFormat = LayerFormat::rgba32f};
     const auto renderer = methodNamed("accumulation").make(small_->world, precise);
     renderer->start(planFrame(small_->world, small_->view, settings));
     while (renderer->advance()) {

@@ -26,8 +26,7 @@ std::unique_ptr<SmallWorld> smallSquare(bool turned) {
 }
 
 Image sweptOf(const SmallWorld& small) {
-    RenderSettings settings;
-    settings.keepAll = true;
+    const RenderSettings settings{.keepAll = true};
     return sweptWork(planFrame(small.world, small.view, settings), small.world);
 }
 

@@ -36,10 +36,7 @@ private:
 };
 
 RenderSettings settingsFor(std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    return settings;
+    return {.sampleCount = samples, .lod = LodMode::off};
 }
 
 // Returns objects of one triangle each, up to `size` m large, at random positions. Most are in front of the camera, a

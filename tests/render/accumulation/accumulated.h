@@ -13,11 +13,7 @@ namespace defocus::engine {
 class Accumulation : public GlContextTest {
 protected:
     static RenderSettings settingsFor(std::uint32_t samples, LodMode lod = LodMode::fractional) {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        settings.lod = lod;
-        settings.thresholds = {0.5, 2};
-        return settings;
+        return {.sampleCount = samples, .lod = lod, .thresholds = {0.5, 2}};
     }
 
     static Image rendered(const SmallWorld& small, const RenderSettings& settings,
@@ -32,11 +28,7 @@ protected:
 class ScreenDoor : public GlContextTest {
 protected:
     static RenderSettings continuousFor(std::uint32_t samples) {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        settings.lod = LodMode::continuous;
-        settings.thresholds = {0.5, 2};
-        return settings;
+        return {.sampleCount = samples, .lod = LodMode::continuous, .thresholds = {0.5, 2}};
     }
 
     static Image renderedPlan(const SmallWorld& small, const FramePlan& plan, RendererOptions options = {}) {

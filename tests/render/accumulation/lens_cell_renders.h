@@ -17,9 +17,7 @@
 namespace defocus::engine {
 
 inline RenderSettings ratedSettings(std::uint32_t samples, LodMode lod = LodMode::off) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = lod;
+    RenderSettings settings{.sampleCount = samples, .lod = lod};
     if (lod != LodMode::off) settings.thresholds = {0.5, 2};
     return settings;
 }

@@ -18,10 +18,7 @@ namespace {
 class DrawingThreads : public GlContextTest {
 protected:
     static RendererOptions inThreads(std::uint32_t threads, LayerFormat format = LayerFormat::rgba16f) {
-        RendererOptions options;
-        options.layerFormat = format;
-        options.threads = threads;
-        return options;
+        return {.layerFormat = format, .threads = threads};
     }
     // Renders `plan` with 1, 2 and 5 threads, and expects the same bits.
     static void expectSameBits(const char* method, const SmallWorld& small, const FramePlan& plan,

@@ -20,9 +20,7 @@ using Work = GlContextTest;
 constexpr std::uint32_t samples = 48;
 
 RenderSettings manySamples() {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    return settings;
+    return {.sampleCount = samples};
 }
 
 // Returns quads that face a 50 mm lens at f/1.4, focused at 2 m, in an image of 96 × 72 px. At depth z, the image is

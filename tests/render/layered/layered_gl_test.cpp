@@ -164,17 +164,14 @@ TEST_F(Layered, aTransparentBackgroundKeepsCoverage) {
 }
 
 RendererOptions wavesOf(std::uint32_t samples) {
-    RendererOptions options;
-    options.wave = samples;
-    return options;
+    return {.wave = samples};
 }
 
 TEST_F(Layered, theSizeOfWavesChangesNoBit) {
     const auto small = fiveSpheres();
     const Image one = seenBy(*small, "layered", 72, wavesOf(1));
     EXPECT_EQ(one.pixels, seenBy(*small, "layered", 72, wavesOf(64)).pixels);
-    RendererOptions geometry;
-    geometry.geometryShaderLayers = true;
+    const RendererOptions geometry{.geometryShaderLayers = true};
     EXPECT_EQ(one.pixels, seenBy(*small, "layered", 72, geometry).pixels);
 }
 

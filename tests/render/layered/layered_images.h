@@ -15,11 +15,8 @@ namespace defocus::engine {
 using Layered = GlContextTest;
 
 inline RenderSettings samplesOf(std::uint32_t samples) {
-    RenderSettings settings;
-    settings.lod = LodMode::off;
-    settings.sampleCount = samples;
-    settings.keepAll = true;  // keeps the lens in the plan even if nothing is blurred
-    return settings;
+    // keeps the lens in the plan even if nothing is blurred
+    return {.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
 }
 
 inline Image seenBy(const SmallWorld& small, const char* method, std::uint32_t samples = 256,

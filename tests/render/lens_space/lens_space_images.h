@@ -19,19 +19,14 @@
 namespace defocus::engine {
 
 inline RenderSettings raySettings(std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    settings.keepAll = true;  // samples the lens even if nothing is visibly blurred; no culling
-    return settings;
+    // samples the lens even if nothing is visibly blurred; no culling
+    return {.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
 }
 
 inline Image lensSpaceImage(const char* method, const SmallWorld& small, std::uint32_t samples,
                             RenderStats* stats = nullptr, std::uint32_t wave = 0) {
     const MethodUse use = parseMethodUse(method);
-    RendererOptions options;
-    options.settings = use.settings;
-    options.wave = wave;
+    const RendererOptions options{.wave = wave, .settings = use.settings};
     const auto renderer = use.method->make(small.world, options);
     Image image = imageOf(*renderer, planFrame(small.world, small.view, raySettings(samples)));
     if (stats != nullptr) *stats = renderer->stats();

@@ -25,17 +25,12 @@ struct OpaqueDrawn {
 };
 
 RenderSettings sharpLevels(std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    return settings;
+    return {.sampleCount = samples, .lod = LodMode::off};
 }
 
 OpaqueDrawn opaqueDrawn(const char* method, const SmallWorld& small, const RenderSettings& settings,
                         std::uint32_t wave = 0, std::uint32_t threads = 1) {
-    RendererOptions options;
-    options.wave = wave;
-    options.threads = threads;
+    const RendererOptions options{.wave = wave, .threads = threads};
     const auto renderer = methodNamed(method).make(small.world, options);
     const FramePlan plan = planFrame(small.world, small.view, settings);
     renderer->start(plan);

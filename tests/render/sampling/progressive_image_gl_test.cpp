@@ -28,22 +28,12 @@ protected:
         small_->view.height = 48;
     }
 
-    static RendererOptions options() {
-        RendererOptions options;
-        options.layerFormat = LayerFormat::rgba32f;
-        return options;
-    }
+    static RendererOptions options() { return {.layerFormat = LayerFormat::rgba32f}; }
 
-    static RenderSettings settingsOf(std::uint32_t samples) {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        return settings;
-    }
+    static RenderSettings settingsOf(std::uint32_t samples) { return {.sampleCount = samples}; }
 
     Image renderedAtOnce(std::uint32_t samples, LodMode lod) const {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        settings.lod = lod;
+        const RenderSettings settings{.sampleCount = samples, .lod = lod};
         const auto renderer = methodNamed("accumulation").make(small_->world, options());
         return imageOf(*renderer, planFrame(small_->world, small_->view, settings));
     }
@@ -62,8 +52,7 @@ protected:
 
 TEST_F(Growing, blocksAddUpToTheFrameRenderedAtOnce) {
     ProgressiveImage image = progressive();
-    RenderSettings settings;
-    settings.lod = LodMode::off;
+    const RenderSettings settings{.lod = LodMode::off};
     image.begin(small_->view, settings, 192);
     EXPECT_FALSE(image.finished());
     const Image grownImage = grown(image);
@@ -123,8 +112,7 @@ TEST_F(Growing, movingFramesAndStillOnesTakeTurns) {
 }
 
 TEST_F(Growing, continuingIsRefusedWithinABlock) {
-    RenderSettings settings;
-    settings.sampleCount = 32;
+    const RenderSettings settings{.sampleCount = 32};
     const FramePlan plan = planFrame(small_->world, small_->view, settings);
     const auto renderer = methodNamed("accumulation").make(small_->world, options());
     renderer->start(plan);

@@ -26,11 +26,9 @@ constexpr double lightEnergy = 360;
 
 Image rendered(const World& world, const View& view, const char* method) {
     const MethodUse use = parseMethodUse(method);
-    RendererOptions options;
-    options.settings = use.settings;
+    const RendererOptions options{.settings = use.settings};
     const auto renderer = use.method->make(world, options);
-    RenderSettings settings;
-    settings.lod = LodMode::off;
+    const RenderSettings settings{.lod = LodMode::off};
     return imageOf(*renderer, planFrame(world, view, settings));
 }
 

@@ -67,10 +67,7 @@ protected:
 
     static FramePlan planWith(const SmallWorld& small, const View& view, LodMode mode = LodMode::fractional,
                               std::uint32_t samples = 20) {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        settings.lod = mode;
-        settings.thresholds = {0.5, 2};
+        const RenderSettings settings{.sampleCount = samples, .lod = mode, .thresholds = {0.5, 2}};
         return planFrame(small.world, view, settings);
     }
 };

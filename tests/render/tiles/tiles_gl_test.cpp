@@ -62,9 +62,7 @@ TEST_F(Tiles, haveTheBitsOfOnePieceWhereSurfacesBlend) {
 // Images drawn in tiles are exact even if objects outside the tile, or outside the image, cast shadows into it.
 TEST_F(Tiles, haveTheBitsOfOnePieceWhereShadowsFallIntoThem) {
     const auto small = fiveSpheres();
-    RenderSettings settings;
-    settings.sampleCount = 20;
-    settings.shadows = Shadows::on;
+    const RenderSettings settings{.sampleCount = 20, .shadows = Shadows::on};
     const FramePlan plan = planFrame(small->world, small->view, settings);
     ASSERT_FALSE(plan.shadows.maps.empty());
     expectTheBitsOfOnePiece(*small, plan, "shadows");
