@@ -66,10 +66,10 @@ void renderOnce(Row& row, const FramePlan& plan) {
 void printErrors(const World& world, View view, std::span<const Row> rows, std::uint32_t referenceSamples) {
     view.width /= 4;
     view.height /= 4;
-    const auto imageOf = [&](EmbreeSampling sampling, std::uint32_t samples, std::uint32_t seed) {
-        return renderedImage(*makeEmbreeRenderer(world, sampling), planOf(view, samples, seed));
+    const auto sampled = [&](EmbreeSampling sampling, std::uint32_t samples, std::uint32_t seed) {
+        return imageOf(*makeEmbreeRenderer(world, sampling), planOf(view, samples, seed));
     };
-    const Image reference = imageOf(EmbreeSampling::perPixel, referenceSamples, 1'000'000);
+    const Image reference = sampled(EmbreeSampling::perPixel, referenceSamples, 1'000'000);
     fmt::print("\nRMSE, {} x {}, against {} samples\n{:<15}", view.width, view.height, referenceSamples, "samples");
     constexpr std::array counts = {4u, 16u, 64u, 256u};
     for (const std::uint32_t count : counts) fmt::print(" {:>9}", count);
@@ -80,7 +80,7 @@ void printErrors(const World& world, View view, std::span<const Row> rows, std::
             constexpr std::uint32_t seeds = 4;
             double error = 0;
             for (std::uint32_t seed = 0; seed < seeds; ++seed)
-                error += compareImages(reference, imageOf(row.sampling, count, seed)).rmse / seeds;
+                error += compareImages(reference, sampled(row.sampling, count, seed)).rmse / seeds;
             fmt::print(" {:>9.5f}", error);
         }
         fmt::print("\n");

@@ -60,7 +60,7 @@ Rendered rendered(const char* method, const TruthScene& subject, const Options& 
     settings.sequence = wanted.sequence;
     settings.shadows = shadows;
     settings.cocTolerance = 0.05;  // in px; small, because the slope of the blur jumps at the foreground limit
-    Image image = renderedImage(*renderer, planFrame(subject.world, subject.view, settings));
+    Image image = imageOf(*renderer, planFrame(subject.world, subject.view, settings));
     return {std::move(image), renderer->stats()};
 }
 

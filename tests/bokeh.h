@@ -10,7 +10,7 @@
 
 #include "image/moments.h"
 #include "plan/frame_plan.h"
-#include "render/renderer.h"
+#include "render/rendered.h"
 
 namespace defocus::engine {
 
@@ -146,13 +146,6 @@ inline double misplacedLight(const Image& a, const Image& b) {
             sum += std::abs(difference) / 2;
         }
     return sum / all;
-}
-
-inline Image renderedImage(Renderer& renderer, const FramePlan& plan) {
-    renderer.start(plan);
-    while (renderer.advance()) {
-    }
-    return renderer.image();
 }
 
 }  // namespace defocus::engine

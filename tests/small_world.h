@@ -98,16 +98,27 @@ inline void finish(SmallWorld& small) {
     small.world.pyramids = buildPyramids(small.scene.meshes);
 }
 
+inline PlacedLight sunFrom(const glm::dvec3& direction, float intensity) {
+    PlacedLight sun;
+    sun.light.intensity = intensity;
+    sun.direction = glm::normalize(direction);
+    return sun;
+}
+
 // Adds a sun that shines from above, from the right and from behind the camera.
 inline void addSun(SmallWorld& small) {
-    PlacedLight sun;
-    sun.light.intensity = 2;
-    sun.direction = glm::normalize(glm::dvec3(-0.3, -1, -0.6));
-    small.world.lights.push_back(sun);
+    small.world.lights.push_back(sunFrom({-0.3, -1, -0.6}, 2));
 }
 
 inline Environment gradientSky() {
     return {EnvironmentType::gradient, {0.6f, 0.8f, 1.0f}, {0.4f, 0.5f, 0.6f}, {0.1f, 0.1f, 0.2f}, nullptr, 1};
+}
+
+// Returns an environment map of 16 × 8 px whose values lie between 0 and 2 and differ from pixel to pixel.
+inline Environment speckledMap() {
+    auto map = std::make_shared<Image>(16, 8, 3);
+    for (std::size_t i = 0; i < map->pixels.size(); ++i) map->pixels[i] = static_cast<float>(i * 37 % 101) / 50;
+    return {EnvironmentType::map, {}, {}, {}, map, 1};
 }
 
 // Returns five rippled spheres from 1.2 to 9 m, one mirrored and one far outside the frame, lit by a sun and a gradient

@@ -48,7 +48,7 @@ Spot spotAt(const View& view, const glm::dvec2& place, double depth, const char*
     world.pyramids = buildPyramids(scene.meshes);
     const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const auto renderer = methodNamed(method).make(world, options);
-    const Image image = renderedImage(*renderer, planFrame(world, view, fullDetail(4096)));
+    const Image image = imageOf(*renderer, planFrame(world, view, fullDetail(4096)));
     Spot spot;
     const auto sum = [&](const auto& add) {
         for (int y = 0; y < image.height; ++y)
@@ -148,7 +148,7 @@ TEST_F(Aberrations, skyIsSeenThroughThem) {
     const FramePlan plan = planFrame(world, view, fullDetail(64));
     const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const auto renderer = methodNamed("accumulation").make(world, options);
-    const Image image = renderedImage(*renderer, plan);
+    const Image image = imageOf(*renderer, plan);
     const double tanX = tanHalfHorizontalFov(view.lens);
     double moved = 0;
     for (int row = 0; row < view.height; row += 17)

@@ -37,7 +37,7 @@ Image bokehOf(const View& view) {
     const RenderSettings settings{.sampleCount = 1024, .lod = LodMode::off};
     const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const auto renderer = methodNamed("accumulation").make(world, options);
-    return renderedImage(*renderer, planFrame(world, view, settings));
+    return imageOf(*renderer, planFrame(world, view, settings));
 }
 
 void expectBokeh(const View& view, const std::string& name) {

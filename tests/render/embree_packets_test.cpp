@@ -20,7 +20,7 @@ Image tracedImage(const Scene& scene, const View& view, std::uint32_t samples) {
     FramePlan plan;
     plan.view = view;
     plan.settings.sampleCount = samples;
-    return renderedImage(*makeEmbreeRenderer(world), plan);
+    return imageOf(*makeEmbreeRenderer(world), plan);
 }
 
 TEST(EmbreePacketSamples, areThePointsOfTheirStreams) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "gl_context_test.h"
+#include "likeness.h"
 #include "render/rendered.h"
 #include "small_world.h"
 
@@ -31,13 +32,6 @@ std::unique_ptr<SmallWorld> rippledBall(float roughness, float metallic) {
     return small;
 }
 
-PlacedLight sun(const glm::dvec3& direction, float intensity) {
-    PlacedLight placed;
-    placed.light.intensity = intensity;
-    placed.direction = glm::normalize(direction);
-    return placed;
-}
-
 // Returns suns in all directions, evenly on a spiral from pole to pole (Vogel 1979). Each value of `set` gives all suns
 // another offset. With a single sun, the result would depend on the positions of the ripples' caustics.
 std::vector<PlacedLight> sunsAllAround(std::uint32_t set) {
@@ -47,7 +41,7 @@ std::vector<PlacedLight> sunsAllAround(std::uint32_t set) {
         const double height = 1 - 2 * (i + radicalInverse(2, set)) / count;
         const double azimuth = 2 * std::numbers::pi * ((2 - std::numbers::phi) * i + radicalInverse(3, set));
         const double radius = std::sqrt(1 - height * height);
-        suns.push_back(sun({radius * std::cos(azimuth), height, radius * std::sin(azimuth)}, 0.5f));
+        suns.push_back(sunFrom({radius * std::cos(azimuth), height, radius * std::sin(azimuth)}, 0.5f));
     }
     return suns;
 }
@@ -58,13 +52,6 @@ Image ballImage(const SmallWorld& small, std::uint32_t samples, bool filtered) {
     const RenderSettings settings{
         .sampleCount = samples, .firstSample = filtered ? 0 : 1u << 20, .lod = LodMode::off, .keepAll = true};
     return imageInFloats(small.world, planFrame(small.world, small.view, settings));
-}
-
-double meanOf(const Image& image) {
-    double sum = 0;
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) sum += static_cast<double>(image.at(x, y)[0]);
-    return sum / (static_cast<double>(image.width) * image.height);
 }
 
 // Returns the root mean square difference of the images' red values, which are clamped to 1 as on a display.
@@ -100,7 +87,7 @@ TEST_F(Glints, convergeWithinTheFirstSamples) {
         for (const float roughness : {0.05f, 0.2f})
             for (const glm::dvec3& way : {glm::dvec3(1, -0.3, -0.2), glm::dvec3(-0.3, -0.8, -1)}) {
                 const auto small = rippledBall(roughness, metallic);
-                small->world.lights = {sun(way, 3)};
+                small->world.lights = {sunFrom(way, 3)};
                 const Image converged = ballImage(*small, 1024, false);
                 const double few = displayError(ballImage(*small, 16, true), converged);
                 const double more = displayError(ballImage(*small, 64, true), converged);
@@ -113,7 +100,7 @@ TEST_F(Glints, fewSamplesMakeNoWhitePixelsOfTheirOwn) {
     for (const float metallic : {0.0f, 1.0f})
         for (const glm::dvec3& way : {glm::dvec3(1, -0.3, -0.2), glm::dvec3(-0.3, -0.8, -1)}) {
             const auto small = rippledBall(0.2f, metallic);
-            small->world.lights = {sun(way, 3)};
+            small->world.lights = {sunFrom(way, 3)};
             const Image converged = ballImage(*small, 1024, false);
             for (const std::uint32_t samples : {16u, 64u})
                 EXPECT_LT(worstPixel(ballImage(*small, samples, true), converged), 3.5)
@@ -128,8 +115,8 @@ TEST_F(Glints, spreadingThemKeepsTheirLight) {
             double few = 0, many = 0;
             for (std::uint32_t set = 0; set < 4; ++set) {
                 small->world.lights = sunsAllAround(set);
-                few += meanOf(ballImage(*small, 16, true));
-                many += meanOf(ballImage(*small, 64, false));
+                few += meanRed(ballImage(*small, 16, true));
+                many += meanRed(ballImage(*small, 64, false));
             }
             EXPECT_NEAR(few, many, 0.02 * many) << roughness << ' ' << metallic << ' ' << few / many - 1;
         }

@@ -52,7 +52,7 @@ Image renderedPoint(const View& view, double column, double row, double depth, c
     const RenderSettings settings{.sampleCount = 4096, .lod = LodMode::off};
     const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const auto renderer = methodNamed("accumulation").make(world, options);
-    return renderedImage(*renderer, planFrame(world, view, settings));
+    return imageOf(*renderer, planFrame(world, view, settings));
 }
 
 View viewOf(double fStop) {
@@ -112,7 +112,7 @@ TEST_F(LensColour, greyStaysGrey) {
             const RenderSettings settings{.sampleCount = samples, .keepAll = true};
             const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
             const auto renderer = methodNamed("accumulation").make(world, options);
-            const Image image = renderedImage(*renderer, planFrame(world, view, settings));
+            const Image image = imageOf(*renderer, planFrame(world, view, settings));
             for (std::size_t i = 0; i < image.pixels.size(); i += 4)
                 for (std::size_t c = 0; c < 3; ++c)
                     ASSERT_NEAR(image.pixels[i + c], 0.37f, 1e-5) << samples << " samples, cat's eye: " << catEye;

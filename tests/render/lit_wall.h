@@ -169,13 +169,6 @@ inline glm::dvec3 litRadiance(const GltfSurface& surface, const WallPoint& point
     return sum;
 }
 
-inline PlacedLight sunFrom(const glm::dvec3& direction, float intensity) {
-    PlacedLight sun;
-    sun.light.intensity = intensity;
-    sun.direction = glm::normalize(direction);
-    return sun;
-}
-
 // Converts a direction from the wall's coordinates (right, up, towards the camera) to world coordinates.
 inline glm::dvec3 fromWall(const SmallWorld& small, const glm::dvec3& direction) {
     return glm::dmat3(small.view.worldFromCamera) * direction;

@@ -151,9 +151,7 @@ TEST_F(Posing, tangentsTurnToo) {
         Vertices& vertices = small->scene.meshes[0].vertices;
         vertices.uv0 = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
         vertices.tangents.assign(4, {1, 0, 0, 1});
-        PlacedLight sun;
-        sun.direction = glm::normalize(glm::dvec3(-0.8, -0.5, -1));
-        small->world.lights.push_back(sun);
+        small->world.lights = {sunFrom({-0.8, -0.5, -1}, 1)};
         small->world.environment = {EnvironmentType::uniform, {0.1f, 0.1f, 0.1f}, {}, {}, nullptr, true, 1};
         small->view.width = 96;
         small->view.height = 64;

@@ -69,9 +69,7 @@ TEST_F(RoughLevels, areAsBrightAsTheirRelief) {
             small.world.pose.objects.clear();
             const glm::dmat4 away = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -100));
             place(small, 0, glm::rotate(away, glm::radians(degrees), glm::dvec3(0, 1, 0)));
-            PlacedLight sun;
-            sun.direction = glm::normalize(way);
-            small.world.lights = {sun};
+            small.world.lights = {sunFrom(way, 1)};
             // The mean radiances are relative to the radiance of a white surface that faces the sun.
             const double reference = std::numbers::pi * meanLight(small, LodMode::off);
             EXPECT_NEAR(std::numbers::pi * meanLight(small, LodMode::nearest), reference, 0.02)

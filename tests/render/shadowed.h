@@ -45,10 +45,8 @@ protected:
     }
 
     static void addSun(SmallWorld& small, const glm::dvec3& toLight, double diameter) {
-        PlacedLight sun;
-        sun.light.intensity = 1;
+        PlacedLight sun = sunFrom(-toLight, 1);
         sun.light.angularDiameter = static_cast<float>(diameter);
-        sun.direction = -glm::normalize(toLight);
         small.world.lights.push_back(sun);
     }
 
@@ -68,10 +66,7 @@ protected:
         const MethodUse use = parseMethodUse(method);
         options.settings = use.settings;
         const auto renderer = use.method->make(small.world, options);
-        renderer->start(planFrame(small.world, small.view, settings));
-        while (renderer->advance()) {
-        }
-        return renderer->image();
+        return imageOf(*renderer, planFrame(small.world, small.view, settings));
     }
 
     // Returns the x coordinate in m of the wall point at the centre of a column.

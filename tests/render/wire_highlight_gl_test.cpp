@@ -43,10 +43,7 @@ std::unique_ptr<SmallWorld> ring() {
     small->scene.materials.push_back(gold);
     small->scene.meshes.push_back(ringMesh());
     place(*small, 0, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -4.5)));
-    PlacedLight sun;
-    sun.light.intensity = 3;
-    sun.direction = glm::normalize(glm::dvec3(1, -0.3, -0.2));
-    small->world.lights.push_back(sun);
+    small->world.lights = {sunFrom({1, -0.3, -0.2}, 3)};
     small->world.environment.type = EnvironmentType::none;
     small->view.width = small->view.height = 64;
     small->view.lens.dofEnabled = false;

@@ -62,10 +62,7 @@ TEST_F(DrawingThreads, changeNoBitOfShadowsAndEnvironmentMaps) {
     const FramePlan shadowed = planFrame(small->world, small->view, settings);
     ASSERT_FALSE(shadowed.shadows.maps.empty());
     expectSameBits("accumulation", *small, shadowed, "shadows");
-    auto map = std::make_shared<Image>(16, 8, 3);
-    for (std::size_t i = 0; i < map->pixels.size(); ++i) map->pixels[i] = static_cast<float>(i * 37 % 101) / 50;
-    small->world.environment.type = EnvironmentType::map;
-    small->world.environment.map = map;
+    small->world.environment = speckledMap();
     expectSameBits("accumulation", *small, planOf(*small, 24), "map");
 }
 

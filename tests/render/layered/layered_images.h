@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "gl_context_test.h"
+#include "likeness.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"
@@ -25,13 +24,6 @@ inline Image seenBy(const SmallWorld& small, const char* method, std::uint32_t s
     options.settings = use.settings;
     const auto renderer = use.method->make(small.world, options);
     return imageOf(*renderer, planFrame(small.world, small.view, samplesOf(samples)));
-}
-
-inline double errorBetween(const Image& a, const Image& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        sum += std::pow(static_cast<double>(a.pixels[i]) - static_cast<double>(b.pixels[i]), 2);
-    return std::sqrt(sum / static_cast<double>(a.pixels.size()));
 }
 
 }  // namespace defocus::engine

@@ -10,6 +10,7 @@
 #include "bokeh.h"
 #include "core/error.h"
 #include "gl_context_test.h"
+#include "models.h"
 #include "render/post_process/boards.h"
 #include "render/rendered.h"
 #include "small_world.h"
@@ -273,12 +274,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, PostProcesses,
                                          "circular:near-field=coverage,near-components=1",
                                          "circular:blend-bias=2,bias-by=luminance", "circular:transparency-buckets=0",
                                          "scheuermann:coc=thin-lens,taps=64,max-coc=unlimited,transparency-buckets=1"),
-                         [](const auto& instance) {
-                             std::string name = instance.param;
-                             std::replace_if(
-                                 name.begin(), name.end(), [](char c) { return std::isalnum(c) == 0; }, '_');
-                             return name;
-                         });
+                         [](const auto& instance) { return testNameOf(instance.param); });
 
 }  // namespace
 }  // namespace defocus::engine

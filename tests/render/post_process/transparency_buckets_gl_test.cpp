@@ -10,6 +10,7 @@
 #include <string>
 
 #include "gl_context_test.h"
+#include "models.h"
 #include "render/post_process/boards.h"
 
 namespace defocus::engine {
@@ -195,12 +196,7 @@ TEST_P(BlendedSurfaces, comeCloserToTheAccumulation) {
 INSTANTIATE_TEST_SUITE_P(Methods, BlendedSurfaces,
                          testing::Values("circular", "circular:resolution=half", "circular:fields=combined",
                                          "scheuermann:coc=thin-lens,taps=64,max-coc=unlimited"),
-                         [](const auto& instance) {
-                             std::string name = instance.param;
-                             std::replace_if(
-                                 name.begin(), name.end(), [](char c) { return std::isalnum(c) == 0; }, '_');
-                             return name;
-                         });
+                         [](const auto& instance) { return testNameOf(instance.param); });
 
 }  // namespace
 }  // namespace defocus::engine

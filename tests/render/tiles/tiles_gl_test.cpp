@@ -38,10 +38,7 @@ TEST_F(Tiles, haveTheBitsOfOnePieceWhileObjectsAndCameraMove) {
 
 TEST_F(Tiles, haveTheBitsOfOnePieceBeforeAMapAndBeforeNothing) {
     const auto small = fiveSpheres();
-    auto map = std::make_shared<Image>(16, 8, 3);
-    for (std::size_t i = 0; i < map->pixels.size(); ++i) map->pixels[i] = static_cast<float>(i * 37 % 101) / 50;
-    small->world.environment.type = EnvironmentType::map;
-    small->world.environment.map = map;
+    small->world.environment = speckledMap();
     expectTheBitsOfOnePiece(*small, planWith(*small, small->view), "map");
     small->world.environment = {};
     small->world.environment.type = EnvironmentType::none;
