@@ -65,8 +65,7 @@ std::vector<Measured> measured(const std::vector<Contestant>& contestants, int f
     std::vector<FramePlan> plans;
     for (const Contestant& contestant : contestants) {
         const MethodUse use = parseMethodUse(contestant.method);
-        RendererOptions options;
-        options.settings = use.settings;
+        const RendererOptions options{.settings = use.settings};
         renderers.push_back(use.method->make(contestant.frame->world, options));
         plans.push_back(planFrame(contestant.frame->world, *contestant.view, contestant.settings));
     }
@@ -99,10 +98,7 @@ std::string publishedMethod() {
 }
 
 RenderSettings settingsOf(std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    return settings;
+    return {.sampleCount = samples, .lod = LodMode::off};
 }
 
 RenderSettings byScore(std::uint32_t samples) {

@@ -212,8 +212,7 @@ std::vector<Measured> measured(const PreparedFrame& frame, const std::vector<std
     std::vector<std::unique_ptr<Renderer>> renderers;
     for (const std::string& method : methods) {
         const MethodUse use = parseMethodUse(method);
-        RendererOptions options;
-        options.settings = use.settings;
+        const RendererOptions options{.settings = use.settings};
         renderers.push_back(use.method->make(frame.world, options));
         all.emplace_back().method = use.text();
     }

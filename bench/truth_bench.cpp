@@ -53,8 +53,7 @@ struct Rendered {
 
 Rendered rendered(const char* method, const TruthScene& subject, const Options& wanted,
                   Shadows shadows = Shadows::off) {
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const std::unique_ptr<Renderer> renderer = methodNamed(method).make(subject.world, options);
     RenderSettings settings = fullDetailSettings(wanted.samples);
     settings.sequence = wanted.sequence;

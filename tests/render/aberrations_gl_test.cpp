@@ -29,7 +29,7 @@ View viewOf(double astigmatism, double coma) {
 }
 
 RenderSettings fullDetail(std::uint32_t samples) {
-    // by default, a pinhole image uses fewer samples
+    // keepAll: by default, a pinhole image uses fewer samples
     return {.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
 }
 

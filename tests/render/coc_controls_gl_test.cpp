@@ -24,7 +24,7 @@ using CocControls = GlContextTest;
 
 Image rendered(const SmallWorld& small, std::uint32_t samples, double tolerance = 0.5,
                const char* method = "accumulation") {
-    // by default, a pinhole image uses fewer samples
+    // keepAll: by default, a pinhole image uses fewer samples
     const RenderSettings settings{
         .sampleCount = samples, .lod = LodMode::off, .cocTolerance = tolerance, .keepAll = true};
     return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));

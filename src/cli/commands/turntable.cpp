@@ -166,11 +166,8 @@ TurntableView turntableView(const Mesh& mesh, const Object& object) {
 }
 
 RenderSettings settingsForLevel(const World& world, const View& view, std::uint32_t level) {
-    RenderSettings settings;
-    settings.sampleCount = antialiasingSamples;
-    settings.lod = LodMode::nearest;
-    settings.metric = LodMetric::error;
-    settings.thresholds = {0, 0};
+    RenderSettings settings{
+        .sampleCount = antialiasingSamples, .lod = LodMode::nearest, .metric = LodMetric::error, .thresholds = {0, 0}};
     const FramePlan finest = planFrame(world, view, settings);
     for (const ObjectPlan& object : finest.objects) {
         const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
@@ -194,8 +191,7 @@ TurntableSheet turntableSheet(World& world, const Object& object, const std::str
     camera.worldFromCamera = look.view.worldFromCamera;
     world.lights = lightsOrDefault(*world.scene, world.pose, camera);
 
-    RendererOptions options;
-    options.shaderFolder = shaderFolder;
+    const RendererOptions options{.shaderFolder = shaderFolder};
     const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(world, options);
     TurntableSheet sheet = emptySheet(pyramid.levels.size(), look.view);
     for (std::size_t i = 0; i < look.worldTurn.size(); ++i) {

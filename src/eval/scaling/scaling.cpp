@@ -27,9 +27,7 @@ FramePlan planOf(const ScalingWorld& world, const ScalingPoint& point, LodMode m
     view.width = point.width;
     view.height = point.height;
     view.lens.fStop = point.fStop.value_or(view.lens.fStop);
-    RenderSettings settings;
-    settings.sampleCount = point.samples;
-    settings.lod = mode;
+    const RenderSettings settings{.sampleCount = point.samples, .lod = mode};
     return planFrame(world.world, view, settings);
 }
 

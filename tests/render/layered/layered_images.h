@@ -14,7 +14,7 @@ namespace defocus::engine {
 using Layered = GlContextTest;
 
 inline RenderSettings samplesOf(std::uint32_t samples) {
-    // keeps the lens in the plan even if nothing is blurred
+    // keepAll keeps the lens in the plan even if nothing is blurred
     return {.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
 }
 

@@ -19,7 +19,7 @@
 namespace defocus::engine {
 
 inline RenderSettings raySettings(std::uint32_t samples) {
-    // samples the lens even if nothing is visibly blurred; no culling
+    // keepAll samples the lens even if nothing is visibly blurred, and disables culling
     return {.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
 }
 

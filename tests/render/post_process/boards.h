@@ -14,7 +14,7 @@
 namespace defocus::engine {
 
 inline RenderSettings settingsWithTheLens() {
-    // keeps the lens in the plan even if nothing is blurred
+    // keepAll keeps the lens in the plan even if nothing is blurred
     return {.lod = LodMode::off, .keepAll = true};
 }
 
