@@ -68,9 +68,7 @@ inline Mesh rectangleMesh(const View& view, const Rectangle& area, int material)
 
 inline Scene rectangleScene(const View& view, const std::vector<Rectangle>& areas, const glm::vec3& color) {
     Scene scene;
-    Material material;
-    material.baseColorFactor = glm::vec4(color, 1);
-    material.unlit = true;
+    const Material material{.baseColorFactor = glm::vec4(color, 1), .unlit = true};
     scene.materials.push_back(material);
     for (const Rectangle& area : areas) {
         Node node;

@@ -80,10 +80,7 @@ inline std::vector<std::uint32_t> gridIndices(std::uint32_t cells) {
 }
 
 inline Material unlitMaterial(const glm::vec4& color) {
-    Material material;
-    material.baseColorFactor = color;
-    material.unlit = true;
-    return material;
+    return {.baseColorFactor = color, .unlit = true};
 }
 
 inline void place(SmallWorld& small, int mesh, const glm::dmat4& worldFromObject) {
@@ -125,9 +122,7 @@ inline Environment speckledMap() {
 // sky. The lens is f/1, focused at 3 m, and the image has 160 × 120 px.
 inline std::unique_ptr<SmallWorld> fiveSpheres() {
     auto small = std::make_unique<SmallWorld>();
-    Material glossy;
-    glossy.metallicFactor = 0;
-    glossy.roughnessFactor = 0.4f;
+    const Material glossy{.metallicFactor = 0, .roughnessFactor = 0.4f};
     small->scene.materials.push_back(glossy);
     small->scene.meshes.push_back(bumpySphere(80, 60, 0));
     const auto at = [](double x, double y, double z, double s) {

@@ -25,9 +25,7 @@ protected:
 
     static std::unique_ptr<SmallWorld> ballBeforeAWall() {
         auto small = std::make_unique<SmallWorld>();
-        Material matt;
-        matt.metallicFactor = 0;
-        matt.specularFactor = 0;
+        const Material matt{.metallicFactor = 0, .specularFactor = 0};
         small->scene.materials.push_back(matt);
         small->scene.meshes.push_back(quad(0));
         small->scene.meshes.push_back(bumpySphere(96, 64, 0));

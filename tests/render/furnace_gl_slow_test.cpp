@@ -32,11 +32,7 @@ Extremes furnaceRadiance(const Material& material, double cosine) {
 }
 
 Material furnaceMaterial(float base, float metallic, float roughness) {
-    Material material;
-    material.baseColorFactor = {base, base, base, 1};
-    material.metallicFactor = metallic;
-    material.roughnessFactor = roughness;
-    return material;
+    return {.baseColorFactor = {base, base, base, 1}, .metallicFactor = metallic, .roughnessFactor = roughness};
 }
 
 constexpr double rounding = 1e-5;

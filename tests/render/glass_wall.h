@@ -8,11 +8,7 @@ namespace defocus::engine {
 class Transmission : public LitWall {
 protected:
     static Material glass(float roughness = 0) {
-        Material result;
-        result.metallicFactor = 0;
-        result.roughnessFactor = roughness;
-        result.transmissionFactor = 1;
-        return result;
+        return {.metallicFactor = 0, .roughnessFactor = roughness, .transmissionFactor = 1};
     }
 
     // Returns a material of glass that reflects nothing and colours transmitted light by `tint`.

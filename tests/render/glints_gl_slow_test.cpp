@@ -16,10 +16,10 @@ using Glints = GlContextTest;
 // Returns a ball about 40 px across with ripples that are 5 to 10 px long.
 std::unique_ptr<SmallWorld> rippledBall(float roughness, float metallic) {
     auto small = std::make_unique<SmallWorld>();
-    Material glossy;
-    glossy.baseColorFactor = metallic > 0 ? glm::vec4(0.8f, 0.8f, 0.8f, 1) : glm::vec4(0.02f, 0.02f, 0.02f, 1);
-    glossy.metallicFactor = metallic;
-    glossy.roughnessFactor = roughness;
+    const Material glossy{
+        .baseColorFactor = metallic > 0 ? glm::vec4(0.8f, 0.8f, 0.8f, 1) : glm::vec4(0.02f, 0.02f, 0.02f, 1),
+        .metallicFactor = metallic,
+        .roughnessFactor = roughness};
     small->scene.materials.push_back(glossy);
     small->scene.meshes.push_back(bumpySphere(112, 88, 0));
     small->scene.meshes.back().vertices.colors.clear();

@@ -18,11 +18,7 @@ protected:
         return sum;
     }
 
-    static Material metal(float roughness) {
-        Material result;
-        result.roughnessFactor = roughness;
-        return result;
-    }
+    static Material metal(float roughness) { return {.roughnessFactor = roughness}; }
 };
 
 // ---- multiple scattering
@@ -176,13 +172,11 @@ glm::dvec3 filmColor(double cosine, double base, double film, double thickness) 
 }
 
 Material filmed(float base, float ior, float thickness, float roughness = 0) {
-    Material result;
-    result.baseColorFactor = glm::vec4(glm::vec3(base), 1);
-    result.roughnessFactor = roughness;
-    result.iridescenceFactor = 1;
-    result.iridescenceIor = ior;
-    result.iridescenceThicknessMaximum = thickness;
-    return result;
+    return {.baseColorFactor = glm::vec4(glm::vec3(base), 1),
+            .roughnessFactor = roughness,
+            .iridescenceFactor = 1,
+            .iridescenceIor = ior,
+            .iridescenceThicknessMaximum = thickness};
 }
 
 // KHR_materials_iridescence approximates spectra by Gaussians and Fresnel's equations by Schlick's. The reflectance
@@ -221,10 +215,7 @@ TEST_F(MaterialExtensions, filmsOnWhiteDielectricsKeepAllLight) {
 // ---- diffuse transmission
 
 Material sheet(float share) {
-    Material result;
-    result.metallicFactor = 0;
-    result.diffuseTransmissionFactor = share;
-    return result;
+    return {.metallicFactor = 0, .diffuseTransmissionFactor = share};
 }
 
 TEST_F(MaterialExtensions, aWhiteSheetPassesOnAllLight) {

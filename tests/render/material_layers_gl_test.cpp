@@ -12,11 +12,7 @@ namespace {
 using MaterialLayers = LitWall;
 
 Material material(const glm::vec3& base, float roughness) {
-    Material result;
-    result.baseColorFactor = glm::vec4(base, 1);
-    result.metallicFactor = 0;
-    result.roughnessFactor = roughness;
-    return result;
+    return {.baseColorFactor = glm::vec4(base, 1), .metallicFactor = 0, .roughnessFactor = roughness};
 }
 
 // Returns a black material without reflection.

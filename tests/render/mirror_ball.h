@@ -26,8 +26,7 @@ protected:
     // Returns a ball of white metal without bumps, about 36 px across in an image of 64 × 48 px.
     static std::unique_ptr<SmallWorld> mirrorBall(float roughness) {
         auto small = std::make_unique<SmallWorld>();
-        Material metal;
-        metal.roughnessFactor = roughness;
+        const Material metal{.roughnessFactor = roughness};
         small->scene.materials.push_back(metal);
         Mesh ball = bumpySphere(128, 64, 0);
         for (std::size_t v = 0; v < ball.vertices.count(); ++v) {

@@ -68,8 +68,7 @@ TEST_F(Posing, coarseLevelsArePosedToo) {
 // the skin.
 TEST_F(Posing, eightInfluencesAndMorphsTogether) {
     SmallWorld small;
-    Material plain;
-    plain.metallicFactor = 0;
+    const Material plain{.metallicFactor = 0};
     small.scene.materials.push_back(plain);
     small.scene.meshes.push_back(bumpySphere(60, 40, 0));
     Mesh& mesh = small.scene.meshes[0];
@@ -138,8 +137,7 @@ TEST_F(Posing, depthsAreThoseOfTheWalkingFox) {
 TEST_F(Posing, tangentsTurnToo) {
     const auto wall = [] {
         auto small = std::make_unique<SmallWorld>();
-        Material bumpy;
-        bumpy.metallicFactor = 0;
+        Material bumpy{.metallicFactor = 0};
         bumpy.normal.texture = 0;
         small->scene.materials.push_back(bumpy);
         Texture& texture = small->scene.textures.emplace_back();

@@ -53,9 +53,7 @@ double meanLight(const SmallWorld& small, LodMode lod) {
 // cover more of the image. With only a mean normal, the flat level would be too dark by 0.06 at 55°.
 TEST_F(RoughLevels, areAsBrightAsTheirRelief) {
     SmallWorld small;
-    Material matt;
-    matt.metallicFactor = 0;
-    matt.roughnessFactor = 1;
+    const Material matt{.metallicFactor = 0, .roughnessFactor = 1};
     small.scene.materials.push_back(matt);
     small.scene.meshes.push_back(hills());
     small.world.environment.type = EnvironmentType::none;

@@ -23,13 +23,7 @@ protected:
     static constexpr double receiverDepth = 4;  // distance in front of the camera, m
     static constexpr double tanHalfWidth = 36.0 / (2 * 50);
 
-    static Material matt() {
-        Material material;
-        material.metallicFactor = 0;
-        material.specularFactor = 0;
-        material.doubleSided = true;
-        return material;
-    }
+    static Material matt() { return {.metallicFactor = 0, .doubleSided = true, .specularFactor = 0}; }
 
     // Returns a white wall without lights that fills the image of a pinhole camera at the origin.
     static std::unique_ptr<SmallWorld> wall() {

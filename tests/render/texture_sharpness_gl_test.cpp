@@ -23,8 +23,7 @@ constexpr double wallAway = 40;  // distance in m, so large that the wall has al
 // Returns a wall rotated about a vertical axis, with a texture of 1024² texels that is black above and white below.
 // Rotated by 80°, the wall shows 5.8 times as many texels per pixel horizontally as vertically.
 std::unique_ptr<SmallWorld> halfWhiteWall(double degrees) {
-    Material material;
-    material.unlit = true;
+    const Material material{.unlit = true};
     auto small = litWall(material);
     small->scene.materials[0].baseColor.texture = addTexture(small->scene, 1024, [](int, int row) {
         return row < 512 ? Texel{0, 0, 0, 255} : Texel{255, 255, 255, 255};

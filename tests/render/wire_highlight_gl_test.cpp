@@ -37,9 +37,7 @@ Mesh ringMesh() {
 // Returns a golden ring about 40 px across, whose wire is 1.6 px thick, in the light of a sun from the left.
 std::unique_ptr<SmallWorld> ring() {
     auto small = std::make_unique<SmallWorld>();
-    Material gold;
-    gold.baseColorFactor = {1, 0.77f, 0.34f, 1};
-    gold.roughnessFactor = 0.25f;
+    const Material gold{.baseColorFactor = {1, 0.77f, 0.34f, 1}, .roughnessFactor = 0.25f};
     small->scene.materials.push_back(gold);
     small->scene.meshes.push_back(ringMesh());
     place(*small, 0, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -4.5)));

@@ -69,8 +69,7 @@ TEST(SweptWork, countsWhatAnySampleMayShow) {
 TEST(SweptWork, backsCountWhereTheyShow) {
     EXPECT_EQ(sumOf(sweptOf(*smallSquare(true))), 0);
     const auto small = smallSquare(true);
-    Material material;
-    material.doubleSided = true;
+    Material material{.doubleSided = true};
     small->scene.materials.push_back(material);
     small->scene.meshes[0].primitives[0].material = 0;
     EXPECT_GT(sumOf(sweptOf(*small)), 0);

@@ -309,8 +309,7 @@ TEST(Visibility, anObjectBlurredMoreThanTheLensBlursIsSeenFromFarther) {
 
 std::unique_ptr<SmallWorld> oneSphere(const glm::dmat4& worldFromObject, bool doubleSided = false) {
     auto small = std::make_unique<SmallWorld>();
-    Material material;
-    material.doubleSided = doubleSided;
+    const Material material{.doubleSided = doubleSided};
     small->scene.materials.push_back(material);
     small->scene.meshes.push_back(bumpySphere(160, 120, 0));
     place(*small, 0, worldFromObject);

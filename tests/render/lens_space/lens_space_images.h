@@ -40,9 +40,7 @@ inline double psnrAgainst(const Image& reference, const Image& image) {
 // Returns two lit, rippled spheres under a gradient sky. One is in front of the focal plane and one behind it.
 inline std::unique_ptr<SmallWorld> twoSpheres(int slices = 24, int stacks = 18) {
     auto small = std::make_unique<SmallWorld>();
-    Material glossy;
-    glossy.metallicFactor = 0;
-    glossy.roughnessFactor = 0.4f;
+    const Material glossy{.metallicFactor = 0, .roughnessFactor = 0.4f};
     small->scene.materials.push_back(glossy);
     small->scene.meshes.push_back(bumpySphere(slices, stacks, 0));
     place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {-0.2, -0.1, -1.4}), glm::dvec3(0.2)));
