@@ -59,9 +59,7 @@ Measured measure(const Fish& fish, bool keepAll, Measured best) {
     RenderSettings settings = fish.settings;
     settings.keepAll = keepAll;
     const auto renderer = methodNamed("accumulation").make(fish.world, {});
-    renderer->start(planFrame(fish.world, fish.view, settings));
-    while (renderer->advance()) {
-    }
+    drawAllSamples(*renderer, planFrame(fish.world, fish.view, settings));
     const RenderStats stats = renderer->stats();
     best.setup = std::min(best.setup, stats.setupMilliseconds);
     best.render = std::min(best.render, stats.renderMilliseconds);

@@ -72,9 +72,7 @@ std::vector<Measured> measured(const std::vector<Contestant>& contestants, int f
     std::vector<std::vector<double>> times(contestants.size());
     for (int i = 0; i <= frames; ++i)
         for (std::size_t c = 0; c < contestants.size(); ++c) {
-            renderers[c]->start(plans[c]);
-            while (renderers[c]->advance()) {
-            }
+            drawAllSamples(*renderers[c], plans[c]);
             if (i > 0) times[c].push_back(renderers[c]->stats().renderMilliseconds);
         }
     std::vector<Measured> results;

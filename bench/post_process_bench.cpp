@@ -219,9 +219,7 @@ std::vector<Measured> measured(const PreparedFrame& frame, const std::vector<std
     std::vector<std::vector<double>> times(methods.size());
     for (int i = 0; i < repeats; ++i)
         for (std::size_t k = 0; k < renderers.size(); ++k) {
-            renderers[k]->start(plan);
-            while (renderers[k]->advance()) {
-            }
+            drawAllSamples(*renderers[k], plan);
             times[k].push_back(renderers[k]->stats().renderMilliseconds);
         }
     for (std::size_t k = 0; k < renderers.size(); ++k) {

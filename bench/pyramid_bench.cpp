@@ -321,10 +321,7 @@ Image drawn(const Stage& stage, std::uint32_t level) {
         plan.levelsUsed[0][level] = true;
     }
     const auto renderer = methodNamed("accumulation").make(stage.world, {});
-    renderer->start(plan);
-    while (renderer->advance()) {
-    }
-    return renderer->image();
+    return imageOf(*renderer, plan);
 }
 
 // Returns the mesh simplified by meshoptimizer, primitive by primitive, to the triangle counts of `level`.
@@ -471,10 +468,7 @@ void blurredRows(const std::string& name, const Scene& scene) {
         const auto image = [&](std::uint32_t samples, LodMode mode) {
             const RenderSettings settings{.sampleCount = samples, .lod = mode};
             const auto renderer = methodNamed("accumulation").make(world, {});
-            renderer->start(planFrame(world, view, settings));
-            while (renderer->advance()) {
-            }
-            return renderer->image();
+            return imageOf(*renderer, planFrame(world, view, settings));
         };
         const Image reference = image(1024, LodMode::off);
         for (const std::uint32_t samples : {64u}) {

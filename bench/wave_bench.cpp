@@ -32,9 +32,7 @@ struct Row {
 };
 
 void measure(Renderer& renderer, const FramePlan& plan, float expected, Row& row) {
-    renderer.start(plan);
-    while (renderer.advance()) {
-    }
+    drawAllSamples(renderer, plan);
     const RenderStats stats = renderer.stats();
     row.milliseconds = std::min(row.milliseconds, stats.renderMilliseconds / stats.samples);
     row.format = stats.layerFormat;

@@ -6,13 +6,6 @@
 
 namespace defocus::engine {
 
-inline Image imageOf(Renderer& renderer, const FramePlan& plan) {
-    renderer.start(plan);
-    while (renderer.advance()) {
-    }
-    return renderer.image();
-}
-
 // Renders an image with 32-bit float layers. `method` is written as on the command line, for example "line:segments=4".
 inline Image imageByMethod(const char* method, const World& world, const FramePlan& plan) {
     const MethodUse use = parseMethodUse(method);

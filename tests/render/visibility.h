@@ -27,9 +27,7 @@ protected:
     static Image rendered(const SmallWorld& small, const FramePlan& plan, std::uint32_t wave) {
         const RendererOptions options{.wave = wave};
         const auto renderer = methodNamed("accumulation").make(small.world, options);
-        renderer->start(plan);
-        while (renderer->advance()) {
-        }
+        drawAllSamples(*renderer, plan);
         EXPECT_EQ(renderer->stats().trianglesDrawn, plan.trianglesDrawn);
         return renderer->image();
     }

@@ -197,10 +197,8 @@ TurntableSheet turntableSheet(World& world, const Object& object, const std::str
     for (std::size_t i = 0; i < look.worldTurn.size(); ++i) {
         world.pose.objects.front() = turnedObject(object, look.worldTurn[i]);
         for (std::uint32_t l = 0; l < pyramid.levels.size(); ++l) {
-            renderer->start(planFrame(world, look.view, settingsForLevel(world, look.view, l)));
-            while (renderer->advance()) {
-            }
-            paste(sheet.image, renderer->image(), sheet.cells[l][i]);
+            const FramePlan plan = planFrame(world, look.view, settingsForLevel(world, look.view, l));
+            paste(sheet.image, imageOf(*renderer, plan), sheet.cells[l][i]);
             report(progress, "views", i * pyramid.levels.size() + l + 1, look.worldTurn.size() * pyramid.levels.size());
         }
     }

@@ -53,10 +53,7 @@ Image errorOfFewSamples(const World& world, const View& view, const ReferenceIma
     RendererOptions own = options;
     own.settings.clear();
     const auto renderer = methodNamed("accumulation").make(world, own);
-    renderer->start(planFrame(world, view, settings));
-    while (renderer->advance()) {
-    }
-    return flipErrorMap(reference.image, renderer->image());
+    return flipErrorMap(reference.image, imageOf(*renderer, planFrame(world, view, settings)));
 }
 
 Image blurOfGeometry(const World& world, const View& view, const RendererOptions& options) {

@@ -110,10 +110,7 @@ Views viewsOf(Stand& stand, std::uint32_t samples, std::uint32_t level, std::uin
     for (const glm::dvec3& towards : blurredErrorViews()) {
         turnTo(stand, towards);
         const auto renderer = methodNamed("accumulation").make(stand.world, options);
-        renderer->start(planOf(stand, samples, level, seed));
-        while (renderer->advance()) {
-        }
-        views.push_back(renderer->image());
+        views.push_back(imageOf(*renderer, planOf(stand, samples, level, seed)));
     }
     return views;
 }

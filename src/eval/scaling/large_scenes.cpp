@@ -49,9 +49,7 @@ LargeSceneRow measureLargeScene(const LargeScene& scene, const LargeSceneOptions
     static_cast<void>(renderer->image());
     row.firstImageMilliseconds = millisecondsSince(start);
     while (more) more = renderer->advance();
-    renderer->start(plan);
-    while (renderer->advance()) {
-    }
+    drawAllSamples(*renderer, plan);
     const RenderStats stats = renderer->stats();
     row.frameMilliseconds = stats.renderMilliseconds;
     row.trianglesDrawn = stats.trianglesDrawn;

@@ -32,9 +32,7 @@ FramePlan planOf(const ScalingWorld& world, const ScalingPoint& point, LodMode m
 }
 
 double milliseconds(Renderer& renderer, const FramePlan& plan) {
-    renderer.start(plan);
-    while (renderer.advance()) {
-    }
+    drawAllSamples(renderer, plan);
     return renderer.stats().renderMilliseconds;
 }
 

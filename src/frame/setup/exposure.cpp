@@ -88,10 +88,7 @@ double meteredExposure(World& world, const View& view, const RenderSettings& set
     const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(world, options);
     const auto rendered = [&](bool withEnvironment) {
         const ShownEnvironment shown(world, withEnvironment);
-        renderer->start(planFrame(world, small, few));
-        while (renderer->advance()) {
-        }
-        return renderer->image();
+        return imageOf(*renderer, planFrame(world, small, few));
     };
     Image image = rendered(false);
     if (world.environment.type != EnvironmentType::uniform) addBackground(image, rendered(true));

@@ -260,9 +260,7 @@ TEST_F(Convergence, methodsDrawMotionIfTheySaySo) {
         const auto imageOf = [&](const std::vector<Pose>& poses) {
             small_->world.shutter.poses = poses;
             const auto renderer = use.method->make(small_->world, own);
-            renderer->start(planFrame(small_->world, small_->view, settings));
-            while (renderer->advance()) {
-            }
+            drawAllSamples(*renderer, planFrame(small_->world, small_->view, settings));
             return renderer->image().pixels;
         };
         EXPECT_EQ(imageOf(moving) != imageOf({}), use.method->drawsMotion) << name;

@@ -296,9 +296,7 @@ TEST_F(Accumulation, statsCountWhatThePlanSays) {
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(100));
     const RendererOptions options{.wave = 7};
     const auto renderer = methodNamed("accumulation").make(small->world, options);
-    renderer->start(plan);
-    while (renderer->advance()) {
-    }
+    drawAllSamples(*renderer, plan);
     EXPECT_EQ(renderer->stats().trianglesDrawn, plan.trianglesDrawn);
     EXPECT_EQ(renderer->stats().samples, 100u);
     renderer->start(plan);

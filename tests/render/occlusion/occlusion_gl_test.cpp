@@ -33,9 +33,7 @@ OpaqueDrawn opaqueDrawn(const char* method, const SmallWorld& small, const Rende
     const RendererOptions options{.wave = wave, .threads = threads};
     const auto renderer = methodNamed(method).make(small.world, options);
     const FramePlan plan = planFrame(small.world, small.view, settings);
-    renderer->start(plan);
-    while (renderer->advance()) {
-    }
+    drawAllSamples(*renderer, plan);
     const RenderStats stats = renderer->stats();
     return {renderer->image(), static_cast<double>(stats.trianglesHidden) / static_cast<double>(stats.trianglesDrawn)};
 }
@@ -112,9 +110,7 @@ TEST_F(OccludedSurfaces, ofAPinholeChangeNoBit) {
     ASSERT_FALSE(plan.usesLens);
     const auto imageOf = [&](double minHidden) {
         const auto renderer = methodNamed("accumulation").make(small->world, {});
-        renderer->start(plan);
-        while (renderer->advance()) {
-        }
+        drawAllSamples(*renderer, plan);
         const RenderStats stats = renderer->stats();
         EXPECT_GE(static_cast<double>(stats.trianglesHidden), minHidden * static_cast<double>(stats.trianglesDrawn));
         return renderer->image();

@@ -115,9 +115,7 @@ TEST_F(Growing, continuingIsRefusedWithinABlock) {
     const RenderSettings settings{.sampleCount = 32};
     const FramePlan plan = planFrame(small_->world, small_->view, settings);
     const auto renderer = methodNamed("accumulation").make(small_->world, options());
-    renderer->start(plan);
-    while (renderer->advance()) {
-    }
+    drawAllSamples(*renderer, plan);
     EXPECT_THROW(renderer->continueWith(plan), std::exception);
 }
 
