@@ -42,9 +42,7 @@ struct Variant {
 void renderOnce(const World& world, Variant& variant) {
     const auto renderer = methodNamed("accumulation").make(world, {});
     const std::clock_t before = std::clock();
-    renderer->start(variant.plan);
-    while (renderer->advance()) {
-    }
+    drawAllSamples(*renderer, variant.plan);
     variant.seconds.push_back(renderer->stats().renderMilliseconds / 1000);
     variant.cpuSeconds.push_back(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
     variant.image = renderer->image();

@@ -133,9 +133,7 @@ void measureStochastic(const Figure& figure) {
     std::vector<double> tests(rows.size());
     for (int i = 0; i < stochasticRuns; ++i)
         for (std::size_t row = 0; row < rows.size(); ++row) {
-            renderer->start(rows[row].plan);
-            while (renderer->advance()) {
-            }
+            drawAllSamples(*renderer, rows[row].plan);
             rows[row].milliseconds = std::min(rows[row].milliseconds, renderer->stats().renderMilliseconds);
             for (const MethodFigure& each : renderer->stats().figures)
                 if (each.name == "triangles tested per ray") tests[row] = each.value;

@@ -65,17 +65,14 @@ std::vector<Measured> measured(const std::vector<Contestant>& contestants, int f
     std::vector<FramePlan> plans;
     for (const Contestant& contestant : contestants) {
         const MethodUse use = parseMethodUse(contestant.method);
-        RendererOptions options;
-        options.settings = use.settings;
+        const RendererOptions options{.settings = use.settings};
         renderers.push_back(use.method->make(contestant.frame->world, options));
         plans.push_back(planFrame(contestant.frame->world, *contestant.view, contestant.settings));
     }
     std::vector<std::vector<double>> times(contestants.size());
     for (int i = 0; i <= frames; ++i)
         for (std::size_t c = 0; c < contestants.size(); ++c) {
-            renderers[c]->start(plans[c]);
-            while (renderers[c]->advance()) {
-            }
+            drawAllSamples(*renderers[c], plans[c]);
             if (i > 0) times[c].push_back(renderers[c]->stats().renderMilliseconds);
         }
     std::vector<Measured> results;
@@ -99,10 +96,7 @@ std::string publishedMethod() {
 }
 
 RenderSettings settingsOf(std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    return settings;
+    return {.sampleCount = samples, .lod = LodMode::off};
 }
 
 RenderSettings byScore(std::uint32_t samples) {

@@ -121,17 +121,14 @@ std::vector<Measured> measured(const PreparedFrame& frame, const std::vector<std
     std::vector<std::unique_ptr<Renderer>> renderers;
     for (const std::string& method : methods) {
         const MethodUse use = parseMethodUse(method);
-        RendererOptions options;
-        options.settings = use.settings;
+        const RendererOptions options{.settings = use.settings};
         renderers.push_back(use.method->make(frame.world, options));
         all.emplace_back().method = use.text();
     }
     std::vector<std::vector<double>> times(methods.size());
     for (int i = 0; i < repeats; ++i)
         for (std::size_t k = 0; k < renderers.size(); ++k) {
-            renderers[k]->start(plan);
-            while (renderers[k]->advance()) {
-            }
+            drawAllSamples(*renderers[k], plan);
             times[k].push_back(renderers[k]->stats().renderMilliseconds);
         }
     for (std::size_t k = 0; k < renderers.size(); ++k) {

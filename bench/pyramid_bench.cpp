@@ -312,10 +312,8 @@ void blurBy(Stage& stage, double coc) {
 }
 
 Image drawn(const Stage& stage, std::uint32_t level) {
-    RenderSettings settings;
-    settings.sampleCount = lensSamples;
-    settings.sequence = Sequence::halton;  // lens sequence with which the committed results were made
-    settings.lod = LodMode::off;
+    // the committed results were made with the Halton sequence
+    const RenderSettings settings{.sampleCount = lensSamples, .sequence = Sequence::halton, .lod = LodMode::off};
     FramePlan plan = planFrame(stage.world, stage.view, settings);
     for (ObjectPlan& object : plan.objects) {
         object.fine.level = level;
@@ -323,10 +321,7 @@ Image drawn(const Stage& stage, std::uint32_t level) {
         plan.levelsUsed[0][level] = true;
     }
     const auto renderer = methodNamed("accumulation").make(stage.world, {});
-    renderer->start(plan);
-    while (renderer->advance()) {
-    }
-    return renderer->image();
+    return imageOf(*renderer, plan);
 }
 
 // Returns the mesh simplified by meshoptimizer, primitive by primitive, to the triangle counts of `level`.
@@ -471,14 +466,9 @@ void blurredRows(const std::string& name, const Scene& scene) {
         const double aperture = coc * depth * 2 * tanHalfHorizontalFov(view.lens) / view.width;
         view.lens.fStop = view.lens.focalLength / (1000 * aperture);
         const auto image = [&](std::uint32_t samples, LodMode mode) {
-            RenderSettings settings;
-            settings.sampleCount = samples;
-            settings.lod = mode;
+            const RenderSettings settings{.sampleCount = samples, .lod = mode};
             const auto renderer = methodNamed("accumulation").make(world, {});
-            renderer->start(planFrame(world, view, settings));
-            while (renderer->advance()) {
-            }
-            return renderer->image();
+            return imageOf(*renderer, planFrame(world, view, settings));
         };
         const Image reference = image(1024, LodMode::off);
         for (const std::uint32_t samples : {64u}) {

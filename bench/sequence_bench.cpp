@@ -224,10 +224,8 @@ void measurePoints() {
 // ---- rendered images ------------------------------------------------------------------------------------------------
 
 RendererOptions precise() {
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
-    options.wave = 8;  // batch size; allows reading the image after every 8 samples
-    return options;
+    // a wave of 8 allows reading the image after every 8 samples
+    return {.layerFormat = LayerFormat::rgba32f, .wave = 8};
 }
 
 RenderSettings fullDetailSettings(const PreparedFrame& frame, std::uint32_t count) {

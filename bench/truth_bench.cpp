@@ -53,14 +53,13 @@ struct Rendered {
 
 Rendered rendered(const char* method, const TruthScene& subject, const Options& wanted,
                   Shadows shadows = Shadows::off) {
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const std::unique_ptr<Renderer> renderer = methodNamed(method).make(subject.world, options);
     RenderSettings settings = fullDetailSettings(wanted.samples);
     settings.sequence = wanted.sequence;
     settings.shadows = shadows;
     settings.cocTolerance = 0.05;  // in px; small, because the slope of the blur jumps at the foreground limit
-    Image image = renderedImage(*renderer, planFrame(subject.world, subject.view, settings));
+    Image image = imageOf(*renderer, planFrame(subject.world, subject.view, settings));
     return {std::move(image), renderer->stats()};
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the keywords of defocus/__init__.pyi from the settings table of the built module.
+"""Writes the keywords of defocus/_defocus.pyi from the settings table of the built module.
 
     PYTHONPATH=build/release/python /usr/bin/python3 scripts/python_stubs.py          # writes the file
     PYTHONPATH=build/release/python /usr/bin/python3 scripts/python_stubs.py --check  # exit code 1 if it differs
@@ -11,9 +11,8 @@ from pathlib import Path
 import defocus
 from defocus._settings import REFOCUS
 
-STUB = Path(__file__).resolve().parents[1] / "python" / "defocus" / "__init__.pyi"
+STUB = Path(__file__).resolve().parents[1] / "python" / "defocus" / "_defocus.pyi"
 BEGIN = "# ---- keywords, from the settings table ----\n"
-END = "# ---- end of keywords ----\n"
 TYPES = {"number": "float", "integer": "int", "boolean": "bool", "text": "str", "path": "Path"}
 # Python types of settings of kind "other", keyed by the syntax of their command-line values.
 FORMS = {
@@ -49,13 +48,12 @@ def keywords():
         for setting in settings:
             unit = f"  # {setting.unit}" if setting.unit else ""
             text += f"    {setting.keyword}: Optional[{type_of(setting)}]{unit}\n"
-    return text + "\n"
+    return text
 
 
 def main():
     old = STUB.read_text()
-    begin, end = old.index(BEGIN) + len(BEGIN), old.index(END)
-    new = old[:begin] + keywords() + old[end:]
+    new = old[:old.index(BEGIN) + len(BEGIN)] + keywords()
     if "--check" not in sys.argv[1:]:
         STUB.write_text(new)
     elif new != old:

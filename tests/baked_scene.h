@@ -40,17 +40,14 @@ inline void bakeLighting(Mesh& mesh) {
 
 inline Scene bakedUnlit(Scene scene) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        Material baked;
-        baked.name = scene.materials[i].name;
-        baked.baseColorFactor = bakedColor(scene.materials[i], i);
-        baked.doubleSided = scene.materials[i].doubleSided;
-        baked.unlit = true;
+        Material baked{.name = scene.materials[i].name,
+                       .baseColorFactor = bakedColor(scene.materials[i], i),
+                       .doubleSided = scene.materials[i].doubleSided,
+                       .unlit = true};
         scene.materials[i] = std::move(baked);
     }
     // Primitives without a material get an unlit material, since glTF's default material is lit.
-    Material plain;
-    plain.name = "baked default";
-    plain.unlit = true;
+    Material plain{.name = "baked default", .unlit = true};
     scene.materials.push_back(std::move(plain));
     for (Mesh& mesh : scene.meshes) {
         bakeLighting(mesh);

@@ -10,7 +10,7 @@
 
 #include "image/moments.h"
 #include "plan/frame_plan.h"
-#include "render/renderer.h"
+#include "render/rendered.h"
 
 namespace defocus::engine {
 
@@ -68,9 +68,7 @@ inline Mesh rectangleMesh(const View& view, const Rectangle& area, int material)
 
 inline Scene rectangleScene(const View& view, const std::vector<Rectangle>& areas, const glm::vec3& color) {
     Scene scene;
-    Material material;
-    material.baseColorFactor = glm::vec4(color, 1);
-    material.unlit = true;
+    const Material material{.baseColorFactor = glm::vec4(color, 1), .unlit = true};
     scene.materials.push_back(material);
     for (const Rectangle& area : areas) {
         Node node;
@@ -146,13 +144,6 @@ inline double misplacedLight(const Image& a, const Image& b) {
             sum += std::abs(difference) / 2;
         }
     return sum / all;
-}
-
-inline Image renderedImage(Renderer& renderer, const FramePlan& plan) {
-    renderer.start(plan);
-    while (renderer.advance()) {
-    }
-    return renderer.image();
 }
 
 }  // namespace defocus::engine

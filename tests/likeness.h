@@ -31,4 +31,18 @@ inline double largestDifference(const Image& a, const Image& b) {
     return largest;
 }
 
+// Returns the root mean square difference over all channels and pixels. The images must have the same size.
+inline double rootMeanSquare(const Image& a, const Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::pow(double(a.pixels[i]) - double(b.pixels[i]), 2);
+    return std::sqrt(sum / static_cast<double>(a.pixels.size()));
+}
+
+inline double meanRed(const Image& image) {
+    double sum = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) sum += static_cast<double>(image.at(x, y)[0]);
+    return sum / (static_cast<double>(image.width) * image.height);
+}
+
 }  // namespace defocus::engine

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <memory>
 #include <numbers>
+#include <vector>
 
 #include "lod/pyramid/pyramid.h"
 #include "plan/view.h"
@@ -66,11 +67,20 @@ inline Mesh quad(int material) {
     return mesh;
 }
 
+// Returns the triangles of a grid of `cells` × `cells` squares; its vertices are ordered by row, then by column.
+inline std::vector<std::uint32_t> gridIndices(std::uint32_t cells) {
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t y = 0; y < cells; ++y)
+        for (std::uint32_t x = 0; x < cells; ++x) {
+            const std::uint32_t first = y * (cells + 1) + x;
+            const std::uint32_t next = first + cells + 1;
+            indices.insert(indices.end(), {first, first + 1, next, first + 1, next + 1, next});
+        }
+    return indices;
+}
+
 inline Material unlitMaterial(const glm::vec4& color) {
-    Material material;
-    material.baseColorFactor = color;
-    material.unlit = true;
-    return material;
+    return {.baseColorFactor = color, .unlit = true};
 }
 
 inline void place(SmallWorld& small, int mesh, const glm::dmat4& worldFromObject) {
@@ -85,25 +95,34 @@ inline void finish(SmallWorld& small) {
     small.world.pyramids = buildPyramids(small.scene.meshes);
 }
 
+inline PlacedLight sunFrom(const glm::dvec3& direction, float intensity) {
+    PlacedLight sun;
+    sun.light.intensity = intensity;
+    sun.direction = glm::normalize(direction);
+    return sun;
+}
+
 // Adds a sun that shines from above, from the right and from behind the camera.
 inline void addSun(SmallWorld& small) {
-    PlacedLight sun;
-    sun.light.intensity = 2;
-    sun.direction = glm::normalize(glm::dvec3(-0.3, -1, -0.6));
-    small.world.lights.push_back(sun);
+    small.world.lights.push_back(sunFrom({-0.3, -1, -0.6}, 2));
 }
 
 inline Environment gradientSky() {
     return {EnvironmentType::gradient, {0.6f, 0.8f, 1.0f}, {0.4f, 0.5f, 0.6f}, {0.1f, 0.1f, 0.2f}, nullptr, 1};
 }
 
+// Returns an environment map of 16 × 8 px whose values lie between 0 and 2 and differ from pixel to pixel.
+inline Environment speckledMap() {
+    auto map = std::make_shared<Image>(16, 8, 3);
+    for (std::size_t i = 0; i < map->pixels.size(); ++i) map->pixels[i] = static_cast<float>(i * 37 % 101) / 50;
+    return {EnvironmentType::map, {}, {}, {}, map, 1};
+}
+
 // Returns five rippled spheres from 1.2 to 9 m, one mirrored and one far outside the frame, lit by a sun and a gradient
 // sky. The lens is f/1, focused at 3 m, and the image has 160 × 120 px.
 inline std::unique_ptr<SmallWorld> fiveSpheres() {
     auto small = std::make_unique<SmallWorld>();
-    Material glossy;
-    glossy.metallicFactor = 0;
-    glossy.roughnessFactor = 0.4f;
+    const Material glossy{.metallicFactor = 0, .roughnessFactor = 0.4f};
     small->scene.materials.push_back(glossy);
     small->scene.meshes.push_back(bumpySphere(80, 60, 0));
     const auto at = [](double x, double y, double z, double s) {

@@ -73,12 +73,8 @@ inline std::unique_ptr<TruthScene> truthScene(Scene scene, int width, int height
 }
 
 inline RenderSettings fullDetailSettings(std::uint32_t samples, std::uint32_t seed = 0) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.seed = seed;
-    settings.lod = LodMode::off;
-    settings.sequence = Sequence::halton;  // the tests' limits were determined with the Halton sequence
-    return settings;
+    // the tests' limits were determined with the Halton sequence
+    return {.sampleCount = samples, .sequence = Sequence::halton, .seed = seed, .lod = LodMode::off};
 }
 
 // Signed difference b − a of two images a and b, averaged over blocks of 32 × 32 px and three channels.

@@ -64,10 +64,7 @@ Image rendered(const BoardScene& boards, const std::string& method, const Render
     RendererOptions complete = options;
     complete.settings = use.settings;
     const auto renderer = use.method->make(boards.world, complete);
-    renderer->start(planFrame(boards.world, boards.view, boards.settings));
-    while (renderer->advance()) {
-    }
-    return renderer->image();
+    return imageOf(*renderer, planFrame(boards.world, boards.view, boards.settings));
 }
 
 Board squareAt(const View& view, double depth, double pixels, const glm::vec3& radiance, const glm::dvec2& offset) {

@@ -23,7 +23,7 @@ import json
 import os
 import sys
 import warnings as _warnings
-from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Literal, Mapping, NamedTuple, Optional, Tuple, Union
 
 import numpy
 
@@ -37,6 +37,12 @@ from ._settings import request_of as _request_of
 from ._settings import takes_refocus_settings as _takes_refocus_settings
 from ._settings import takes_settings as _takes_settings
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+    from typing_extensions import Unpack
+
+    from ._defocus import Array, Keywords, Path, Progress, RefocusKeywords
+
 __version__: str = _defocus.version
 __all__ = [
     "Aovs", "Camera", "Difference", "Error", "FocalStack", "Instance", "Light", "LightField", "LightFieldInfo",
@@ -46,14 +52,11 @@ __all__ = [
 
 for _part in (Camera, Instance, Light, Material, Mesh, Texture, look_at):
     _part.__module__ = __name__
-Scene.create = staticmethod(_create_scene)  # type: ignore[method-assign]
+Scene.create = staticmethod(_create_scene)  # type: ignore[assignment]
 
 Error.__doc__ = """An error of a file, a name or the driver. The message says in one line what failed and what to do."""
 UsageError.__doc__ = """An invalid request: an unknown keyword (also a TypeError), or a value out of range (also a
 ValueError)."""
-
-Path = Union[str, "os.PathLike[str]"]
-Progress = Callable[[str, int, int], object]
 
 
 class Setting(NamedTuple):
@@ -62,7 +65,7 @@ class Setting(NamedTuple):
     keyword: str
     option: str  # command-line option
     group: str
-    kind: str  # "number", "integer", "boolean", "text", "path", "choice" or "other"
+    kind: Literal["number", "integer", "boolean", "text", "path", "choice", "other"]
     form: str  # syntax of the value on the command line: "PX", "X,Y,Z"
     unit: str  # empty: none
     range: Optional[Tuple[float, float]]  # min and max of a number; None for other kinds
@@ -89,9 +92,9 @@ class Difference(NamedTuple):
 class Aovs(NamedTuple):
     """Per-pixel data of the nearest surface at the pixel's centre in a pinhole view: H×W each."""
 
-    depth: numpy.ndarray  # depth in m along the view axis; infinity for pixels without a surface
-    coc: numpy.ndarray  # diameter of the circle of confusion in px; > 0 behind the focus plane, < 0 in front of it
-    level: numpy.ndarray  # fractional level of detail of the object; −1 for pixels without a surface
+    depth: Array  # depth in m along the view axis; infinity for pixels without a surface
+    coc: Array  # diameter of the circle of confusion in px; > 0 behind the focus plane, < 0 in front of it
+    level: Array  # fractional level of detail of the object; −1 for pixels without a surface
 
 
 class Statistics(NamedTuple):
@@ -107,7 +110,7 @@ class Statistics(NamedTuple):
     triangles_at_full_detail: int
     gpu_bytes: int
     device: str
-    stopped: str  # why the frame ended: "samples", "target error", "time limit" or "nothing blurred"
+    stopped: Literal["samples", "target error", "time limit", "nothing blurred"]  # why the frame ended
     estimated_error: Optional[float]  # RMSE of the display-encoded image at EV 0; only with target_error or time_limit
 
 
@@ -132,7 +135,7 @@ class FocalStack(NamedTuple):
     nearest to the farthest."""
 
     focus_distances: List[float]  # m
-    pictures: List[numpy.ndarray]  # H×W×4 each
+    pictures: List[Array]  # H×W×4 each
 
 
 def settings() -> List[Setting]:
@@ -159,14 +162,15 @@ class Renderer:
     """
 
     @_takes_settings
-    def __init__(self, scene: Union[Path, Scene, None] = None, *, progress: Optional[Progress] = None, **settings: Any):
+    def __init__(self, scene: Union[Path, Scene, None] = None, *, progress: Optional[Progress] = None,
+                 **settings: Unpack[Keywords]):
         self._scene = scene
         self._settings = settings
         self._warned: set = set()
         opened = scene if isinstance(scene, Scene) else None
         self._native = _defocus.Renderer(opened, self._request({}), _listener(progress))
 
-    def _request(self, changes: Dict[str, Any]) -> Any:
+    def _request(self, changes: Mapping[str, Any]) -> Any:
         return _request_of(self._scene, {**self._settings, **changes})
 
     def _warn(self) -> None:
@@ -175,14 +179,14 @@ class Renderer:
         _warn(lines)
 
     @_takes_settings
-    def render(self, *, progress: Optional[Progress] = None, **settings: Any) -> numpy.ndarray:
+    def render(self, *, progress: Optional[Progress] = None, **settings: Unpack[Keywords]) -> Array:
         """Renders a frame and returns its image: H×W×4."""
         image = self._native.render(self._request(settings), _listener(progress))
         self._warn()
         return image
 
     @_takes_settings
-    def progressive(self, **settings: Any) -> Iterator[Tuple[numpy.ndarray, int]]:
+    def progressive(self, **settings: Unpack[Keywords]) -> Iterator[Tuple[Array, int]]:
         """Renders a frame in steps. After each step, yields the image so far and its number of samples."""
         self.start(**settings)
         more = True
@@ -191,7 +195,7 @@ class Renderer:
             yield self.image(), self.samples
 
     @_takes_settings
-    def start(self, **settings: Any) -> None:
+    def start(self, **settings: Unpack[Keywords]) -> None:
         """Starts a frame; each call of advance() then draws some of its samples."""
         self._native.start(self._request(settings))
         self._warn()
@@ -200,7 +204,7 @@ class Renderer:
         """Draws further samples. Returns False once the frame is complete."""
         return self._native.advance()
 
-    def image(self) -> numpy.ndarray:
+    def image(self) -> Array:
         """Returns the mean of the samples drawn so far: H×W×4."""
         return self._native.image()
 
@@ -237,7 +241,7 @@ class Renderer:
         """Returns the plan of the latest frame as a dictionary with the keys of `defocus plan --json`."""
         return json.loads(self._native.plan_json())
 
-    def write(self, path: Path, image: Any) -> None:
+    def write(self, path: Path, image: ArrayLike) -> None:
         """Writes an image with the metadata of the latest frame. PNG and JPEG files use the settings' exposure and tone
         map."""
         self._native.write(path, _pixels(image))
@@ -273,7 +277,7 @@ class LightField:
     @_takes_settings
     def render(cls, path: Path, scene: Union[Path, Scene, None] = None, *,
                focus_range: Optional[Tuple[float, float]] = None, progress: Optional[Progress] = None,
-               **settings: Any) -> "LightField":
+               **settings: Unpack[Keywords]) -> "LightField":
         """Renders the lens images of a scene to the file `path` (.exr), and opens it. `focus_range`: distances (near,
         far) in m to choose from later; default: from the nearest to the farthest visible surface."""
         opened = scene if isinstance(scene, Scene) else None
@@ -290,28 +294,28 @@ class LightField:
 
     @_takes_refocus_settings
     def refocus(self, *, fill_gaps: bool = True, progress: Optional[Progress] = None,
-                **settings: Any) -> numpy.ndarray:
+                **settings: Unpack[RefocusKeywords]) -> Array:
         """Returns a picture: H×W×4, linear. Keywords that are not given keep their values from rendering. `fill_gaps`
         blurs each lens image, so that blur does not show as separate copies of a surface."""
         return self._native.refocus(_refocus_request_of(settings), fill_gaps, _listener(progress))
 
     @_takes_refocus_settings
     def stack(self, count: int, *, fill_gaps: bool = True, progress: Optional[Progress] = None,
-              **settings: Any) -> FocalStack:
+              **settings: Unpack[RefocusKeywords]) -> FocalStack:
         """Returns `count` pictures that are focused at different distances (a focal stack)."""
         return FocalStack(*self._native.stack(count, _refocus_request_of(settings), fill_gaps, _listener(progress)))
 
-    def all_in_focus(self, *, progress: Optional[Progress] = None) -> numpy.ndarray:
+    def all_in_focus(self, *, progress: Optional[Progress] = None) -> Array:
         """Returns the view from the lens's centre, in which all surfaces are in focus: H×W×4."""
         return self._native.all_in_focus(_listener(progress))
 
-    def depth(self) -> numpy.ndarray:
+    def depth(self) -> Array:
         """Returns the depths in m of the surfaces visible from the lens's centre: H×W; infinity for pixels without a
         surface."""
         return self._native.depth()
 
     @_takes_refocus_settings
-    def coc(self, **settings: Any) -> numpy.ndarray:
+    def coc(self, **settings: Unpack[RefocusKeywords]) -> Array:
         """Returns the signed diameters in px of the circles of confusion of the surfaces visible from the lens's
         centre: H×W; > 0 behind the focus plane."""
         return self._native.coc(_refocus_request_of(settings))
@@ -328,7 +332,7 @@ class LightField:
 
 @_takes_settings
 def render(scene: Union[Path, Scene, None] = None, *, progress: Optional[Progress] = None,
-           **settings: Any) -> numpy.ndarray:
+           **settings: Unpack[Keywords]) -> Array:
     """Renders a scene (path of a glTF file, or a Scene) with depth of field and returns the image: H×W×4 float32,
     linear. Default scene: the built-in school of fish."""
     with Renderer(scene, progress=progress, **settings) as renderer:
@@ -337,7 +341,7 @@ def render(scene: Union[Path, Scene, None] = None, *, progress: Optional[Progres
 
 @_takes_settings
 def progressive(scene: Union[Path, Scene, None] = None, *, progress: Optional[Progress] = None,
-                **settings: Any) -> Iterator[Tuple[numpy.ndarray, int]]:
+                **settings: Unpack[Keywords]) -> Iterator[Tuple[Array, int]]:
     """Renders an image in steps. After each step, yields the image so far and its number of lens samples:
 
         for image, samples in defocus.progressive("scene.glb", samples=1024):
@@ -348,7 +352,7 @@ def progressive(scene: Union[Path, Scene, None] = None, *, progress: Optional[Pr
     """
     _request_of(scene, settings)
 
-    def images() -> Iterator[Tuple[numpy.ndarray, int]]:
+    def images() -> Iterator[Tuple[Array, int]]:
         with Renderer(scene, progress=progress, **settings) as renderer:
             yield from renderer.progressive()
 
@@ -361,7 +365,8 @@ def _refuse_open_scene(function: str, scene: Any) -> None:
 
 
 @_takes_settings
-def plan(scene: Optional[Path] = None, *, progress: Optional[Progress] = None, **settings: Any) -> Dict[str, Any]:
+def plan(scene: Optional[Path] = None, *, progress: Optional[Progress] = None,
+         **settings: Unpack[Keywords]) -> Dict[str, Any]:
     """Returns the plan of a frame as a dictionary with the keys of `defocus plan --json`: blur, levels and samples of
     each object, and omitted parts with the reason. Needs no GPU and renders nothing."""
     _refuse_open_scene("plan", scene)
@@ -369,28 +374,29 @@ def plan(scene: Optional[Path] = None, *, progress: Optional[Progress] = None, *
 
 
 @_takes_settings
-def pyramid(scene: Optional[Path] = None, *, progress: Optional[Progress] = None, **settings: Any) -> Any:
+def pyramid(scene: Optional[Path] = None, *, progress: Optional[Progress] = None, **settings: Unpack[Keywords]) -> Any:
     """Returns the levels of detail of each mesh of a scene, each with its number of triangles, and its mean edge length
     and error in mesh units."""
     _refuse_open_scene("pyramid", scene)
     return json.loads(_defocus.pyramid_json(_request_of(scene, settings), _listener(progress)))
 
 
-def compare(reference: Any, test: Any) -> Difference:
+def compare(reference: Union[Path, ArrayLike], test: Union[Path, ArrayLike]) -> Difference:
     """Returns the difference between two linear images of the same size, each an array or a path."""
     native = _defocus.compare(_pixels(reference), _pixels(test))
     return Difference(*(getattr(native, name) for name in Difference._fields))
 
 
-def read_image(path: Path) -> numpy.ndarray:
+def read_image(path: Path) -> Array:
     """Reads a PNG, JPEG, OpenEXR, Radiance HDR or TIFF file as linear float32: H×W×4, H×W×3 or H×W. Integer formats are
     decoded from sRGB, and straight alpha is premultiplied."""
     return _defocus.read_image(path)
 
 
-def write_image(path: Path, image: Any, *, tone_map: Optional[str] = None, exposure: Optional[float] = None) -> None:
-    """Writes an .exr (32-bit float, linear), .png or .jpg file (8 bit, sRGB). `tone_map` ("none", "aces", "agx" or
-    "neutral"; default: "neutral") and `exposure` (EV) apply to 8-bit files. The file is replaced atomically."""
+def write_image(path: Path, image: ArrayLike, *, tone_map: Optional[Literal["none", "aces", "agx", "neutral"]] = None,
+                exposure: Optional[float] = None) -> None:
+    """Writes an .exr (32-bit float, linear), .png or .jpg file (8 bit, sRGB). `tone_map` (default: "neutral") and
+    `exposure` (EV) apply to 8-bit files. The file is replaced atomically."""
     request = _request_of(None, {"tone_map": tone_map, "exposure": exposure})
     _defocus.write_image(path, _pixels(image), request)
 
@@ -401,7 +407,7 @@ def _listener(progress: Optional[Progress]) -> Optional[Progress]:
     return progress
 
 
-def _pixels(image: Any) -> numpy.ndarray:
+def _pixels(image: Union[Path, ArrayLike]) -> Array:
     """Returns an image (array or path) as float32 pixels that C++ can read in place. Copies arrays of other layouts."""
     if isinstance(image, (str, os.PathLike)):
         return read_image(image)

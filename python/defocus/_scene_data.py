@@ -6,12 +6,16 @@ import dataclasses
 import math
 import numbers
 import re
-from typing import Any, Callable, Dict, Iterable, Mapping, Optional, Sequence, Tuple, TypeVar, Union
+from typing import (
+    TYPE_CHECKING, Any, Callable, Dict, Iterable, Literal, Mapping, Optional, Sequence, Tuple, TypeVar, Union)
 
 import numpy
 
 from . import _defocus
 from ._settings import request_of as _request_of
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
 
 Part = TypeVar("Part")
 Color = Sequence[float]
@@ -22,13 +26,14 @@ class Texture:
     """An image of linear floats in [0, 1]: H×W, H×W×3 or H×W×4, with the top row first. It is stored with 8 bits per
     channel."""
 
-    image: Any
-    content: str = "color"  # "color": linear Rec.709 with premultiplied alpha; "data": linear values, such as normals
+    image: ArrayLike
+    # "color": linear Rec.709 with premultiplied alpha; "data": linear values, such as normals
+    content: Literal["color", "data"] = "color"
     straight_alpha: bool = False  # True: the alpha of the colours is straight, not premultiplied
-    wrap_u: str = "repeat"  # "repeat", "clamp_to_edge" or "mirrored_repeat"
-    wrap_v: str = "repeat"
-    magnification: str = "linear"  # "linear" or "nearest"
-    minification: str = "linear"
+    wrap_u: Literal["repeat", "clamp_to_edge", "mirrored_repeat"] = "repeat"
+    wrap_v: Literal["repeat", "clamp_to_edge", "mirrored_repeat"] = "repeat"
+    magnification: Literal["nearest", "linear"] = "linear"
+    minification: Literal["nearest", "linear"] = "linear"
     mipmaps: bool = True
     name: str = ""
 
@@ -49,7 +54,7 @@ class Material:
     occlusion_strength: float = 1
     emission: Color = (0, 0, 0)  # emitted radiance, ≥ 0
     emission_texture: Optional[Texture] = None
-    alpha_mode: str = "opaque"  # "opaque", "mask" or "blend"
+    alpha_mode: Literal["opaque", "mask", "blend"] = "opaque"
     alpha_cutoff: float = 0.5
     double_sided: bool = False
     unlit: bool = False  # True: the base colour is shown without lighting
@@ -66,11 +71,12 @@ class Material:
 class Mesh:
     """Triangles with one material. Arrays of vertex attributes have one row per vertex."""
 
-    positions: Any  # N×3
-    indices: Any = None  # M×3 integers; front faces are counter-clockwise. Default: 0, 1, 2, then 3, 4, 5 …
-    normals: Any = None  # N×3, any length > 0. Default: flat shading
-    uvs: Any = None  # N×2; (0, 0) is the texture's top left corner, (1, 1) its bottom right
-    colors: Any = None  # N×3 or N×4 floats in [0, 1], linear, straight alpha
+    positions: ArrayLike  # N×3
+    # M×3 integers; front faces are counter-clockwise. Default: 0, 1, 2, then 3, 4, 5 …
+    indices: Optional[ArrayLike] = None
+    normals: Optional[ArrayLike] = None  # N×3, any length > 0. Default: flat shading
+    uvs: Optional[ArrayLike] = None  # N×2; (0, 0) is the texture's top left corner, (1, 1) its bottom right
+    colors: Optional[ArrayLike] = None  # N×3 or N×4 floats in [0, 1], linear, straight alpha
     material: Optional[Material] = None  # None: glTF's default material
     name: str = ""
 
@@ -80,7 +86,7 @@ class Instance:
     """An object of the scene: a mesh with a transform."""
 
     mesh: Mesh
-    transform: Any = None  # 4×4, with the translation in the last column. Default: the identity
+    transform: Optional[ArrayLike] = None  # 4×4, with the translation in the last column. Default: the identity
     name: str = ""  # name of the node. Default: the mesh's name
 
 
@@ -88,7 +94,7 @@ class Instance:
 class Camera:
     """A camera that looks along the −z axis of its transform; see look_at."""
 
-    transform: Any = None  # 4×4. Default: the identity
+    transform: Optional[ArrayLike] = None  # 4×4. Default: the identity
     yfov: float = 0.6911112  # full vertical angle in radians; unused if lens has a focal length
     znear: float = 0.01  # scene units; nearer surfaces are invisible
     focus_distance: Optional[float] = None  # scene units along the view axis. Default: automatic, like focus_auto
@@ -100,8 +106,8 @@ class Camera:
 class Light:
     """A light of KHR_lights_punctual that shines along the −z axis of its transform; see look_at."""
 
-    type: str = "directional"  # "directional", "point" or "spot"
-    transform: Any = None  # 4×4. Default: the identity
+    type: Literal["directional", "point", "spot"] = "directional"
+    transform: Optional[ArrayLike] = None  # 4×4. Default: the identity
     color: Color = (1, 1, 1)
     intensity: float = 1  # illuminance in lux (directional) or intensity in candela (point, spot)
     range: float = 0  # range in scene units; 0: unlimited
@@ -112,7 +118,8 @@ class Light:
     name: str = ""
 
 
-def look_at(position: Sequence[float], target: Sequence[float], up: Sequence[float] = (0, 1, 0)) -> numpy.ndarray:
+def look_at(position: Sequence[float], target: Sequence[float],
+            up: Sequence[float] = (0, 1, 0)) -> NDArray[numpy.float64]:
     """Returns the 4×4 transform of a camera or light at `position` that looks at `target`."""
     points = [_numbers("look_at", name, value, 3) for name, value in
               (("position", position), ("target", target), ("up", up))]

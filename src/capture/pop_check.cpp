@@ -35,8 +35,8 @@ void PopCheck::note(int frame, const FramePlan& plan) {
     const std::optional<HeldPlan> held = asBefore(plan, before);
     if (!held) return;
 
-    const Image image = displayColours(rendered(*renderer_, plan));
-    const Image step = differenceOf(image, displayColours(rendered(*renderer_, held->plan)));
+    const Image image = displayColours(imageOf(*renderer_, plan));
+    const Image step = differenceOf(image, displayColours(imageOf(*renderer_, held->plan)));
     const AovImages aovs = renderAovs(*world_, plan, shaderFolder_);
     const Image objects = objectPixels(aovs.level, aovs.coc);
     const ObjectPlan* worst = nullptr;
@@ -50,7 +50,7 @@ void PopCheck::note(int frame, const FramePlan& plan) {
     if (worst == nullptr) return;
     RenderSettings otherSeed = plan.settings;
     ++otherSeed.seed;
-    const Image other = displayColours(rendered(*renderer_, planFrame(*world_, plan.view, otherSeed)));
+    const Image other = displayColours(imageOf(*renderer_, planFrame(*world_, plan.view, otherSeed)));
     const Image pixels = pixelsOf({worst}, plan, objects);
     largest_->seedRmse = rootMeanSquare(differenceOf(image, other), &pixels);
 }

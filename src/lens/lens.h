@@ -38,7 +38,7 @@ struct Lens {
     double axialChromaticAberration = 0;  // dioptres between red and blue focus planes; > 0: red's is farther
     double astigmatism = 0;               // radial streak length in mm on the sensor at the edges; see aberrations.h
     double coma = 0;                      // comet tail length in mm on the sensor at the edges; > 0: outwards
-    std::shared_ptr<const Image> apertureImage;  // grey values: transmission; null: shape from the fields above
+    std::shared_ptr<const Image> apertureImage = {};  // grey values: transmission; null: shape from the fields above
 
     // Artistic controls of the blur; see circle_of_confusion.h.
     double foregroundLimit = std::numeric_limits<double>::infinity();  // max CoC in front of the focus plane, px

@@ -40,8 +40,8 @@ struct RendererOptions {
     std::uint32_t threads = 1;               // threads that draw (Method::usesThreads), each with a context of its own
     std::uint64_t pendingBytes = SubmissionPacer::defaultBytes;  // max memory of pending triangles of a software driver
     bool geometryShaderLayers = false;                           // true: always select layers in a geometry shader
-    std::filesystem::path shaderFolder;  // shaders in this folder replace embedded shaders; empty: none
-    MethodSettings settings;             // values of Method::settings; missing: default
+    std::filesystem::path shaderFolder = {};  // shaders in this folder replace embedded shaders; empty: none
+    MethodSettings settings = {};             // values of Method::settings; missing: default
 };
 
 // Features of the aperture that a method reproduces.

@@ -1,6 +1,5 @@
 #pragma once
-// Common interface of all methods. All commands draw a frame by this loop:
-//   renderer.start(plan); while (renderer.advance()) {} Image image = renderer.image();
+// Common interface of all methods.
 
 #include <cstdint>
 #include <optional>
@@ -105,5 +104,17 @@ public:
     // without OpenGL.
     [[nodiscard]] virtual const GlTexture* imageTexture() { return nullptr; }
 };
+
+inline void drawAllSamples(Renderer& renderer, const FramePlan& plan) {
+    renderer.start(plan);
+    while (renderer.advance()) {
+    }
+}
+
+// Draws all samples of the plan and returns the image.
+inline Image imageOf(Renderer& renderer, const FramePlan& plan) {
+    drawAllSamples(renderer, plan);
+    return renderer.image();
+}
 
 }  // namespace defocus::engine

@@ -47,18 +47,18 @@ struct TextureUse {
 };
 
 struct Material {
-    std::string name;
+    std::string name = {};
     glm::vec4 baseColorFactor{1.0f};  // linear colour, straight alpha
     float metallicFactor = 1.0f;
     float roughnessFactor = 1.0f;
     glm::vec3 emissiveFactor{0.0f};  // includes KHR_materials_emissive_strength
     float normalScale = 1.0f;
     float occlusionStrength = 1.0f;
-    TextureUse baseColor;          // sRGB-encoded
-    TextureUse metallicRoughness;  // linear texture; roughness in G, metalness in B
-    TextureUse normal;             // linear texture; normal in tangent space, +y up
-    TextureUse occlusion;          // linear texture, channel R
-    TextureUse emissive;           // sRGB-encoded
+    TextureUse baseColor = {};          // sRGB-encoded
+    TextureUse metallicRoughness = {};  // linear texture; roughness in G, metalness in B
+    TextureUse normal = {};             // linear texture; normal in tangent space, +y up
+    TextureUse occlusion = {};          // linear texture, channel R
+    TextureUse emissive = {};           // sRGB-encoded
     AlphaMode alphaMode = AlphaMode::opaque;
     float alphaCutoff = 0.5f;  // alpha below which AlphaMode::mask draws nothing
     bool doubleSided = false;
@@ -68,14 +68,14 @@ struct Material {
     float ior = 1.5f;  // index of refraction ≥ 1; 0: reflectance 1 at all angles
     float specularFactor = 1.0f;
     glm::vec3 specularColorFactor{1.0f};
-    TextureUse specular;       // linear texture, channel A
-    TextureUse specularColor;  // sRGB-encoded
+    TextureUse specular = {};       // linear texture, channel A
+    TextureUse specularColor = {};  // sRGB-encoded
 
     // KHR_materials_transmission and KHR_materials_volume.
     float transmissionFactor = 0.0f;
-    TextureUse transmission;       // linear texture, channel R
+    TextureUse transmission = {};  // linear texture, channel R
     float thicknessFactor = 0.0f;  // thickness in object units; 0: thin wall without refraction
-    TextureUse thickness;          // linear texture, channel G
+    TextureUse thickness = {};     // linear texture, channel G
     float attenuationDistance = std::numeric_limits<float>::infinity();  // distance in scene units; +∞: no absorption
     glm::vec3 attenuationColor{1.0f};
 
@@ -83,29 +83,29 @@ struct Material {
     float clearcoatFactor = 0.0f;
     float clearcoatRoughnessFactor = 0.0f;
     float clearcoatNormalScale = 1.0f;
-    TextureUse clearcoat;           // linear texture, channel R
-    TextureUse clearcoatRoughness;  // linear texture, channel G
-    TextureUse clearcoatNormal;     // linear texture like `normal`; without it, the coat uses the mesh normal
+    TextureUse clearcoat = {};           // linear texture, channel R
+    TextureUse clearcoatRoughness = {};  // linear texture, channel G
+    TextureUse clearcoatNormal = {};     // linear texture like `normal`; without it, the coat uses the mesh normal
 
     // KHR_materials_sheen.
     glm::vec3 sheenColorFactor{0.0f};
     float sheenRoughnessFactor = 0.0f;
-    TextureUse sheenColor;      // sRGB-encoded
-    TextureUse sheenRoughness;  // linear texture, channel A
+    TextureUse sheenColor = {};      // sRGB-encoded
+    TextureUse sheenRoughness = {};  // linear texture, channel A
 
     // KHR_materials_anisotropy. The rotation is the angle from the tangent to the direction of stretched highlights,
     // counter-clockwise.
     float anisotropyStrength = 0.0f;
     float anisotropyRotation = 0.0f;  // rad
-    TextureUse anisotropy;            // linear texture; direction in RG, strength in B
+    TextureUse anisotropy = {};       // linear texture; direction in RG, strength in B
 
     // KHR_materials_iridescence: a thin film on the surface.
     float iridescenceFactor = 0.0f;
     float iridescenceIor = 1.3f;                 // ≥ 1
     float iridescenceThicknessMinimum = 100.0f;  // nm
     float iridescenceThicknessMaximum = 400.0f;  // max thickness in nm; also the thickness without a texture
-    TextureUse iridescence;                      // linear texture, channel R
-    TextureUse iridescenceThickness;             // linear texture, channel G
+    TextureUse iridescence = {};                 // linear texture, channel R
+    TextureUse iridescenceThickness = {};        // linear texture, channel G
 
     // KHR_materials_dispersion: 20 divided by the Abbe number; 0: none.
     float dispersion = 0.0f;
@@ -113,8 +113,8 @@ struct Material {
     // KHR_materials_diffuse_transmission.
     float diffuseTransmissionFactor = 0.0f;
     glm::vec3 diffuseTransmissionColorFactor{1.0f};
-    TextureUse diffuseTransmission;       // linear texture, channel A
-    TextureUse diffuseTransmissionColor;  // sRGB-encoded
+    TextureUse diffuseTransmission = {};       // linear texture, channel A
+    TextureUse diffuseTransmissionColor = {};  // sRGB-encoded
 
     // Returns whether surfaces behind this material are visible through it by transmission.
     [[nodiscard]] bool transmits() const { return !unlit && transmissionFactor > 0; }

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "frame/driver/frame_driver.h"
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "small_world.h"
 
 namespace defocus::engine {
@@ -15,12 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Partial : public testing::Test {
+class Partial : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-
     void SetUp() override {
         std::string pattern = (fs::temp_directory_path() / "defocus-part-XXXXXX").string();
         ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
@@ -29,11 +25,7 @@ protected:
     void TearDown() override { fs::remove_all(folder_); }
 
     static RenderSettings settingsWith(LodMode mode) {
-        RenderSettings settings;
-        settings.sampleCount = 150;
-        settings.lod = mode;
-        settings.thresholds = {0.5, 2};
-        return settings;
+        return {.sampleCount = 150, .lod = mode, .thresholds = {0.5, 2}};
     }
 
     // Draws all samples, or only the samples in `range`. At most `wave` samples are drawn together (0: the default).
@@ -48,7 +40,6 @@ protected:
 
     fs::path folder_;
 };
-std::unique_ptr<GlContext> Partial::context_;
 
 TEST_F(Partial, mergedBlocksAreTheSingleRun) {
     const auto small = fiveSpheres();

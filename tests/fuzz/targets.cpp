@@ -256,8 +256,7 @@ void runImage(std::span<const std::byte> bytes) {
     try {
         const Image image = readImage(path);
         if (image.pixels.size() <= maxImagePixels) static_cast<void>(compareImages(image, image));
-        Lens lens;
-        lens.apertureImage = std::make_shared<const Image>(image);
+        const Lens lens{.apertureImage = std::make_shared<const Image>(image)};
         static_cast<void>(makeAperture(lens));
     } catch (const Error&) {
     }

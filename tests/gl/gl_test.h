@@ -6,7 +6,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,15 +13,13 @@
 #include "gl/fullscreen.h"
 #include "gl/read_back.h"
 #include "gl/target.h"
+#include "gl_context_test.h"
 #include "scratch_folder.h"
 
 namespace defocus::engine {
 
-class GlTest : public testing::Test {
+class GlTest : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
     void TearDown() override { EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR}); }
 
     void writeShader(const std::string& path, const std::string& text) const {
@@ -59,7 +56,6 @@ protected:
     [[nodiscard]] static const GlContext& context() { return *context_; }
 
 private:
-    static inline std::unique_ptr<GlContext> context_;
     ScratchFolder folder_;
 };
 

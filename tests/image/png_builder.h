@@ -30,6 +30,24 @@ inline void appendChunk(Bytes& png, const std::string& type, const Bytes& data) 
     appendBigEndian(png, ~crc);
 }
 
+// Returns the zlib stream with one stored block. The rows must be below 65,536 bytes.
+inline Bytes storedZlib(const Bytes& rows) {
+    Bytes zlib = {0x78, 0x01, 0x01};  // header, then one final stored block
+    const auto length = static_cast<std::uint16_t>(rows.size());
+    for (const std::uint16_t value : {length, static_cast<std::uint16_t>(~length)}) {
+        zlib.push_back(static_cast<std::uint8_t>(value & 0xff));
+        zlib.push_back(static_cast<std::uint8_t>(value >> 8));
+    }
+    zlib.insert(zlib.end(), rows.begin(), rows.end());
+    std::uint32_t a = 1, b = 0;  // the two sums of the Adler-32 checksum
+    for (const std::uint8_t byte : rows) {
+        a = (a + byte) % 65521;
+        b = (b + a) % 65521;
+    }
+    appendBigEndian(zlib, (b << 16) | a);
+    return zlib;
+}
+
 // Returns a PNG file. `samples`: the bytes of the rows without filter bytes; 16-bit samples are big-endian. Rows and
 // filter bytes together must be below 65,535 bytes.
 inline Bytes buildPng(int width, int height, int bits, PngColour colour, const Bytes& samples,
@@ -41,21 +59,6 @@ inline Bytes buildPng(int width, int height, int bits, PngColour colour, const B
         const auto first = samples.begin() + static_cast<std::ptrdiff_t>(rowLength) * y;
         rows.insert(rows.end(), first, first + static_cast<std::ptrdiff_t>(rowLength));
     }
-    const auto length = static_cast<std::uint16_t>(rows.size());
-    const auto complement = static_cast<std::uint16_t>(~length);
-    Bytes zlib = {0x78, 0x01, 0x01};  // header, then one final stored block
-    for (const std::uint16_t value : {length, complement}) {
-        zlib.push_back(static_cast<std::uint8_t>(value & 0xff));
-        zlib.push_back(static_cast<std::uint8_t>(value >> 8));
-    }
-    zlib.insert(zlib.end(), rows.begin(), rows.end());
-    std::uint32_t a = 1, b = 0;  // the two sums of the Adler-32 checksum
-    for (const std::uint8_t byte : rows) {
-        a = (a + byte) % 65521;
-        b = (b + a) % 65521;
-    }
-    appendBigEndian(zlib, (b << 16) | a);
-
     Bytes header;
     appendBigEndian(header, static_cast<std::uint32_t>(width));
     appendBigEndian(header, static_cast<std::uint32_t>(height));
@@ -65,7 +68,7 @@ inline Bytes buildPng(int width, int height, int bits, PngColour colour, const B
     Bytes png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
     appendChunk(png, "IHDR", header);
     if (!palette.empty()) appendChunk(png, "PLTE", palette);
-    appendChunk(png, "IDAT", zlib);
+    appendChunk(png, "IDAT", storedZlib(rows));
     appendChunk(png, "IEND", {});
     return png;
 }

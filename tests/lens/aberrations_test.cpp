@@ -12,11 +12,7 @@ namespace defocus::engine {
 namespace {
 
 ClipCircleOfConfusion aberratedLens(double astigmatism, double coma) {
-    Lens lens;
-    lens.fStop = 2;
-    lens.focusDistance = 2;
-    lens.astigmatism = astigmatism;
-    lens.coma = coma;
+    const Lens lens{.fStop = 2, .focusDistance = 2, .astigmatism = astigmatism, .coma = coma};
     return clipCircleOfConfusion(lens, 1200, 800);
 }
 

@@ -133,9 +133,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, ApertureOf, testing::ValuesIn(apertureShapes),
 // ---- aperture images
 
 Lens lensWith(Image image) {
-    Lens lens;
-    lens.apertureImage = std::make_shared<const Image>(std::move(image));
-    return lens;
+    return {.apertureImage = std::make_shared<const Image>(std::move(image))};
 }
 
 TEST(ApertureImage, passesLightWhereItIsBright) {

@@ -37,8 +37,7 @@ TEST(CameraLens, withoutAPhysicalCameraTheSensorIs36Wide) {
     camera.physical.reset();
     EXPECT_NEAR(fitted(camera, 1.5).focalLength, 50, 1e-12);
     EXPECT_NEAR(fitted(camera, 1).focalLength, 75, 1e-12) << "the same sensor width shows less of the scene";
-    Lens small;
-    small.horizontalAperture = 18;
+    const Lens small{.horizontalAperture = 18};
     EXPECT_NEAR(fitted(camera, 1.5, small, {"horizontalAperture"}).focalLength, 25, 1e-12);
 }
 
@@ -50,8 +49,7 @@ TEST(CameraLens, physicalCameraKeepsItsFocalLengthAndShowsAPartOfItsSensor) {
 }
 
 TEST(CameraLens, whatIsSetByNameWins) {
-    Lens lens;
-    lens.focalLength = 100;
+    Lens lens{.focalLength = 100};
     const Lens zoomed = fitted(physicalCamera(), 1.5, lens, {"focalLength"});
     EXPECT_EQ(zoomed.focalLength, 100);
     EXPECT_EQ(zoomed.horizontalAperture, 36) << "the sensor is still the file's";

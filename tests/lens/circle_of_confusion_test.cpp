@@ -14,10 +14,7 @@ namespace defocus::engine {
 namespace {
 
 Lens lensAt(double focusDistance) {
-    Lens lens;
-    lens.fStop = 1;
-    lens.focusDistance = focusDistance;
-    return lens;
+    return {.fStop = 1, .focusDistance = focusDistance};
 }
 
 // Returns a lens with a random subset of the blur controls.

@@ -14,12 +14,7 @@ namespace {
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 Lens lensOf(double focalLength, double fStop, double focusDistance, bool breathing) {
-    Lens lens;
-    lens.focalLength = focalLength;
-    lens.fStop = fStop;
-    lens.focusDistance = focusDistance;
-    lens.focusBreathing = breathing;
-    return lens;
+    return {.focalLength = focalLength, .fStop = fStop, .focusDistance = focusDistance, .focusBreathing = breathing};
 }
 
 // Returns the diameter of the blur disk on the sensor, mm, by Newton's and Gauss's equations, independent of the code
@@ -90,8 +85,7 @@ TEST(DepthOfField, focusedAtTheHyperfocalDistanceItReachesFromHalfOfItToInfinity
 }
 
 TEST(DepthOfField, ofAPinholeIsEverything) {
-    Lens lens;
-    lens.dofEnabled = false;
+    const Lens lens{.dofEnabled = false};
     const DepthOfField depth = depthOfField(lens, 0.03);
     EXPECT_EQ(depth.near, 0);
     EXPECT_TRUE(std::isinf(depth.far));

@@ -16,10 +16,8 @@ std::vector<LensSample> samplesOf(const Lens& lens, std::uint32_t count, Sequenc
 TEST(LensSamples, firstSampleIsThePinholeInTheMiddleOfTheShutter) {
     for (const Sequence sequence : allSequences)
         for (const int blades : {0, 3, 6}) {
-            Lens lens;
-            lens.bladeCount = blades;
-            lens.bladeCurvature = 0.4;
-            lens.sphericalAberration = blades == 6 ? 1 : 0;
+            const Lens lens{
+                .bladeCount = blades, .bladeCurvature = 0.4, .sphericalAberration = blades == 6 ? 1.0 : 0.0};
             const LensSample sample = samplesOf(lens, 1, sequence).front();
             EXPECT_NEAR(sample.lens.x, 0, 1e-4) << sequenceName(sequence);
             EXPECT_NEAR(sample.lens.y, 0, 1e-4) << sequenceName(sequence);

@@ -16,9 +16,7 @@ TEST(Lens, circleOfConfusionOfATextbookExample) {
     // A 50 mm lens at f/2 has an aperture diameter A = 25 mm, and tan(θx/2) = 36/100 for its horizontal field of view
     // θx. Focused at 2 m, in an image 1000 px wide, the blur of a point at 4 m is c = 0.025·(1/2 − 1/4)·1000/0.72 =
     // 8.6806 px.
-    Lens lens;
-    lens.fStop = 2;
-    lens.focusDistance = 2;
+    const Lens lens{.fStop = 2, .focusDistance = 2};
     const ClipCircleOfConfusion coc = clipCircleOfConfusion(lens, 1024, 768);
     EXPECT_NEAR(circleOfConfusion(coc, 4, 1000), 0.025 * 0.25 * 1000 / 0.72, 1e-12);
     EXPECT_NEAR(circleOfConfusion(coc, 1, 1000), -0.025 * 0.5 * 1000 / 0.72, 1e-12);
@@ -39,8 +37,7 @@ TEST(Lens, clipFormIsTheFormulaForEveryDepth) {
 }
 
 TEST(Lens, focusAtInfinityBlursTheForegroundOnly) {
-    Lens lens;
-    lens.focusDistance = std::numeric_limits<double>::infinity();
+    const Lens lens{.focusDistance = std::numeric_limits<double>::infinity()};
     const ClipCircleOfConfusion coc = clipCircleOfConfusion(lens, 1024, 768);
     EXPECT_EQ(circleOfConfusion(coc, std::numeric_limits<double>::infinity(), 1024), 0);
     EXPECT_LT(circleOfConfusion(coc, 10, 1024), 0);
@@ -50,9 +47,7 @@ TEST(Lens, focusBreathingIsTheThinLens) {
     // A thin lens of focal length f, focused at s, has the image distance i = f·s/(s − f). tan(θx/2) is half the width
     // of the sensor over i. On the sensor, the CoC at depth z is A·|z − s|/z · i/s, with the aperture diameter A. The
     // image has W/horizontalAperture px per mm of the sensor, with the image width W in px.
-    Lens lens;
-    lens.focusBreathing = true;
-    lens.focusDistance = 1;
+    const Lens lens{.focusDistance = 1, .focusBreathing = true};
     const double f = 0.05;
     const double i = f * 1 / (1 - f);
     const double A = apertureDiameter(lens);
@@ -72,15 +67,13 @@ TEST(Lens, rangeThatStraddlesFocusHasNoSmallestBlur) {
 }
 
 TEST(Lens, disabledDepthOfFieldIsAPinhole) {
-    Lens lens;
-    lens.dofEnabled = false;
+    const Lens lens{.dofEnabled = false};
     EXPECT_EQ(apertureDiameter(lens), 0);
     EXPECT_EQ(circleOfConfusion(clipCircleOfConfusion(lens, 1024, 768), 0.1, 1024), 0);
 }
 
 TEST(Lens, fieldOfViewAndFocalLengthAreInverses) {
-    Lens lens;
-    lens.focalLength = 85;
+    const Lens lens{.focalLength = 85};
     EXPECT_NEAR(focalLengthFromFov(tanHalfHorizontalFov(lens), lens.horizontalAperture), 85, 1e-12);
 }
 

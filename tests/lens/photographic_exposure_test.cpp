@@ -9,11 +9,7 @@ namespace defocus::engine {
 namespace {
 
 Lens exposed(double fStop, double time, double iso) {
-    Lens lens;
-    lens.fStop = fStop;
-    lens.exposureTime = time;
-    lens.iso = iso;
-    return lens;
+    return {.fStop = fStop, .exposureTime = time, .iso = iso};
 }
 
 TEST(PhotographicExposure, exposureValuesOfTheTables) {

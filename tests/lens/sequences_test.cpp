@@ -101,22 +101,15 @@ std::vector<glm::dvec2> pointsOf(Sequence sequence, std::uint32_t count, std::ui
 // Independent points err by about n^(−1/2), which exceeds any such bound.
 constexpr double maxError = 0.5;
 
-TEST(Sequences, everyPrefixAndSuffixCoversTheLens) {
-    const std::vector<Region> regions = halfPlanes();
-    for (const Sequence sequence : allSequences)
-        for (const std::uint32_t seed : {0u, 1u, 2u})
-            for (const std::uint32_t count : {64u, 128u, 200u, 1024u})
-                EXPECT_LT(worstPrefixOrSuffix(pointsOf(sequence, count, seed, true), regions), maxError)
-                    << sequenceName(sequence) << ", " << count << " points, seed " << seed;
-}
-
-TEST(Sequences, everyPrefixAndSuffixCoversThePixel) {
-    const std::vector<Region> regions = boxes();
-    for (const Sequence sequence : allSequences)
-        for (const std::uint32_t seed : {0u, 1u, 2u})
-            for (const std::uint32_t count : {64u, 128u, 200u, 1024u})
-                EXPECT_LT(worstPrefixOrSuffix(pointsOf(sequence, count, seed, false), regions), maxError)
-                    << sequenceName(sequence) << ", " << count << " points, seed " << seed;
+TEST(Sequences, everyPrefixAndSuffixCoversLensAndPixel) {
+    for (const bool ofLens : {true, false}) {
+        const std::vector<Region> regions = ofLens ? halfPlanes() : boxes();
+        for (const Sequence sequence : allSequences)
+            for (const std::uint32_t seed : {0u, 1u, 2u})
+                for (const std::uint32_t count : {64u, 128u, 200u, 1024u})
+                    EXPECT_LT(worstPrefixOrSuffix(pointsOf(sequence, count, seed, ofLens), regions), maxError)
+                        << sequenceName(sequence) << ", " << count << " points, seed " << seed;
+    }
 }
 
 // The points with even indices exceed the error bound of complete sequences, and so do independent points.

@@ -85,6 +85,21 @@ inline Mesh torus(std::uint32_t columns, std::uint32_t rows) {
     });
 }
 
+// Returns the mesh with tangents, a second set of texture coordinates, and colours and joints that differ between
+// vertices at the same position.
+inline Mesh decorated(Mesh mesh) {
+    const std::size_t count = mesh.vertices.count();
+    for (std::size_t v = 0; v < count; ++v) {
+        const auto byte = static_cast<std::uint8_t>(v % 251);
+        mesh.vertices.tangents.push_back({1, 0, 0, v % 2 == 0 ? 1.0f : -1.0f});
+        mesh.vertices.uv1.push_back(0.5f * mesh.vertices.uv0[v]);
+        mesh.vertices.colors.emplace_back(byte / 255.0f, 0.5f, 1, 1);
+        mesh.vertices.joints.push_back({byte, 0, 0, 0});
+        mesh.vertices.weights.push_back({1, 0, 0, 0});
+    }
+    return mesh;
+}
+
 // Returns the unit square at z = 0 in `cells` × `cells` quads.
 inline Mesh flatGrid(std::uint32_t cells) {
     return parametricSurface(cells, cells, [=](std::uint32_t i, std::uint32_t j) {

@@ -210,9 +210,7 @@ TEST(FramePlan, lambdaIsContinuousAlongADolly) {
 }
 
 TEST(FramePlan, measuredLevelsAreContinuousAlongADollyAndGrowWithBlur) {
-    RenderSettings settings;
-    settings.sampleCount = 64;
-    settings.metric = LodMetric::measured;
+    const RenderSettings settings{.sampleCount = 64, .metric = LodMetric::measured};
     const auto largestChange = [](const std::vector<DollyStep>& steps) {
         double largest = 0;
         for (std::size_t i = 1; i < steps.size(); ++i)
@@ -228,8 +226,7 @@ TEST(FramePlan, measuredLevelsAreContinuousAlongADollyAndGrowWithBlur) {
 
 TEST(FramePlan, moreSamplesMeanFinerMeasuredLevels) {
     const auto small = fiveSpheres();
-    RenderSettings settings;
-    settings.metric = LodMetric::measured;
+    RenderSettings settings{.metric = LodMetric::measured};
     double last = 100;
     for (const std::uint32_t samples : {4u, 64u, 1024u}) {
         settings.sampleCount = samples;
@@ -276,8 +273,7 @@ TEST(FramePlan, aThresholdOfTheirSizeChoosesLevelsBySizeAndNoneTheMeasuredOnes) 
 TEST(FramePlan, levelsByOneCauseAloneAreFiner) {
     const auto small = fiveSpheres();
     for (const LodMetric metric : {LodMetric::size, LodMetric::error, LodMetric::measured}) {
-        RenderSettings settings;
-        settings.metric = metric;
+        RenderSettings settings{.metric = metric};
         const auto lambdas = [&](LodCause cause) {
             settings.lodCause = cause;
             std::map<int, double> result;
@@ -336,8 +332,7 @@ TEST(PlanFrame, divisionsOfAFrameAreBounded) {
         small.view.lens.focusDistance = 2;
         small.view.lens.fStop = 1;
         small.view.lens.fieldCurvature = curvature;
-        RenderSettings settings;
-        settings.lod = LodMode::off;
+        const RenderSettings settings{.lod = LodMode::off};
         const FramePlan plan = planFrame(small.world, small.view, settings);
         EXPECT_EQ(plan.objects.at(0).maxParts, plan.objects.at(1).maxParts);
         EXPECT_EQ(plan.objects.at(0).refinement, Refinement::subdivide);

@@ -9,10 +9,7 @@
 namespace defocus::engine {
 
 inline RenderSettings settingsFor(std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.thresholds = {0.5, 2};
-    return settings;
+    return {.sampleCount = samples, .thresholds = {0.5, 2}};
 }
 
 // Returns whether an entry in the plan's list of omitted items contains `what`.

@@ -27,11 +27,7 @@ Drawn drawnAt(const ObjectPlan& object, std::uint32_t sample) {
 TEST(SampleRange, eachSampleIsDrawnAsInTheWholeFrame) {
     const auto small = fiveSpheres();
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous, LodMode::nearest, LodMode::off}) {
-        RenderSettings settings;
-        settings.sampleCount = 150;
-        settings.lod = mode;
-        settings.seed = 5;
-        settings.thresholds = {0.5, 2};
+        const RenderSettings settings{.sampleCount = 150, .seed = 5, .lod = mode, .thresholds = {0.5, 2}};
         const FramePlan full = planFrame(small->world, small->view, settings);
         std::uint64_t triangles = 0;
         for (const auto& [first, count] : {std::pair(0u, 64u), std::pair(64u, 64u), std::pair(128u, 22u)}) {

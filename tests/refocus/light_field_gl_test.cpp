@@ -7,7 +7,7 @@
 #include "plan/frame_plan.h"
 #include "refocus/focal_stack.h"
 #include "refocus/lens_images.h"
-#include "render/methods.h"
+#include "render/rendered.h"
 
 namespace defocus::engine {
 namespace {
@@ -27,11 +27,8 @@ TEST_F(LightFieldTest, atTheRenderedFocusHasTheBitsOfAccumulation) {
     RenderSettings settings = frame.settings;
     settings.refocus = info.range;
     const FramePlan plan = planFrame(frame.world, withMargin(frame.view, info.size.margin), settings);
-    const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(frame.world, {});
-    renderer->start(plan);
-    while (renderer->advance()) {
-    }
-    EXPECT_EQ(refocused(field, asRendered(info)).pixels, within(renderer->image(), info.size.margin).pixels);
+    const Image image = imageOf(*methodNamed("accumulation").make(frame.world, {}), plan);
+    EXPECT_EQ(refocused(field, asRendered(info)).pixels, within(image, info.size.margin).pixels);
 }
 
 // A point p of the wide lens is the point 2·p of a lens that is closed by two stops.
@@ -54,12 +51,9 @@ TEST_F(LightFieldTest, stoppingDownIsARenderOfTheRemainingSamples) {
     settings.sampleCount = static_cast<std::uint32_t>(remaining.size());
     FramePlan plan = planFrame(frame.world, withMargin(frame.view, field.info().size.margin), settings);
     plan.samples = remaining;
-    const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(frame.world, {});
-    renderer->start(plan);
-    while (renderer->advance()) {
-    }
+    const Image image = imageOf(*methodNamed("accumulation").make(frame.world, {}), plan);
     EXPECT_NEAR(static_cast<double>(remaining.size()), 64, 3);
-    EXPECT_GT(compareImages(within(renderer->image(), field.info().size.margin), stopped).psnr, 60);
+    EXPECT_GT(compareImages(within(image, field.info().size.margin), stopped).psnr, 60);
 }
 
 TEST_F(LightFieldTest, findsTheFocusOfAPixel) {

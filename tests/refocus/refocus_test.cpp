@@ -94,8 +94,7 @@ TEST(Refocus, levelsSuitTheSharpestFocusOfTheRange) {
     const auto small = fiveSpheres();
     const auto lambdaOfFarSphere = [&](double focus, std::optional<FocusRange> range) {
         small->view.lens.focusDistance = focus;
-        RenderSettings settings;
-        settings.refocus = range;
+        const RenderSettings settings{.refocus = range};
         const FramePlan plan = planFrame(small->world, small->view, settings);
         return std::ranges::find(plan.objects, "Object 3", &ObjectPlan::name)->lambda;
     };

@@ -7,21 +7,15 @@
 
 #include "bokeh.h"
 #include "core/error.h"
-#include "gl/context.h"
 #include "gl_conduct.h"
+#include "gl_context_test.h"
 #include "lens/aberrations.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
 namespace {
 
-class Aberrations : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> Aberrations::context_;
+using Aberrations = GlContextTest;
 
 View viewOf(double astigmatism, double coma) {
     View view;
@@ -35,11 +29,8 @@ View viewOf(double astigmatism, double coma) {
 }
 
 RenderSettings fullDetail(std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    settings.keepAll = true;  // by default, a pinhole image uses fewer samples
-    return settings;
+    // keepAll: by default, a pinhole image uses fewer samples
+    return {.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
 }
 
 // The image of a bright point of 2 × 2 px: its energy, its centre in px, and its second moments about the centre in
@@ -55,10 +46,9 @@ Spot spotAt(const View& view, const glm::dvec2& place, double depth, const char*
         rectangleScene(view, {{place.x - 1, place.y - 1, place.x + 1, place.y + 1, depth}}, glm::vec3(50));
     World world = flatWorld(scene, blackBackground());
     world.pyramids = buildPyramids(scene.meshes);
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const auto renderer = methodNamed(method).make(world, options);
-    const Image image = renderedImage(*renderer, planFrame(world, view, fullDetail(4096)));
+    const Image image = imageOf(*renderer, planFrame(world, view, fullDetail(4096)));
     Spot spot;
     const auto sum = [&](const auto& add) {
         for (int y = 0; y < image.height; ++y)
@@ -156,10 +146,9 @@ TEST_F(Aberrations, skyIsSeenThroughThem) {
     gradient.nadir = glm::vec3(1);
     const World world = flatWorld(empty, gradient);
     const FramePlan plan = planFrame(world, view, fullDetail(64));
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const auto renderer = methodNamed("accumulation").make(world, options);
-    const Image image = renderedImage(*renderer, plan);
+    const Image image = imageOf(*renderer, plan);
     const double tanX = tanHalfHorizontalFov(view.lens);
     double moved = 0;
     for (int row = 0; row < view.height; row += 17)

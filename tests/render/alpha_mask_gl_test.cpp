@@ -27,9 +27,7 @@ Texel cutTexel(int column, int row) {
 
 // Returns an unlit, 2 m wide wall on a transparent background, at the distance where it is about `pixels` px wide.
 std::unique_ptr<SmallWorld> cutWall(double pixels) {
-    Material material;
-    material.unlit = true;
-    material.alphaMode = AlphaMode::mask;
+    const Material material{.alphaMode = AlphaMode::mask, .unlit = true};
     auto small = litWall(material);
     small->scene.materials[0].baseColor.texture = addTexture(small->scene, cutTexels, cutTexel);
     small->scene.textures[0].minification = small->scene.textures[0].magnification = Filter::linear;
@@ -44,10 +42,7 @@ std::unique_ptr<SmallWorld> cutWall(double pixels) {
 }
 
 Image cutImage(const SmallWorld& small, std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    settings.keepAll = true;
+    const RenderSettings settings{.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
     return imageInFloats(small.world, planFrame(small.world, small.view, settings));
 }
 

@@ -4,21 +4,17 @@
 
 #include "aperture_shapes.h"
 #include "bokeh.h"
-#include "gl/context.h"
 #include "gl_conduct.h"
+#include "gl_context_test.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
 namespace {
 
-class ApertureBokeh : public testing::Test {
+class ApertureBokeh : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
-    static std::unique_ptr<GlContext> context_;
 };
-std::unique_ptr<GlContext> ApertureBokeh::context_;
 
 constexpr double square = 5;  // side of the bright square, px
 constexpr double energy = 2500;
@@ -38,13 +34,10 @@ Image bokehOf(const View& view) {
                                        glm::vec3(static_cast<float>(energy / (square * square))));
     World world = flatWorld(scene, blackBackground());
     world.pyramids.push_back(fullDetail(scene.meshes.front()));
-    RenderSettings settings;
-    settings.sampleCount = 1024;
-    settings.lod = LodMode::off;
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
+    const RenderSettings settings{.sampleCount = 1024, .lod = LodMode::off};
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const auto renderer = methodNamed("accumulation").make(world, options);
-    return renderedImage(*renderer, planFrame(world, view, settings));
+    return imageOf(*renderer, planFrame(world, view, settings));
 }
 
 void expectBokeh(const View& view, const std::string& name) {

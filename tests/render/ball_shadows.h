@@ -13,7 +13,8 @@
 #include "gl/context.h"
 #include "gl_conduct.h"
 #include "image/metrics.h"
-#include "render/methods.h"
+#include "likeness.h"
+#include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus::engine {
@@ -24,20 +25,15 @@ protected:
 
     static std::unique_ptr<SmallWorld> ballBeforeAWall() {
         auto small = std::make_unique<SmallWorld>();
-        Material matt;
-        matt.metallicFactor = 0;
-        matt.specularFactor = 0;
+        const Material matt{.metallicFactor = 0, .specularFactor = 0};
         small->scene.materials.push_back(matt);
         small->scene.meshes.push_back(quad(0));
         small->scene.meshes.push_back(bumpySphere(96, 64, 0));
         small->scene.meshes.back().vertices.colors.clear();
         place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {0, 0, -5}), glm::dvec3(4)));
         place(*small, 1, glm::scale(glm::translate(glm::dmat4(1), {0.5, 0.2, -3.5}), glm::dvec3(0.5)));
-        PlacedLight sun;
-        sun.light.intensity = 3;
-        sun.light.angularDiameter = 0.15f;
-        sun.direction = glm::normalize(glm::dvec3(-0.6, -0.3, -1));
-        small->world.lights.push_back(sun);
+        small->world.lights = {sunFrom({-0.6, -0.3, -1}, 3)};
+        small->world.lights[0].light.angularDiameter = 0.15f;
         small->world.environment = {EnvironmentType::uniform, {}, {}, {}, nullptr, 1};
         small->view.width = 256;
         small->view.height = 192;
@@ -48,21 +44,8 @@ protected:
     }
 
     static Image drawn(const SmallWorld& small, Renderer& renderer, Shadows shadows, std::uint32_t samples) {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        settings.lod = LodMode::off;
-        settings.shadows = shadows;
-        renderer.start(planFrame(small.world, small.view, settings));
-        while (renderer.advance()) {
-        }
-        return renderer.image();
-    }
-
-    static double meanRed(const Image& image) {
-        double sum = 0;
-        for (int y = 0; y < image.height; ++y)
-            for (int x = 0; x < image.width; ++x) sum += static_cast<double>(image.at(x, y)[0]);
-        return sum / (static_cast<double>(image.width) * image.height);
+        const RenderSettings settings{.sampleCount = samples, .lod = LodMode::off, .shadows = shadows};
+        return imageOf(renderer, planFrame(small.world, small.view, settings));
     }
 
     static void expectTheSameShadows(const SmallWorld& small, std::uint32_t samples, double minPsnr) {

@@ -8,8 +8,10 @@
 #include <random>
 
 #include "gl/context.h"
+#include "gl_context_test.h"
 #include "image/metrics.h"
 #include "lens/circle_of_confusion.h"
+#include "likeness.h"
 #include "render/aov/aov.h"
 #include "render/methods.h"
 #include "render/rendered.h"
@@ -18,31 +20,14 @@
 namespace defocus::engine {
 namespace {
 
-class CocControls : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> CocControls::context_;
+using CocControls = GlContextTest;
 
 Image rendered(const SmallWorld& small, std::uint32_t samples, double tolerance = 0.5,
                const char* method = "accumulation") {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    settings.cocTolerance = tolerance;
-    settings.keepAll = true;  // by default, a pinhole image uses fewer samples
+    // keepAll: by default, a pinhole image uses fewer samples
+    const RenderSettings settings{
+        .sampleCount = samples, .lod = LodMode::off, .cocTolerance = tolerance, .keepAll = true};
     return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
-}
-
-double rootMeanSquare(const Image& a, const Image& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-        const double difference = double(a.pixels[i]) - double(b.pixels[i]);
-        sum += difference * difference;
-    }
-    return std::sqrt(sum / static_cast<double>(a.pixels.size()));
 }
 
 // Returns a checkered floor 0.5 m below the camera, from `begin` to `end` m in front of it. It has `cells` × `cells`
@@ -69,19 +54,14 @@ std::unique_ptr<SmallWorld> checkeredFloor(int cells, double begin, double end) 
 
     Mesh mesh;
     mesh.name = "floor";
-    Primitive primitive{0, {}};
     for (int y = 0; y <= cells; ++y)
         for (int x = 0; x <= cells; ++x) {
             const glm::dvec2 part = glm::dvec2(x, y) / double(cells);
             mesh.vertices.positions.emplace_back(-2.5 + 5 * part.x, -0.5, -(begin + (end - begin) * part.y));
             mesh.vertices.normals.emplace_back(0, 1, 0);
             mesh.vertices.uv0.emplace_back(part);
-            if (x == cells || y == cells) continue;
-            const auto first = static_cast<std::uint32_t>(y * (cells + 1) + x);
-            const auto next = first + static_cast<std::uint32_t>(cells) + 1;
-            primitive.indices.insert(primitive.indices.end(), {first, first + 1, next, first + 1, next + 1, next});
         }
-    mesh.primitives.push_back(primitive);
+    mesh.primitives.push_back({0, gridIndices(static_cast<std::uint32_t>(cells))});
     small->scene.meshes.push_back(mesh);
     place(*small, 0, glm::dmat4(1));
     small->world.pyramids.push_back(fullDetail(small->scene.meshes[0]));
@@ -129,9 +109,7 @@ std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end
 TEST_F(CocControls, dividedTrianglesNeedNoCuts) {
     const auto floor = checkeredFloor(3, 2, 12);
     floor->view.lens.fieldCurvature = 0.5;
-    RenderSettings settings;
-    settings.sampleCount = 16;
-    settings.lod = LodMode::off;
+    const RenderSettings settings{.sampleCount = 16, .lod = LodMode::off};
     FramePlan plan = planFrame(floor->world, floor->view, settings);
     ASSERT_EQ(plan.objects.at(0).refinement, Refinement::subdivide);
     ASSERT_FALSE(plan.objects[0].cuts);
@@ -143,10 +121,7 @@ TEST_F(CocControls, dividedTrianglesNeedNoCuts) {
 TEST_F(CocControls, maxPartsBoundTheDivision) {
     const auto floor = checkeredFloor(3, 2, 12);
     floor->view.lens.fieldCurvature = 2;
-    RenderSettings settings;
-    settings.sampleCount = 16;
-    settings.lod = LodMode::off;
-    settings.cocTolerance = 0.05;
+    const RenderSettings settings{.sampleCount = 16, .lod = LodMode::off, .cocTolerance = 0.05};
     FramePlan plan = planFrame(floor->world, floor->view, settings);
     EXPECT_EQ(plan.objects.at(0).maxParts, maxEdgeParts);
     const Image whole = imageInFloats(floor->world, plan);
@@ -257,16 +232,23 @@ Image part(const Image& image, int third) {
     return result;
 }
 
-TEST_F(CocControls, limitInFrontLeavesFocusAndBackground) {
-    const auto small = threePatches();
-    const Image before = rendered(*small, 64);
-    small->view.lens.foregroundLimit = 0;
-    const Image after = rendered(*small, 64);
+// Sets a foreground limit of zero. Expects that only the patch in front changes, and that it has no blur. Returns the
+// pinhole image.
+Image expectLimitInFront(SmallWorld& small) {
+    const Image before = rendered(small, 64);
+    small.view.lens.foregroundLimit = 0;
+    const Image after = rendered(small, 64);
     EXPECT_LT(rootMeanSquare(part(before, 1), part(after, 1)), 1e-6);
     EXPECT_LT(rootMeanSquare(part(before, 2), part(after, 2)), 1e-6);
     EXPECT_GT(rootMeanSquare(part(before, 0), part(after, 0)), 0.02);
-    small->view.lens.dofEnabled = false;
-    EXPECT_LT(rootMeanSquare(part(after, 0), part(rendered(*small, 64), 0)), 1e-5) << "no blur is left in front";
+    small.view.lens.dofEnabled = false;
+    Image pinhole = rendered(small, 64);
+    EXPECT_LT(rootMeanSquare(part(after, 0), part(pinhole, 0)), 1e-5) << "no blur is left in front";
+    return pinhole;
+}
+
+TEST_F(CocControls, limitInFrontLeavesFocusAndBackground) {
+    expectLimitInFront(*threePatches());
 }
 
 TEST_F(CocControls, limitBehindLeavesFocusAndForeground) {
@@ -280,34 +262,23 @@ TEST_F(CocControls, limitBehindLeavesFocusAndForeground) {
 }
 
 // Between the camera and the focus range, the blur equals that of a lens focused at the near end. Behind the range, the
-// blur equals that of a lens focused at the far end, with the aperture multiplied by the far end's distance over the
-// focus distance.
+// blur equals that of a lens focused at the far end. If the range refocuses, the aperture is unchanged; else it is
+// multiplied by the far end's distance over the focus distance.
 TEST_F(CocControls, focusRangePreservesNearAndFarBlur) {
-    const auto small = threePatches();
-    small->view.lens.focusRangeFront = 0.5;
-    small->view.lens.focusRangeBehind = 2;
-    const Image range = rendered(*small, 64);
-    small->view.lens.focusRangeFront = small->view.lens.focusRangeBehind = 0;
-    small->view.lens.focusDistance = 2;
-    EXPECT_LT(rootMeanSquare(part(range, 0), part(rendered(*small, 64), 0)), 1e-4);
-    small->view.lens.focusDistance = 4.5;
-    small->view.lens.fStop /= 4.5 / 2.5;
-    EXPECT_LT(rootMeanSquare(part(range, 2), part(rendered(*small, 64), 2)), 1e-4);
-}
-
-// If a focus range refocuses, the blur in front of it equals that of a lens focused at its near end, and the blur
-// behind it that of a lens focused at its far end. The aperture is unchanged.
-TEST_F(CocControls, focusRangeRefocusesAtItsEnds) {
-    const auto small = threePatches();
-    small->view.lens.focusRangeFront = 0.5;
-    small->view.lens.focusRangeBehind = 2;
-    small->view.lens.focusRangeRefocuses = true;
-    const Image range = rendered(*small, 64);
-    small->view.lens.focusRangeFront = small->view.lens.focusRangeBehind = 0;
-    small->view.lens.focusDistance = 2;
-    EXPECT_LT(rootMeanSquare(part(range, 0), part(rendered(*small, 64), 0)), 1e-4);
-    small->view.lens.focusDistance = 4.5;
-    EXPECT_LT(rootMeanSquare(part(range, 2), part(rendered(*small, 64), 2)), 1e-4);
+    for (const bool refocuses : {false, true}) {
+        const auto small = threePatches();
+        Lens& lens = small->view.lens;
+        lens.focusRangeFront = 0.5;
+        lens.focusRangeBehind = 2;
+        lens.focusRangeRefocuses = refocuses;
+        const Image range = rendered(*small, 64);
+        lens.focusRangeFront = lens.focusRangeBehind = 0;
+        lens.focusDistance = 2;
+        EXPECT_LT(rootMeanSquare(part(range, 0), part(rendered(*small, 64), 0)), 1e-4) << refocuses;
+        lens.focusDistance = 4.5;
+        if (!refocuses) lens.fStop /= 4.5 / 2.5;
+        EXPECT_LT(rootMeanSquare(part(range, 2), part(rendered(*small, 64), 2)), 1e-4) << refocuses;
+    }
 }
 
 TEST_F(CocControls, focusRangeIsSharpAsAPinhole) {
@@ -334,15 +305,7 @@ TEST_F(CocControls, limitInFrontLeavesTheMotion) {
             glm::dmat4& matrix = small->world.shutter.poses[i].objects[object].worldFromObject;
             matrix[3] += glm::dvec4((i == 0 ? -0.015 : 0.015) * -matrix[3].z, 0, 0, 0);
         }
-    const Image before = rendered(*small, 64);
-    small->view.lens.foregroundLimit = 0;
-    const Image after = rendered(*small, 64);
-    EXPECT_LT(rootMeanSquare(part(before, 1), part(after, 1)), 1e-6);
-    EXPECT_LT(rootMeanSquare(part(before, 2), part(after, 2)), 1e-6);
-    EXPECT_GT(rootMeanSquare(part(before, 0), part(after, 0)), 0.02);
-    small->view.lens.dofEnabled = false;
-    const Image pinhole = rendered(*small, 64);
-    EXPECT_LT(rootMeanSquare(part(after, 0), part(pinhole, 0)), 1e-5);
+    const Image pinhole = expectLimitInFront(*small);
     small->world.shutter.poses.clear();
     EXPECT_GT(rootMeanSquare(part(rendered(*small, 64), 0), part(pinhole, 0)), 0.02) << "the patch moves";
 }

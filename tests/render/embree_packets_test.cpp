@@ -20,7 +20,7 @@ Image tracedImage(const Scene& scene, const View& view, std::uint32_t samples) {
     FramePlan plan;
     plan.view = view;
     plan.settings.sampleCount = samples;
-    return renderedImage(*makeEmbreeRenderer(world), plan);
+    return imageOf(*makeEmbreeRenderer(world), plan);
 }
 
 TEST(EmbreePacketSamples, areThePointsOfTheirStreams) {
@@ -47,10 +47,7 @@ TEST(EmbreePacketSamples, areThePointsOfTheirStreams) {
 TEST(EmbreePacketSamples, apertureIsThatOfSinglePoints) {
     for (const int blades : {0, 3, 6, 64}) {
         for (const double ratio : {0.5, 1.0, 2.0}) {
-            Lens lens;
-            lens.bladeCount = blades;
-            lens.bladeRotation = 0.4;
-            lens.anamorphicRatio = ratio;
+            const Lens lens{.bladeCount = blades, .bladeRotation = 0.4, .anamorphicRatio = ratio};
             const ApertureMap map(lens);
             for (int step = 0; step <= 64; ++step) {
                 FloatLanes x;

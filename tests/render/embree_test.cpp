@@ -293,7 +293,7 @@ TEST(EmbreePlanned, SamplePointsAreThoseOfThePlan) {
     sample.lens = glm::vec2(4 / radius, 6 / radius);
     sample.pixel = glm::vec2(0.4f, -0.4f);
     plan.samples = {sample};
-    const Moments moments = momentsOf(renderedImage(*makeEmbreeRenderer(world, EmbreeSampling::planned), plan));
+    const Moments moments = momentsOf(imageOf(*makeEmbreeRenderer(world, EmbreeSampling::planned), plan));
     EXPECT_DOUBLE_EQ(moments.mean.x, 31.5 + 4);
     EXPECT_DOUBLE_EQ(moments.mean.y, 21.5 - 6);
     sample.pixel = glm::vec2(0.4f, 0.4f);
@@ -301,12 +301,12 @@ TEST(EmbreePlanned, SamplePointsAreThoseOfThePlan) {
     // offset of −0.4.
     sample.lens = glm::vec2(4.2 / radius, 6.2 / radius);
     plan.samples = {sample};
-    const Moments further = momentsOf(renderedImage(*makeEmbreeRenderer(world, EmbreeSampling::planned), plan));
+    const Moments further = momentsOf(imageOf(*makeEmbreeRenderer(world, EmbreeSampling::planned), plan));
     EXPECT_DOUBLE_EQ(further.mean.x, 31.5 + 4);
     EXPECT_DOUBLE_EQ(further.mean.y, 21.5 - 6);
     sample.pixel = glm::vec2(-0.4f, -0.4f);
     plan.samples = {sample};
-    const Moments across = momentsOf(renderedImage(*makeEmbreeRenderer(world, EmbreeSampling::planned), plan));
+    const Moments across = momentsOf(imageOf(*makeEmbreeRenderer(world, EmbreeSampling::planned), plan));
     EXPECT_DOUBLE_EQ(across.mean.x, 31.5 + 5);
     EXPECT_DOUBLE_EQ(across.mean.y, 21.5 - 7);
 }
@@ -323,7 +323,7 @@ TEST(EmbreeLambert, RadianceIsAlbedoTimesIlluminanceOverPi) {
     // direction of the light, 60° from the surface's normal
     sun.direction = glm::normalize(glm::dvec3(std::sqrt(3.0), 0, -1));
     world.lights.push_back(sun);
-    const Image image = renderedImage(*makeEmbreeRenderer(world), planOf(view, 1));
+    const Image image = imageOf(*makeEmbreeRenderer(world), planOf(view, 1));
     EXPECT_NEAR(*image.at(16, 16), 0.5 * 4 * 0.5 / std::numbers::pi, 1e-6);
 }
 
@@ -378,7 +378,7 @@ TEST(EmbreeMethods, AreInTheTableOnceRegistered) {
         EXPECT_FALSE(methodNamed(name).needsGl);
         EXPECT_FALSE(methodNamed(name).shadesAsLit);
         EXPECT_FALSE(methodNamed(name).drawsMotion);
-        EXPECT_EQ(*renderedImage(*methodNamed(name).make(world, {}), plan).at(4, 4), 1) << name;
+        EXPECT_EQ(*imageOf(*methodNamed(name).make(world, {}), plan).at(4, 4), 1) << name;
         EXPECT_EQ(std::count_if(methods().begin(), methods().end(), [&](const Method& m) { return m.name == name; }),
                   1);
     }

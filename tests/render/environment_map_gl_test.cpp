@@ -94,8 +94,7 @@ double shareOfMattPart(Material material, const glm::dmat4& turn) {
 TEST_F(EnvironmentMaps, aMattWallGathersTheHemisphereBeforeIt) {
     for (const glm::dmat4& turn : turns())
         for (const float lighting : {1.0f, 0.5f}) {
-            Material white;
-            white.metallicFactor = 0;
+            const Material white{.metallicFactor = 0};
             Material black = white;
             black.baseColorFactor = {0, 0, 0, 1};
             const auto small = turnedWall(white, turn);
@@ -115,8 +114,7 @@ TEST_F(EnvironmentMaps, aMattWallGathersTheHemisphereBeforeIt) {
 // A smooth white metal shows the radiance from the mirrored direction.
 TEST_F(EnvironmentMaps, aMirrorShowsTheMirroredDirection) {
     for (const glm::dmat4& turn : turns()) {
-        Material mirror;
-        mirror.roughnessFactor = 0;
+        const Material mirror{.roughnessFactor = 0};
         const auto small = turnedWall(mirror, turn);
         small->world.environment = mapEnvironment();
         const Image image = wallImage(*small);
@@ -141,8 +139,7 @@ TEST_F(EnvironmentMaps, aMattWallUnderAGradientGathersItsHemisphere) {
         return glm::mix(glm::dvec3(sky.horizon), pole, std::abs(height));
     };
     for (const glm::dmat4& turn : turns()) {
-        Material white;
-        white.metallicFactor = 0;
+        const Material white{.metallicFactor = 0};
         Material black = white;
         black.baseColorFactor = {0, 0, 0, 1};
         const auto small = turnedWall(white, turn);

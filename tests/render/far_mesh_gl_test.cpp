@@ -53,9 +53,7 @@ std::unique_ptr<SmallWorld> shiftedBoard(const glm::vec3& offset, bool morphed) 
 
 Image shiftedImage(SmallWorld& small, double cameraX) {
     small.view.worldFromCamera = glm::translate(glm::dmat4(1), glm::dvec3(cameraX, 0, 0));
-    RenderSettings settings;
-    settings.sampleCount = 16;
-    settings.lod = LodMode::off;
+    const RenderSettings settings{.sampleCount = 16, .lod = LodMode::off};
     return imageInFloats(small.world, planFrame(small.world, small.view, settings));
 }
 

@@ -14,23 +14,13 @@ protected:
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
 };
 
-// Returns a wall that fills the frame. The angle between its normal and the view axis has approximately the given
-// cosine.
-std::unique_ptr<SmallWorld> furnaceWall(const Material& material, double cosine) {
-    auto small = litWall(material);
-    const glm::dmat4 turned = glm::rotate(small->world.pose.objects[0].worldFromObject, std::acos(cosine), {0, 1, 0});
-    small->world.pose.objects[0].worldFromObject = glm::scale(turned, glm::dvec3(1000));
-    small->world.environment.zenith = glm::vec3(1);
-    return small;
-}
-
 struct Extremes {
     double min = 1e9;
     double max = -1e9;
 };
 
 Extremes furnaceRadiance(const Material& material, double cosine) {
-    const Image image = wallImage(*furnaceWall(material, cosine));
+    const Image image = furnaceImage(material, cosine);
     Extremes extremes;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
@@ -42,11 +32,7 @@ Extremes furnaceRadiance(const Material& material, double cosine) {
 }
 
 Material furnaceMaterial(float base, float metallic, float roughness) {
-    Material material;
-    material.baseColorFactor = {base, base, base, 1};
-    material.metallicFactor = metallic;
-    material.roughnessFactor = roughness;
-    return material;
+    return {.baseColorFactor = {base, base, base, 1}, .metallicFactor = metallic, .roughnessFactor = roughness};
 }
 
 constexpr double rounding = 1e-5;

@@ -8,11 +8,7 @@ namespace defocus::engine {
 class Transmission : public LitWall {
 protected:
     static Material glass(float roughness = 0) {
-        Material result;
-        result.metallicFactor = 0;
-        result.roughnessFactor = roughness;
-        result.transmissionFactor = 1;
-        return result;
+        return {.metallicFactor = 0, .roughnessFactor = roughness, .transmissionFactor = 1};
     }
 
     // Returns a material of glass that reflects nothing and colours transmitted light by `tint`.
@@ -36,11 +32,8 @@ protected:
     }
 
     static Image drawnBy(const char* method, const SmallWorld& small, std::uint32_t samples) {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        settings.lod = LodMode::off;
-        RendererOptions options;
-        options.layerFormat = LayerFormat::rgba32f;
+        RenderSettings settings{.sampleCount = samples, .lod = LodMode::off};
+        RendererOptions options{.layerFormat = LayerFormat::rgba32f};
         const MethodUse use = parseMethodUse(method);
         options.settings = use.settings;
         return imageOf(*use.method->make(small.world, options), planFrame(small.world, small.view, settings));

@@ -3,29 +3,23 @@
 
 #include <gtest/gtest.h>
 
-#include "gl/context.h"
+#include "gl_context_test.h"
+#include "likeness.h"
 #include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus::engine {
 namespace {
 
-class Glints : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
-};
+using Glints = GlContextTest;
 
 // Returns a ball about 40 px across with ripples that are 5 to 10 px long.
 std::unique_ptr<SmallWorld> rippledBall(float roughness, float metallic) {
     auto small = std::make_unique<SmallWorld>();
-    Material glossy;
-    glossy.baseColorFactor = metallic > 0 ? glm::vec4(0.8f, 0.8f, 0.8f, 1) : glm::vec4(0.02f, 0.02f, 0.02f, 1);
-    glossy.metallicFactor = metallic;
-    glossy.roughnessFactor = roughness;
+    const Material glossy{
+        .baseColorFactor = metallic > 0 ? glm::vec4(0.8f, 0.8f, 0.8f, 1) : glm::vec4(0.02f, 0.02f, 0.02f, 1),
+        .metallicFactor = metallic,
+        .roughnessFactor = roughness};
     small->scene.materials.push_back(glossy);
     small->scene.meshes.push_back(bumpySphere(112, 88, 0));
     small->scene.meshes.back().vertices.colors.clear();
@@ -38,13 +32,6 @@ std::unique_ptr<SmallWorld> rippledBall(float roughness, float metallic) {
     return small;
 }
 
-PlacedLight sun(const glm::dvec3& direction, float intensity) {
-    PlacedLight placed;
-    placed.light.intensity = intensity;
-    placed.direction = glm::normalize(direction);
-    return placed;
-}
-
 // Returns suns in all directions, evenly on a spiral from pole to pole (Vogel 1979). Each value of `set` gives all suns
 // another offset. With a single sun, the result would depend on the positions of the ripples' caustics.
 std::vector<PlacedLight> sunsAllAround(std::uint32_t set) {
@@ -54,7 +41,7 @@ std::vector<PlacedLight> sunsAllAround(std::uint32_t set) {
         const double height = 1 - 2 * (i + radicalInverse(2, set)) / count;
         const double azimuth = 2 * std::numbers::pi * ((2 - std::numbers::phi) * i + radicalInverse(3, set));
         const double radius = std::sqrt(1 - height * height);
-        suns.push_back(sun({radius * std::cos(azimuth), height, radius * std::sin(azimuth)}, 0.5f));
+        suns.push_back(sunFrom({radius * std::cos(azimuth), height, radius * std::sin(azimuth)}, 0.5f));
     }
     return suns;
 }
@@ -62,19 +49,9 @@ std::vector<PlacedLight> sunsAllAround(std::uint32_t set) {
 // Renders the ball with or without the filter that spreads glints. The filter acts on a frame's first samples only, so
 // unfiltered images use sample indices from 2²⁰ on.
 Image ballImage(const SmallWorld& small, std::uint32_t samples, bool filtered) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.firstSample = filtered ? 0 : 1u << 20;
-    settings.keepAll = true;
-    settings.lod = LodMode::off;
+    const RenderSettings settings{
+        .sampleCount = samples, .firstSample = filtered ? 0 : 1u << 20, .lod = LodMode::off, .keepAll = true};
     return imageInFloats(small.world, planFrame(small.world, small.view, settings));
-}
-
-double meanOf(const Image& image) {
-    double sum = 0;
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) sum += static_cast<double>(image.at(x, y)[0]);
-    return sum / (static_cast<double>(image.width) * image.height);
 }
 
 // Returns the root mean square difference of the images' red values, which are clamped to 1 as on a display.
@@ -110,7 +87,7 @@ TEST_F(Glints, convergeWithinTheFirstSamples) {
         for (const float roughness : {0.05f, 0.2f})
             for (const glm::dvec3& way : {glm::dvec3(1, -0.3, -0.2), glm::dvec3(-0.3, -0.8, -1)}) {
                 const auto small = rippledBall(roughness, metallic);
-                small->world.lights = {sun(way, 3)};
+                small->world.lights = {sunFrom(way, 3)};
                 const Image converged = ballImage(*small, 1024, false);
                 const double few = displayError(ballImage(*small, 16, true), converged);
                 const double more = displayError(ballImage(*small, 64, true), converged);
@@ -123,7 +100,7 @@ TEST_F(Glints, fewSamplesMakeNoWhitePixelsOfTheirOwn) {
     for (const float metallic : {0.0f, 1.0f})
         for (const glm::dvec3& way : {glm::dvec3(1, -0.3, -0.2), glm::dvec3(-0.3, -0.8, -1)}) {
             const auto small = rippledBall(0.2f, metallic);
-            small->world.lights = {sun(way, 3)};
+            small->world.lights = {sunFrom(way, 3)};
             const Image converged = ballImage(*small, 1024, false);
             for (const std::uint32_t samples : {16u, 64u})
                 EXPECT_LT(worstPixel(ballImage(*small, samples, true), converged), 3.5)
@@ -138,8 +115,8 @@ TEST_F(Glints, spreadingThemKeepsTheirLight) {
             double few = 0, many = 0;
             for (std::uint32_t set = 0; set < 4; ++set) {
                 small->world.lights = sunsAllAround(set);
-                few += meanOf(ballImage(*small, 16, true));
-                many += meanOf(ballImage(*small, 64, false));
+                few += meanRed(ballImage(*small, 16, true));
+                many += meanRed(ballImage(*small, 64, false));
             }
             EXPECT_NEAR(few, many, 0.02 * many) << roughness << ' ' << metallic << ' ' << few / many - 1;
         }

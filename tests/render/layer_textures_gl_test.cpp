@@ -14,11 +14,7 @@ using LayerTextures = LitWall;
 
 // Returns a black material without reflection.
 Material blackMaterial() {
-    Material result;
-    result.baseColorFactor = {0, 0, 0, 1};
-    result.metallicFactor = 0;
-    result.specularFactor = 0;
-    return result;
+    return {.baseColorFactor = {0, 0, 0, 1}, .metallicFactor = 0, .specularFactor = 0};
 }
 
 std::unique_ptr<SmallWorld> texturedWall(const Material& material, TextureUse Material::*slot) {
@@ -89,13 +85,12 @@ TEST_F(LayerTextures, greenOfThicknessAbsorbs) {
 // ---- reflectance
 
 Material glossyMaterial() {
-    Material result;
-    result.baseColorFactor = {0.2f, 0.1f, 0.3f, 1};
-    result.metallicFactor = 0;
-    result.roughnessFactor = 0.4f;
-    result.specularFactor = 0.7f;
-    result.ior = 2;  // a reflectance of 1/9 at normal incidence
-    return result;
+    // an index of refraction of 2 means a reflectance of 1/9 at normal incidence
+    return {.baseColorFactor = {0.2f, 0.1f, 0.3f, 1},
+            .metallicFactor = 0,
+            .roughnessFactor = 0.4f,
+            .ior = 2,
+            .specularFactor = 0.7f};
 }
 
 TEST_F(LayerTextures, alphaOfSpecularScalesTheReflectance) {

@@ -4,21 +4,17 @@
 #include <cmath>
 
 #include "bokeh.h"
-#include "gl/context.h"
 #include "gl_conduct.h"
+#include "gl_context_test.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
 namespace {
 
-class LensColour : public testing::Test {
+class LensColour : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
-    static std::unique_ptr<GlContext> context_;
 };
-std::unique_ptr<GlContext> LensColour::context_;
 
 struct Blob {
     glm::dvec3 energy{0};  // Σ radiance
@@ -53,13 +49,10 @@ Image renderedPoint(const View& view, double column, double row, double depth, c
     environment.zenith = environment.horizon = environment.nadir = background;
     World world = flatWorld(scene, environment);
     world.pyramids = buildPyramids(scene.meshes);
-    RenderSettings settings;
-    settings.sampleCount = 4096;
-    settings.lod = LodMode::off;
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
+    const RenderSettings settings{.sampleCount = 4096, .lod = LodMode::off};
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const auto renderer = methodNamed("accumulation").make(world, options);
-    return renderedImage(*renderer, planFrame(world, view, settings));
+    return imageOf(*renderer, planFrame(world, view, settings));
 }
 
 View viewOf(double fStop) {
@@ -116,13 +109,10 @@ TEST_F(LensColour, greyStaysGrey) {
         for (const bool catEye : {false, true}) {
             View view = viewOf(1);
             (catEye ? view.lens.catEye : view.lens.axialChromaticAberration) = 0.7;
-            RenderSettings settings;
-            settings.sampleCount = samples;
-            settings.keepAll = true;
-            RendererOptions options;
-            options.layerFormat = LayerFormat::rgba32f;
+            const RenderSettings settings{.sampleCount = samples, .keepAll = true};
+            const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
             const auto renderer = methodNamed("accumulation").make(world, options);
-            const Image image = renderedImage(*renderer, planFrame(world, view, settings));
+            const Image image = imageOf(*renderer, planFrame(world, view, settings));
             for (std::size_t i = 0; i < image.pixels.size(); i += 4)
                 for (std::size_t c = 0; c < 3; ++c)
                     ASSERT_NEAR(image.pixels[i + c], 0.37f, 1e-5) << samples << " samples, cat's eye: " << catEye;

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <vector>
 
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "plan/frame_plan.h"
 #include "render/methods.h"
 #include "render/rendered.h"
@@ -44,15 +44,32 @@ inline std::unique_ptr<SmallWorld> litWall(const Material& material) {
     return small;
 }
 
-inline FramePlan wallPlan(const SmallWorld& small) {
-    RenderSettings settings;
-    settings.sampleCount = 1;
-    settings.lod = LodMode::off;
+inline FramePlan wallPlan(const SmallWorld& small, bool multipleScattering = false) {
+    const RenderSettings settings{.sampleCount = 1, .lod = LodMode::off, .multipleScattering = multipleScattering};
     return planFrame(small.world, small.view, settings);
 }
 
 inline Image wallImage(const SmallWorld& small) {
     return imageInFloats(small.world, wallPlan(small));
+}
+
+// Returns the image of a wall in a white furnace, an environment of radiance 1. The wall fills the frame. The angle
+// between its normal and the view axis has approximately the given cosine.
+inline Image furnaceImage(const Material& material, double cosine, bool multipleScattering = false) {
+    const auto small = litWall(material);
+    glm::dmat4& placed = small->world.pose.objects[0].worldFromObject;
+    placed = glm::scale(glm::rotate(placed, std::acos(cosine), {0, 1, 0}), glm::dvec3(1000));
+    small->world.environment.zenith = glm::vec3(1);
+    return imageInFloats(small->world, wallPlan(*small, multipleScattering));
+}
+
+// Returns the largest difference of an image's colour channels from `expected`.
+inline double farthestFrom(const Image& image, const glm::dvec3& expected) {
+    double max = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c) max = std::max(max, std::abs(image.at(x, y)[c] - expected[c]));
+    return max;
 }
 
 // The point of the wall that the single sample of pixel (x, y) sees, in world coordinates.
@@ -152,13 +169,6 @@ inline glm::dvec3 litRadiance(const GltfSurface& surface, const WallPoint& point
     return sum;
 }
 
-inline PlacedLight sunFrom(const glm::dvec3& direction, float intensity) {
-    PlacedLight sun;
-    sun.light.intensity = intensity;
-    sun.direction = glm::normalize(direction);
-    return sun;
-}
-
 // Converts a direction from the wall's coordinates (right, up, towards the camera) to world coordinates.
 inline glm::dvec3 fromWall(const SmallWorld& small, const glm::dvec3& direction) {
     return glm::dmat3(small.view.worldFromCamera) * direction;
@@ -180,13 +190,6 @@ inline void expectLitRadiance(const Image& image, const WallPoint& point, const 
     expectRadiance(image, point, expected, relative * glm::max(expected, glm::dvec3(0.05)) + slope);
 }
 
-class LitWall : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
-};
+using LitWall = GlContextTest;
 
 }  // namespace defocus::engine

@@ -10,21 +10,6 @@ namespace {
 
 class MaterialExtensions : public Transmission {
 protected:
-    // Returns the image of a wall in an environment of radiance 1. The angle between the wall's normal and the view
-    // axis has approximately the given cosine.
-    static Image furnaceImage(const Material& material, double cosine, bool multipleScattering = false) {
-        auto small = litWall(material);
-        const glm::dmat4 turned =
-            glm::rotate(small->world.pose.objects[0].worldFromObject, std::acos(cosine), {0, 1, 0});
-        small->world.pose.objects[0].worldFromObject = glm::scale(turned, glm::dvec3(1000));
-        small->world.environment.zenith = glm::vec3(1);
-        RenderSettings settings;
-        settings.sampleCount = 1;
-        settings.lod = LodMode::off;
-        settings.multipleScattering = multipleScattering;
-        return imageInFloats(small->world, planFrame(small->world, small->view, settings));
-    }
-
     // Returns the mean of the four middle pixels, at whose common corner the view axis passes.
     static glm::dvec3 middleOf(const Image& image) {
         glm::dvec3 sum(0);
@@ -33,11 +18,7 @@ protected:
         return sum;
     }
 
-    static Material metal(float roughness) {
-        Material result;
-        result.roughnessFactor = roughness;
-        return result;
-    }
+    static Material metal(float roughness) { return {.roughnessFactor = roughness}; }
 };
 
 // ---- multiple scattering
@@ -191,13 +172,11 @@ glm::dvec3 filmColor(double cosine, double base, double film, double thickness) 
 }
 
 Material filmed(float base, float ior, float thickness, float roughness = 0) {
-    Material result;
-    result.baseColorFactor = glm::vec4(glm::vec3(base), 1);
-    result.roughnessFactor = roughness;
-    result.iridescenceFactor = 1;
-    result.iridescenceIor = ior;
-    result.iridescenceThicknessMaximum = thickness;
-    return result;
+    return {.baseColorFactor = glm::vec4(glm::vec3(base), 1),
+            .roughnessFactor = roughness,
+            .iridescenceFactor = 1,
+            .iridescenceIor = ior,
+            .iridescenceThicknessMaximum = thickness};
 }
 
 // KHR_materials_iridescence approximates spectra by Gaussians and Fresnel's equations by Schlick's. The reflectance
@@ -236,10 +215,7 @@ TEST_F(MaterialExtensions, filmsOnWhiteDielectricsKeepAllLight) {
 // ---- diffuse transmission
 
 Material sheet(float share) {
-    Material result;
-    result.metallicFactor = 0;
-    result.diffuseTransmissionFactor = share;
-    return result;
+    return {.metallicFactor = 0, .diffuseTransmissionFactor = share};
 }
 
 TEST_F(MaterialExtensions, aWhiteSheetPassesOnAllLight) {

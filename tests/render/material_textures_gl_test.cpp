@@ -11,10 +11,7 @@ namespace {
 using MaterialTextures = LitWall;
 
 TEST_F(MaterialTextures, greenIsRoughnessAndBlueIsMetalness) {
-    Material material;
-    material.baseColorFactor = {0.9f, 0.5f, 0.2f, 1};
-    material.metallicFactor = 0.8f;
-    material.roughnessFactor = 0.9f;
+    const Material material{.baseColorFactor = {0.9f, 0.5f, 0.2f, 1}, .metallicFactor = 0.8f, .roughnessFactor = 0.9f};
     const auto small = litWall(material);
     small->scene.materials[0].metallicRoughness.texture = addTexture(small->scene, 4, scrambled);
     small->world.lights = {sunFrom(fromWall(*small, {0.3, -0.4, -1}), 3)};
@@ -28,9 +25,7 @@ TEST_F(MaterialTextures, greenIsRoughnessAndBlueIsMetalness) {
 // Occlusion is read from the red channel. It darkens only the light of the environment, not the light of lamps or
 // emission.
 TEST_F(MaterialTextures, redOccludesTheEnvironmentOnly) {
-    Material material;
-    material.metallicFactor = 0;
-    material.occlusionStrength = 0.7f;
+    const Material material{.metallicFactor = 0, .occlusionStrength = 0.7f};
     const auto small = litWall(material);
     small->world.environment = {EnvironmentType::uniform, {0.5f, 0.8f, 1}, {}, {}, nullptr, 1};
     const Image open = wallImage(*small);
@@ -50,8 +45,7 @@ TEST_F(MaterialTextures, redOccludesTheEnvironmentOnly) {
 
 // Emission is the decoded sRGB texel times a linear factor, which may exceed 1. It is visible without any lamp.
 TEST_F(MaterialTextures, emissionIsDecodedAndScaled) {
-    Material material;
-    material.emissiveFactor = {5, 0.5f, 1};
+    const Material material{.emissiveFactor = {5, 0.5f, 1}};
     const auto small = litWall(material);
     small->scene.materials[0].emissive.texture = addTexture(small->scene, 4, scrambled);
     const glm::dvec3 factor(5, 0.5, 1);
@@ -61,9 +55,7 @@ TEST_F(MaterialTextures, emissionIsDecodedAndScaled) {
 }
 
 TEST_F(MaterialTextures, theNormalTextureTiltsTheNormal) {
-    Material material;
-    material.metallicFactor = 0;
-    material.normalScale = 0.6f;
+    const Material material{.metallicFactor = 0, .normalScale = 0.6f};
     const auto small = litWall(material);
     const auto tilted = [](int column, int row) {
         const Texel texel = scrambled(column, row);
@@ -115,9 +107,7 @@ TEST_F(MaterialTextures, alphaMaskCutsHoles) {
 // Each texture has its own coordinate set and its own transform (KHR_texture_transform: offset, rotation
 // counter-clockwise about the origin, scale).
 TEST_F(MaterialTextures, transformsAndSetsAreEachTexturesOwn) {
-    Material material;
-    material.emissiveFactor = {1, 1, 1};
-    material.metallicFactor = 0;
+    const Material material{.metallicFactor = 0, .emissiveFactor = {1, 1, 1}};
     const auto small = litWall(material);
     Mesh& mesh = small->scene.meshes[0];
     // second coordinate set: (0.2 + 0.6 u, 0.3 + 0.6 v)

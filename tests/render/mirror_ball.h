@@ -6,18 +6,16 @@
 #include <cmath>
 #include <memory>
 
-#include "gl/context.h"
 #include "gl_conduct.h"
+#include "gl_context_test.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus::engine {
 
-class Mirror : public testing::Test {
+class Mirror : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
 
     // distance in m, so large that all light towards the camera has almost the same direction
@@ -28,8 +26,7 @@ protected:
     // Returns a ball of white metal without bumps, about 36 px across in an image of 64 × 48 px.
     static std::unique_ptr<SmallWorld> mirrorBall(float roughness) {
         auto small = std::make_unique<SmallWorld>();
-        Material metal;
-        metal.roughnessFactor = roughness;
+        const Material metal{.roughnessFactor = roughness};
         small->scene.materials.push_back(metal);
         Mesh ball = bumpySphere(128, 64, 0);
         for (std::size_t v = 0; v < ball.vertices.count(); ++v) {
@@ -67,15 +64,8 @@ protected:
     }
 
     static RenderSettings ballSettings(std::uint32_t samples, std::uint32_t seed) {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        settings.seed = seed;
-        settings.lod = LodMode::off;
-        return settings;
+        return {.sampleCount = samples, .seed = seed, .lod = LodMode::off};
     }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 }  // namespace defocus::engine

@@ -11,10 +11,7 @@ TEST_F(Mirror, aBallSendsTheSunsLightToAllSidesAlike) {
     for (const float roughness : {0.0f, 0.05f, 0.2f})
         for (const glm::dvec3& way : {glm::dvec3(-0.3, -0.8, -1), {1, -0.3, -0.2}, {0.6, 0.7, -0.5}}) {
             const auto small = mirrorBall(roughness);
-            PlacedLight sun;
-            sun.light.intensity = 3;
-            sun.direction = glm::normalize(way);
-            small->world.lights = {sun};
+            small->world.lights = {sunFrom(way, 3)};
             const double expected = 3 * ballRadius * ballRadius / 4 / (ballDepth * ballDepth);
             for (std::uint32_t seed = 0; seed < 3; ++seed)
                 EXPECT_NEAR(intensityOf(ballImage(*small, ballSettings(64, seed))), expected, 0.06 * expected)

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "image/metrics.h"
 #include "lens/lens_samples.h"
 #include "likeness.h"
@@ -18,20 +18,10 @@
 namespace defocus::engine {
 namespace {
 
-class Motion : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> Motion::context_;
+using Motion = GlContextTest;
 
 RenderSettings fullDetailFor(std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    settings.keepAll = true;
-    return settings;
+    return {.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
 }
 
 Image renderedInFloat(const World& world, const View& view, const RenderSettings& settings) {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "image/metrics.h"
 #include "models.h"
 #include "posed_world.h"
@@ -13,26 +13,16 @@
 namespace defocus::engine {
 namespace {
 
-class Posing : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> Posing::context_;
+using Posing = GlContextTest;
 
 Image renderedInHalf(const SmallWorld& small, const RenderSettings& settings, const char* method = "accumulation") {
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba16f;
+    const RendererOptions options{.layerFormat = LayerFormat::rgba16f};
     const auto renderer = methodNamed(method).make(small.world, options);
     return imageOf(*renderer, planFrame(small.world, small.view, settings));
 }
 
 RenderSettings levelZeroSettings() {
-    RenderSettings settings;
-    settings.sampleCount = 4;
-    settings.lod = LodMode::off;
-    return settings;
+    return {.sampleCount = 4, .lod = LodMode::off};
 }
 
 // Expects the images of GPU-posed and CPU-posed (`baked`) meshes to be equal up to rounding. Single precision rounds
@@ -78,8 +68,7 @@ TEST_F(Posing, coarseLevelsArePosedToo) {
 // the skin.
 TEST_F(Posing, eightInfluencesAndMorphsTogether) {
     SmallWorld small;
-    Material plain;
-    plain.metallicFactor = 0;
+    const Material plain{.metallicFactor = 0};
     small.scene.materials.push_back(plain);
     small.scene.meshes.push_back(bumpySphere(60, 40, 0));
     Mesh& mesh = small.scene.meshes[0];
@@ -148,8 +137,7 @@ TEST_F(Posing, depthsAreThoseOfTheWalkingFox) {
 TEST_F(Posing, tangentsTurnToo) {
     const auto wall = [] {
         auto small = std::make_unique<SmallWorld>();
-        Material bumpy;
-        bumpy.metallicFactor = 0;
+        Material bumpy{.metallicFactor = 0};
         bumpy.normal.texture = 0;
         small->scene.materials.push_back(bumpy);
         Texture& texture = small->scene.textures.emplace_back();
@@ -161,9 +149,7 @@ TEST_F(Posing, tangentsTurnToo) {
         Vertices& vertices = small->scene.meshes[0].vertices;
         vertices.uv0 = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
         vertices.tangents.assign(4, {1, 0, 0, 1});
-        PlacedLight sun;
-        sun.direction = glm::normalize(glm::dvec3(-0.8, -0.5, -1));
-        small->world.lights.push_back(sun);
+        small->world.lights = {sunFrom({-0.8, -0.5, -1}, 1)};
         small->world.environment = {EnvironmentType::uniform, {0.1f, 0.1f, 0.1f}, {}, {}, nullptr, true, 1};
         small->view.width = 96;
         small->view.height = 64;

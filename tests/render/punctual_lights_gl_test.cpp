@@ -11,11 +11,9 @@ namespace {
 using PunctualLights = LitWall;
 
 Material materialOf(const GltfSurface& surface) {
-    Material material;
-    material.baseColorFactor = glm::vec4(surface.baseColor, 1);
-    material.metallicFactor = static_cast<float>(surface.metallic);
-    material.roughnessFactor = static_cast<float>(surface.roughness);
-    return material;
+    return {.baseColorFactor = glm::vec4(surface.baseColor, 1),
+            .metallicFactor = static_cast<float>(surface.metallic),
+            .roughnessFactor = static_cast<float>(surface.roughness)};
 }
 
 // Returns the change of the radiance over 1/512 px, or 0 for software rasterizers. GPUs round vertex positions to a

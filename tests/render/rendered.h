@@ -6,26 +6,17 @@
 
 namespace defocus::engine {
 
-inline Image imageOf(Renderer& renderer, const FramePlan& plan) {
-    renderer.start(plan);
-    while (renderer.advance()) {
-    }
-    return renderer.image();
-}
-
 // Renders an image with 32-bit float layers. `method` is written as on the command line, for example "line:segments=4".
 inline Image imageByMethod(const char* method, const World& world, const FramePlan& plan) {
     const MethodUse use = parseMethodUse(method);
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
-    options.settings = completeSettings(use.method->name, use.method->settings, use.settings);
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f,
+                                  .settings = completeSettings(use.method->name, use.method->settings, use.settings)};
     return imageOf(*use.method->make(world, options), plan);
 }
 
 // Renders an image with method "accumulation" and 32-bit float layers.
 inline Image imageInFloats(const World& world, const FramePlan& plan) {
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     return imageOf(*methodNamed("accumulation").make(world, options), plan);
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "lod/shapes.h"
 #include "render/rendered.h"
 #include "small_world.h"
@@ -13,14 +13,7 @@
 namespace defocus::engine {
 namespace {
 
-class RoughLevels : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
-};
+using RoughLevels = GlContextTest;
 
 // Returns a square of side 2 with 12 × 12 hills. Slopes reach 27°, and the normals are those of the hills.
 Mesh hills() {
@@ -44,11 +37,7 @@ Mesh hills() {
 }
 
 double meanLight(const SmallWorld& small, LodMode lod) {
-    RenderSettings settings;
-    settings.sampleCount = 64;
-    settings.lod = lod;
-    settings.metric = LodMetric::size;
-    settings.thresholds = {0.0, 40.0};
+    const RenderSettings settings{.sampleCount = 64, .lod = lod, .metric = LodMetric::size, .thresholds = {0.0, 40.0}};
     const Image image = imageInFloats(small.world, planFrame(small.world, small.view, settings));
     double sum = 0;
     double covered = 0;
@@ -64,9 +53,7 @@ double meanLight(const SmallWorld& small, LodMode lod) {
 // cover more of the image. With only a mean normal, the flat level would be too dark by 0.06 at 55°.
 TEST_F(RoughLevels, areAsBrightAsTheirRelief) {
     SmallWorld small;
-    Material matt;
-    matt.metallicFactor = 0;
-    matt.roughnessFactor = 1;
+    const Material matt{.metallicFactor = 0, .roughnessFactor = 1};
     small.scene.materials.push_back(matt);
     small.scene.meshes.push_back(hills());
     small.world.environment.type = EnvironmentType::none;
@@ -80,9 +67,7 @@ TEST_F(RoughLevels, areAsBrightAsTheirRelief) {
             small.world.pose.objects.clear();
             const glm::dmat4 away = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -100));
             place(small, 0, glm::rotate(away, glm::radians(degrees), glm::dvec3(0, 1, 0)));
-            PlacedLight sun;
-            sun.direction = glm::normalize(way);
-            small.world.lights = {sun};
+            small.world.lights = {sunFrom(way, 1)};
             // The mean radiances are relative to the radiance of a white surface that faces the sun.
             const double reference = std::numbers::pi * meanLight(small, LodMode::off);
             EXPECT_NEAR(std::numbers::pi * meanLight(small, LodMode::nearest), reference, 0.02)

@@ -23,13 +23,7 @@ protected:
     static constexpr double receiverDepth = 4;  // distance in front of the camera, m
     static constexpr double tanHalfWidth = 36.0 / (2 * 50);
 
-    static Material matt() {
-        Material material;
-        material.metallicFactor = 0;
-        material.specularFactor = 0;
-        material.doubleSided = true;
-        return material;
-    }
+    static Material matt() { return {.metallicFactor = 0, .doubleSided = true, .specularFactor = 0}; }
 
     // Returns a white wall without lights that fills the image of a pinhole camera at the origin.
     static std::unique_ptr<SmallWorld> wall() {
@@ -45,10 +39,8 @@ protected:
     }
 
     static void addSun(SmallWorld& small, const glm::dvec3& toLight, double diameter) {
-        PlacedLight sun;
-        sun.light.intensity = 1;
+        PlacedLight sun = sunFrom(-toLight, 1);
         sun.light.angularDiameter = static_cast<float>(diameter);
-        sun.direction = -glm::normalize(toLight);
         small.world.lights.push_back(sun);
     }
 
@@ -59,25 +51,16 @@ protected:
     }
 
     static RenderSettings settingsFor(std::uint32_t samples, Shadows shadows) {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        settings.lod = LodMode::off;
-        settings.shadows = shadows;
-        return settings;
+        return {.sampleCount = samples, .lod = LodMode::off, .shadows = shadows};
     }
 
     static Image shadowImage(const SmallWorld& small, const RenderSettings& settings,
                              const std::string& method = "accumulation", std::uint32_t wave = 0) {
-        RendererOptions options;
-        options.layerFormat = LayerFormat::rgba32f;
-        options.wave = wave;
+        RendererOptions options{.layerFormat = LayerFormat::rgba32f, .wave = wave};
         const MethodUse use = parseMethodUse(method);
         options.settings = use.settings;
         const auto renderer = use.method->make(small.world, options);
-        renderer->start(planFrame(small.world, small.view, settings));
-        while (renderer->advance()) {
-        }
-        return renderer->image();
+        return imageOf(*renderer, planFrame(small.world, small.view, settings));
     }
 
     // Returns the x coordinate in m of the wall point at the centre of a column.

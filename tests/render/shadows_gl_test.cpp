@@ -149,12 +149,11 @@ TEST_F(Shadowed, glassShadesByItsTexturesAndThickness) {
     Mesh pane = quad(1);
     pane.vertices.uv0 = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     small->scene.meshes.push_back(pane);
-    Material glass;
-    glass.metallicFactor = 1;
-    glass.transmissionFactor = 1;
-    glass.thicknessFactor = static_cast<float>(thickness);
-    glass.attenuationColor = glm::vec3(0.5f);
-    glass.attenuationDistance = 0.5f;
+    Material glass{.metallicFactor = 1,
+                   .transmissionFactor = 1,
+                   .thicknessFactor = static_cast<float>(thickness),
+                   .attenuationDistance = 0.5f,
+                   .attenuationColor = glm::vec3(0.5f)};
     glass.metallicRoughness.texture = addTexture(small->scene, 1, [](int, int) { return Texel{255, 255, 0, 255}; });
     glass.transmission.texture = addTexture(small->scene, 1, [](int, int) { return Texel{128, 0, 0, 255}; });
     small->scene.materials.push_back(glass);
@@ -181,10 +180,7 @@ TEST_F(Shadowed, colouredGlassTintsTheLight) {
     for (const bool closed : {false, true}) {
         const auto small = wall();
         addSun(*small, {1, 0, 1}, 0.01);
-        Material glass;
-        glass.metallicFactor = 0;
-        glass.transmissionFactor = 1;
-        glass.baseColorFactor = glm::vec4(colour, 1);
+        Material glass{.baseColorFactor = glm::vec4(colour, 1), .metallicFactor = 0, .transmissionFactor = 1};
         Mesh pane = quad(1);
         if (closed) {
             glass.thicknessFactor = 1;

@@ -66,15 +66,11 @@ TEST(Sliver, noSampleHasAColorThatItsCornersDoNotAllow) {
     small.world.pyramids.push_back(fullDetail(small.scene.meshes[0]));
     small.world.environment.type = EnvironmentType::none;
 
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const auto renderer = methodNamed("accumulation").make(small.world, options);
     int covered = 0;
     for (std::uint32_t seed = 0; seed < 16; ++seed) {
-        RenderSettings settings;
-        settings.sampleCount = 1;
-        settings.seed = seed;
-        settings.lod = LodMode::off;
+        const RenderSettings settings{.sampleCount = 1, .seed = seed, .lod = LodMode::off};
         const Image image = imageOf(*renderer, planFrame(small.world, small.view, settings));
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x) {

@@ -107,8 +107,7 @@ TEST_F(StochasticAlpha, pixelsDoNotDependOnTheWave) {
     const auto small = crossingPanes();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(24));
     const auto imageInWavesOf = [&](std::uint32_t wave) {
-        RendererOptions options;
-        options.wave = wave;
+        const RendererOptions options{.wave = wave};
         return imageOf(*methodNamed("accumulation").make(small->world, options), plan);
     };
     const Image first = imageInWavesOf(1);

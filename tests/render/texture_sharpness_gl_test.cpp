@@ -23,8 +23,7 @@ constexpr double wallAway = 40;  // distance in m, so large that the wall has al
 // Returns a wall rotated about a vertical axis, with a texture of 1024² texels that is black above and white below.
 // Rotated by 80°, the wall shows 5.8 times as many texels per pixel horizontally as vertically.
 std::unique_ptr<SmallWorld> halfWhiteWall(double degrees) {
-    Material material;
-    material.unlit = true;
+    const Material material{.unlit = true};
     auto small = litWall(material);
     small->scene.materials[0].baseColor.texture = addTexture(small->scene, 1024, [](int, int row) {
         return row < 512 ? Texel{0, 0, 0, 255} : Texel{255, 255, 255, 255};
@@ -41,10 +40,8 @@ std::unique_ptr<SmallWorld> halfWhiteWall(double degrees) {
 
 // Returns the distance in px over which the middle column changes from 10 % to 90 % of the texture's white.
 double edgeWidth(const SmallWorld& small, const char* method, std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    settings.keepAll = true;  // without keepAll, an image without blur is drawn with only 16 samples
+    // without keepAll, an image without blur is drawn with only 16 samples
+    const RenderSettings settings{.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
     const Image image = imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
     const auto crossing = [&](double level) {
         for (int y = 8; y < image.height - 8; ++y) {

@@ -19,7 +19,7 @@ inline Image traced(const Scene& scene, const View& view, std::uint32_t samples,
                     const Environment& environment = blackBackground(),
                     EmbreeSampling sampling = EmbreeSampling::perPixel) {
     const World world = flatWorld(scene, environment);
-    return renderedImage(*makeEmbreeRenderer(world, sampling), planOf(view, samples));
+    return imageOf(*makeEmbreeRenderer(world, sampling), planOf(view, samples));
 }
 
 }  // namespace defocus::engine

@@ -1,8 +1,6 @@
 // Slow tests of a pane of glass in front of a blurred scene.
 
-#include <algorithm>
-#include <cmath>
-
+#include "likeness.h"
 #include "render/glass_wall.h"
 
 namespace defocus::engine {
@@ -18,11 +16,7 @@ TEST_F(Transmission, aPaneThatDoesNothingLeavesTheBlurAsItIs) {
     finish(*with);
     const Image expected = drawnBy("accumulation", *without, 64);
     const Image image = drawnBy("accumulation", *with, 64);
-    double max = 0;
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            for (int c = 0; c < 3; ++c) max = std::max<double>(max, std::abs(image.at(x, y)[c] - expected.at(x, y)[c]));
-    EXPECT_LT(max, 2e-5);
+    EXPECT_LT(largestDifference(image, expected), 2e-5);
 }
 
 }  // namespace

@@ -10,14 +10,6 @@ void light(SmallWorld& small) {
     small.world.environment.zenith = glm::vec3(1);
 }
 
-double farthestFrom(const Image& image, const glm::dvec3& expected) {
-    double max = 0;
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            for (int c = 0; c < 3; ++c) max = std::max(max, std::abs(image.at(x, y)[c] - expected[c]));
-    return max;
-}
-
 TEST_F(Transmission, whatWhiteGlassDoesNotReflectItLetsThrough) {
     for (const float roughness : {0.0f, 0.3f, 1.0f})
         for (const float thickness : {0.0f, 0.2f})

@@ -19,10 +19,9 @@ namespace defocus::engine {
 namespace {
 
 Image rasterised(const World& world, const View& view, const RenderSettings& settings) {
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(world, options);
-    return renderedImage(*renderer, planFrame(world, view, settings));
+    return imageOf(*renderer, planFrame(world, view, settings));
 }
 
 Image traced(const World& world, const View& view, const RenderSettings& settings,
@@ -31,7 +30,7 @@ Image traced(const World& world, const View& view, const RenderSettings& setting
     if (sampling == EmbreeSampling::planned) plan = planFrame(world, view, settings);
     plan.view = view;
     plan.settings = settings;
-    return renderedImage(*makeEmbreeRenderer(world, sampling), plan);
+    return imageOf(*makeEmbreeRenderer(world, sampling), plan);
 }
 
 void writeForPeople(const std::string& name, const Image& reference, const Image& image) {

@@ -29,14 +29,13 @@ std::unique_ptr<TruthScene> nearSchool() {
 }
 
 Image rasterised(const TruthScene& baked, const RenderSettings& settings) {
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
-    return renderedImage(*methodNamed("accumulation").make(baked.world, options),
-                         planFrame(baked.world, baked.view, settings));
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
+    return imageOf(*methodNamed("accumulation").make(baked.world, options),
+                   planFrame(baked.world, baked.view, settings));
 }
 
 Image traced(const TruthScene& baked, const RenderSettings& settings, EmbreeSampling sampling) {
-    return renderedImage(*makeEmbreeRenderer(baked.world, sampling), planFrame(baked.world, baked.view, settings));
+    return imageOf(*makeEmbreeRenderer(baked.world, sampling), planFrame(baked.world, baked.view, settings));
 }
 
 TEST(TruthLimited, foregroundIsThatOfALensBeforeEveryPixel) {

@@ -9,19 +9,14 @@
 #include "image/metrics.h"
 #include "models.h"
 #include "posed_world.h"
-#include "render/methods.h"
+#include "render/rendered.h"
 
 namespace defocus::engine {
 namespace {
 
 Image rendered(const SmallWorld& small, Renderer& renderer) {
-    RenderSettings settings;
-    settings.sampleCount = 32;
-    settings.lod = LodMode::off;
-    renderer.start(planFrame(small.world, small.view, settings));
-    while (renderer.advance()) {
-    }
-    return renderer.image();
+    const RenderSettings settings{.sampleCount = 32, .lod = LodMode::off};
+    return imageOf(renderer, planFrame(small.world, small.view, settings));
 }
 
 class PosedTruth : public testing::TestWithParam<PosedModel> {};

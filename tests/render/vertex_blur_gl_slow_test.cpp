@@ -69,10 +69,7 @@ double meanDifference(const Image& a, const Image& b) {
 }
 
 Image floorImage(const SmallWorld& small, double tolerance, Refinement expected) {
-    RenderSettings settings;
-    settings.sampleCount = 64;
-    settings.lod = LodMode::off;
-    settings.cocTolerance = tolerance;
+    const RenderSettings settings{.sampleCount = 64, .lod = LodMode::off, .cocTolerance = tolerance};
     const FramePlan plan = planFrame(small.world, small.view, settings);
     EXPECT_EQ(plan.objects[0].refinement, expected);
     return imageInFloats(small.world, plan);

@@ -9,18 +9,15 @@
 #include <string>
 
 #include "bokeh.h"
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus::engine {
 
-class VertexBlurs : public testing::Test {
+class VertexBlurs : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
     static constexpr double blurredSide = 4;  // side of the blurred square, px
     static constexpr double focus = 2;        // focus distance, m
     static constexpr int blurSamples = 256;
@@ -44,9 +41,7 @@ protected:
 
     static Image renderedBlur(const SmallWorld& small, const char* method = "accumulation",
                               std::uint32_t count = blurSamples) {
-        RenderSettings settings;
-        settings.sampleCount = count;
-        settings.lod = LodMode::off;
+        const RenderSettings settings{.sampleCount = count, .lod = LodMode::off};
         return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
     }
 
@@ -85,19 +80,14 @@ protected:
         white.doubleSided = true;
         small->scene.materials.push_back(white);
         Mesh mesh;
-        Primitive primitive{0, {}};
         for (int y = 0; y <= cells; ++y)
             for (int x = 0; x <= cells; ++x) {
                 const double far = double(y) / cells;
                 mesh.vertices.positions.emplace_back((double(x) / cells - 0.5) * 0.4, -0.2 + 0.3 * far, -(1 + 3 * far));
                 mesh.vertices.normals.emplace_back(0, 1, 0);
                 mesh.vertices.blurs.push_back(blur(far));
-                if (x == cells || y == cells) continue;
-                const auto first = static_cast<std::uint32_t>(y * (cells + 1) + x);
-                const auto next = first + static_cast<std::uint32_t>(cells) + 1;
-                primitive.indices.insert(primitive.indices.end(), {first, first + 1, next, first + 1, next + 1, next});
             }
-        mesh.primitives.push_back(primitive);
+        mesh.primitives.push_back({0, gridIndices(static_cast<std::uint32_t>(cells))});
         mesh.blurBounds = boundsOf(mesh.vertices.blurs);
         small->scene.meshes.push_back(mesh);
         place(*small, 0, glm::dmat4(1));
@@ -105,9 +95,6 @@ protected:
         small->world.environment = blackBackground();
         return small;
     }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 }  // namespace defocus::engine

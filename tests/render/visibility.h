@@ -5,10 +5,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 
-#include "gl/context.h"
 #include "gl_conduct.h"
+#include "gl_context_test.h"
 #include "models.h"
 #include "posed_world.h"
 #include "render/aov/work.h"
@@ -17,28 +16,18 @@
 
 namespace defocus::engine {
 
-class Visibility : public testing::Test {
+class Visibility : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
 
     static RenderSettings settingsFor(LodMode lod, bool keepAll) {
-        RenderSettings settings;
-        settings.sampleCount = 24;
-        settings.lod = lod;
-        settings.thresholds = {0.5, 2};
-        settings.keepAll = keepAll;
-        return settings;
+        return {.sampleCount = 24, .lod = lod, .thresholds = {0.5, 2}, .keepAll = keepAll};
     }
 
     static Image rendered(const SmallWorld& small, const FramePlan& plan, std::uint32_t wave) {
-        RendererOptions options;
-        options.wave = wave;
+        const RendererOptions options{.wave = wave};
         const auto renderer = methodNamed("accumulation").make(small.world, options);
-        renderer->start(plan);
-        while (renderer->advance()) {
-        }
+        drawAllSamples(*renderer, plan);
         EXPECT_EQ(renderer->stats().trianglesDrawn, plan.trianglesDrawn);
         return renderer->image();
     }
@@ -70,9 +59,6 @@ protected:
         small->view.lens.fStop = 0.5;
         return std::max(expectSameImage(*small, LodMode::off), expectSameImage(*small, LodMode::fractional));
     }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 // Parameterized fixture for models of scanned and modelled surfaces, with needle-shaped triangles, folds and holes.

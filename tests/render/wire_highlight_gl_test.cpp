@@ -3,21 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus::engine {
 namespace {
 
-class WireHighlight : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
-};
+using WireHighlight = GlContextTest;
 
 // Returns a torus around the z axis, of radius 1 and with a wire of radius 0.04.
 Mesh ringMesh() {
@@ -44,16 +37,11 @@ Mesh ringMesh() {
 // Returns a golden ring about 40 px across, whose wire is 1.6 px thick, in the light of a sun from the left.
 std::unique_ptr<SmallWorld> ring() {
     auto small = std::make_unique<SmallWorld>();
-    Material gold;
-    gold.baseColorFactor = {1, 0.77f, 0.34f, 1};
-    gold.roughnessFactor = 0.25f;
+    const Material gold{.baseColorFactor = {1, 0.77f, 0.34f, 1}, .roughnessFactor = 0.25f};
     small->scene.materials.push_back(gold);
     small->scene.meshes.push_back(ringMesh());
     place(*small, 0, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -4.5)));
-    PlacedLight sun;
-    sun.light.intensity = 3;
-    sun.direction = glm::normalize(glm::dvec3(1, -0.3, -0.2));
-    small->world.lights.push_back(sun);
+    small->world.lights = {sunFrom({1, -0.3, -0.2}, 3)};
     small->world.environment.type = EnvironmentType::none;
     small->view.width = small->view.height = 64;
     small->view.lens.dofEnabled = false;
@@ -64,11 +52,8 @@ std::unique_ptr<SmallWorld> ring() {
 // Returns the sums of the red channel over the quarters of the ring at its right, top, left and bottom. The renderer
 // widens highlights only in the first samples of a frame, so images without widened highlights begin with sample 2²⁰.
 glm::dvec4 lightOfQuarters(const SmallWorld& small, std::uint32_t samples, bool widened) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.firstSample = widened ? 0 : 1u << 20;
-    settings.keepAll = true;
-    settings.lod = LodMode::off;
+    const RenderSettings settings{
+        .sampleCount = samples, .firstSample = widened ? 0 : 1u << 20, .lod = LodMode::off, .keepAll = true};
     const Image image = imageInFloats(small.world, planFrame(small.world, small.view, settings));
     glm::dvec4 sums(0);
     for (int y = 0; y < image.height; ++y)

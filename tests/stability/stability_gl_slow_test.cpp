@@ -48,8 +48,7 @@ TEST(LensHonesty, everyMethodThatItNamesCanBeMade) {
     world.scene = std::make_shared<const Scene>();
     for (const std::string& name : honestyMethods()) {
         const MethodUse use = parseMethodUse(name);
-        RendererOptions options;
-        options.settings = use.settings;
+        const RendererOptions options{.settings = use.settings};
         EXPECT_NO_THROW(use.method->make(world, options)) << name;
     }
 }

@@ -29,9 +29,7 @@ struct SpeedupArguments {
     Request request = measuredRequest();
     std::string preset;  // name of the given preset; empty: none
     SpeedupOptions speedup;
-    std::filesystem::path folder;  // folder of the results; empty: print the table only
-    std::filesystem::path report;  // folder of the report; empty: no report
-    bool allowChanged = false;
+    BenchOutput output;
 };
 
 SpeedupForm formOf(const PreparedFrame& frame, const std::string& preset) {
@@ -39,9 +37,7 @@ SpeedupForm formOf(const PreparedFrame& frame, const std::string& preset) {
 }
 
 void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) {
-    const std::filesystem::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
-    refuseChangedSources(folder, arguments.allowChanged);
-    makeOutputFolder(folder, {"speedup.csv", "speedup.json"});
+    const std::filesystem::path folder = openBenchOutput(arguments.output, {"speedup.csv", "speedup.json"});
     Progress progress = terminalProgress(global);
     Request scene = arguments.request;
     scene.noCache = true;  // build all pyramids, because the results include their build time
@@ -78,7 +74,7 @@ void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) 
             writeFile(folder / "speedup.json", speedupJson(rows, subject));
         },
         progress);
-    drawReport(arguments.report, arguments.report);
+    drawReport(folder, arguments.output.report);
 }
 
 void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
@@ -112,12 +108,7 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
                   options.referenceSamples = static_cast<std::uint32_t>(parseInteger(text, 0, maxSamples));
               })
         ->group(group);
-    CLI::Option* output =
-        command->add_option("-o,--output", arguments->folder, "Folder for the results speedup.csv and speedup.json")
-            ->type_name("FOLDER")
-            ->group("Output");
-    addReport(*command, output, arguments->report);
-    addAllowChanged(*command, arguments->allowChanged);
+    addBenchOutput(*command, arguments->output, "the results speedup.csv and speedup.json");
     // Leave out the settings that the bench varies itself. The cache is left out because the results include the build
     // time of the pyramids, and exposure because images are compared at EV 0.
     addSettings(*command, arguments->request,
@@ -143,6 +134,20 @@ Request measuredRequest() {
     Request request;
     request.units = 1;
     return request;
+}
+
+void addBenchOutput(CLI::App& command, BenchOutput& output, const std::string& results, bool hasReport) {
+    CLI::Option* folder =
+        command.add_option("-o,--output", output.folder, "Folder for " + results)->type_name("FOLDER")->group("Output");
+    if (hasReport) addReport(command, folder, output.report);
+    addAllowChanged(command, output.allowChanged);
+}
+
+std::filesystem::path openBenchOutput(const BenchOutput& output, std::initializer_list<const char*> files) {
+    const std::filesystem::path& folder = output.report.empty() ? output.folder : output.report;
+    refuseChangedSources(folder, output.allowChanged);
+    makeOutputFolder(folder, files);
+    return folder;
 }
 
 void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list<const char*> files) {

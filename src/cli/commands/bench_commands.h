@@ -13,6 +13,20 @@
 
 namespace defocus::engine {
 
+// Where a bench writes its results.
+struct BenchOutput {
+    std::filesystem::path folder;  // folder of the results; empty: print the table only
+    std::filesystem::path report;  // folder of the report, which replaces `folder`; empty: no report
+    bool allowChanged = false;     // true: the program may have been built from changed sources
+};
+
+// Adds the options --output, --report and --allow-changed. `results` names the files, such as "the result view.json".
+// A bench without figures has no --report.
+void addBenchOutput(CLI::App& command, BenchOutput& output, const std::string& results, bool hasReport = true);
+
+// Returns the folder of the results. Calls refuseChangedSources and makeOutputFolder for it.
+std::filesystem::path openBenchOutput(const BenchOutput& output, std::initializer_list<const char*> files);
+
 // Creates `folder` and checks that `files` can be written there, before any long work. Does nothing for an empty path.
 // Throws Error if the folder or a file cannot be written.
 void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list<const char*> files);

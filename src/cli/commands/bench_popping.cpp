@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <system_error>
 #include <vector>
 
 #include "cli/commands/bench_commands.h"
@@ -28,18 +27,14 @@ namespace fs = std::filesystem;
 struct PoppingArguments {
     Request request = measuredRequest();
     PoppingOptions options;
-    fs::path folder;  // folder of the results; empty: print the table only
-    fs::path report;  // folder of the report; empty: no report
-    bool allowChanged = false;
+    BenchOutput output;
 };
 
 void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) {
     if (arguments.options.frames > arguments.options.pathFrames)
         fail("--frames {} exceeds the {} frames of the movement (--path-frames)", arguments.options.frames,
              arguments.options.pathFrames);
-    const fs::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
-    refuseChangedSources(folder, arguments.allowChanged);
-    makeOutputFolder(folder, {"popping.csv", "popping.json"});
+    const fs::path folder = openBenchOutput(arguments.output, {"popping.csv", "popping.json"});
     Progress progress = terminalProgress(global);
     PreparedFrame frame = placeFrame(arguments.request, progress);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
@@ -86,7 +81,7 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
     };
     measurePopping(frame.world, frame.view, options, visitor, progress);
     fmt::print("{}", poppingSummary(poppingRows(frames)));
-    drawReport(arguments.report, arguments.report);
+    drawReport(folder, arguments.output.report);
 }
 
 }  // namespace
@@ -113,12 +108,7 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
                "Number of frames of a complete movement, which sets its speed: focus from the nearest to the farthest "
                "object, dolly over half the focus distance, one turn, one cycle of the animation")
         ->group(group);
-    CLI::Option* output =
-        command->add_option("-o,--output", arguments->folder, "Folder for the results popping.csv and popping.json")
-            ->type_name("FOLDER")
-            ->group("Output");
-    addReport(*command, output, arguments->report);
-    addAllowChanged(*command, arguments->allowChanged);
+    addBenchOutput(*command, arguments->output, "the results popping.csv and popping.json");
     addDeveloperSettings(*command, arguments->request,
                          {"keepAll", "memory", "wave", "threads"});  // these settings don't affect the results
     command->footer(

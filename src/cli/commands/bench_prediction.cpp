@@ -20,13 +20,11 @@ namespace {
 struct PredictionArguments {
     Request request = measuredRequest();
     PredictionOptions options;
-    std::filesystem::path folder;  // folder of the results; empty: print the table only
-    bool allowChanged = false;
+    BenchOutput output;
 };
 
 void runPrediction(const PredictionArguments& arguments, const GlobalOptions& global) {
-    refuseChangedSources(arguments.folder, arguments.allowChanged);
-    makeOutputFolder(arguments.folder, {"prediction.csv", "prediction.json"});
+    const std::filesystem::path folder = openBenchOutput(arguments.output, {"prediction.csv", "prediction.json"});
     const Progress progress = terminalProgress(global);
     const PreparedFrame frame = placeFrame(arguments.request, progress);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
@@ -46,9 +44,9 @@ void runPrediction(const PredictionArguments& arguments, const GlobalOptions& gl
             rows.push_back(row);
             fmt::print("{}", predictionLine(row));
             std::fflush(stdout);
-            if (arguments.folder.empty()) return;
-            writeFile(arguments.folder / "prediction.csv", predictionCsv(rows));
-            writeFile(arguments.folder / "prediction.json", predictionJson(rows, subject));
+            if (folder.empty()) return;
+            writeFile(folder / "prediction.csv", predictionCsv(rows));
+            writeFile(folder / "prediction.json", predictionJson(rows, subject));
         },
         progress);
     fmt::print("{}", predictionSummary(rows));
@@ -66,10 +64,7 @@ void addPredictionCommand(CLI::App& bench, const GlobalOptions& global) {
                "Blur at the centre of the mesh, in px")
         ->group("Measurement");
     addSettings(*command, arguments->request, {"scene", "fishCount", "trianglesPerFish", "size"});
-    command->add_option("-o,--output", arguments->folder, "Folder for the results prediction.csv and prediction.json")
-        ->type_name("FOLDER")
-        ->group("Output");
-    addAllowChanged(*command, arguments->allowChanged);
+    addBenchOutput(*command, arguments->output, "the results prediction.csv and prediction.json", false);
     command->footer(
         "Examples:\n"
         "  defocus bench prediction\n"

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <system_error>
 #include <vector>
 
 #include "cli/commands/bench_commands.h"
@@ -28,19 +27,15 @@ namespace fs = std::filesystem;
 struct ScalingArguments {
     ScalingOptions options;
     Request request;      // only the request's cache folder is used
-    fs::path folder;      // folder of the results; empty: print the table only
-    fs::path report;      // folder of the report; empty: no report
     bool scenes = false;  // true: also measure two large scenes
-    bool allowChanged = false;
+    BenchOutput output;
 };
 
 void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) {
     if (arguments.options.large &&
         std::ranges::find(arguments.options.axes, ScalingAxis::triangles) == arguments.options.axes.end())
         throw UsageError("--large extends the axis triangles; add it to --axes");
-    const fs::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
-    refuseChangedSources(folder, arguments.allowChanged);
-    makeOutputFolder(folder, {"scaling.csv", "scaling.json"});
+    const fs::path folder = openBenchOutput(arguments.output, {"scaling.csv", "scaling.json"});
     const Progress progress = terminalProgress(global);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     ScalingOptions options = arguments.options;
@@ -79,7 +74,7 @@ void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) 
         fmt::print("{}", largeSceneLine(scenes.back()));
         write();
     }
-    drawReport(arguments.report, arguments.report);
+    drawReport(folder, arguments.output.report);
 }
 
 }  // namespace
@@ -111,12 +106,7 @@ void addScalingCommand(CLI::App& bench, const GlobalOptions& global) {
     addInteger(*command, "--runs", options.runs, 1, 1000, "Number of runs of each frame; the median is reported")
         ->group(group);
     addSettings(*command, arguments->request, {"cacheFolder"});
-    CLI::Option* output =
-        command->add_option("-o,--output", arguments->folder, "Folder for the results scaling.csv and scaling.json")
-            ->type_name("FOLDER")
-            ->group("Output");
-    addReport(*command, output, arguments->report);
-    addAllowChanged(*command, arguments->allowChanged);
+    addBenchOutput(*command, arguments->output, "the results scaling.csv and scaling.json");
     command->footer(
         "Examples:\n"
         "  defocus bench scaling -o scaling\n"

@@ -25,9 +25,8 @@ namespace {
 struct ViewBenchArguments {
     Request request = measuredRequest();
     ViewBenchOptions options;
-    bool refocus = false;          // true: measure changes of focus and f-number
-    std::filesystem::path folder;  // folder of the results; empty: print the table only
-    bool allowChanged = false;
+    bool refocus = false;  // true: measure changes of focus and f-number
+    BenchOutput output;
 };
 
 std::string seconds(double value) {
@@ -92,8 +91,7 @@ nlohmann::ordered_json refocusRowJson(const RefocusBenchRow& row) {
 }
 
 void runViewBench(const ViewBenchArguments& arguments, const GlobalOptions& global) {
-    refuseChangedSources(arguments.folder, arguments.allowChanged);
-    makeOutputFolder(arguments.folder, {"view.json"});
+    const std::filesystem::path folder = openBenchOutput(arguments.output, {"view.json"});
     const Progress progress = terminalProgress(global);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     ViewBenchOptions options = arguments.options;
@@ -121,7 +119,7 @@ void runViewBench(const ViewBenchArguments& arguments, const GlobalOptions& glob
         fmt::print("{}", line);
         std::fflush(stdout);
         json["rows"].push_back(row);
-        if (!arguments.folder.empty()) writeFile(arguments.folder / "view.json", json.dump(2) + "\n");
+        if (!folder.empty()) writeFile(folder / "view.json", json.dump(2) + "\n");
     };
     if (arguments.refocus) {
         measureRefocus(
@@ -162,10 +160,7 @@ void addBenchViewCommand(CLI::App& bench, const GlobalOptions& global) {
         ->group(group);
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"samples", "quality", "timeLimit", "method", "exposureTime", "iso"}));
-    command->add_option("-o,--output", arguments->folder, "Folder for the result view.json")
-        ->type_name("FOLDER")
-        ->group("Output");
-    addAllowChanged(*command, arguments->allowChanged);
+    addBenchOutput(*command, arguments->output, "the result view.json", false);
     addDeveloperSettings(*command, arguments->request, {"keepAll", "memory", "threads"});
     command->footer(
         "Examples:\n"

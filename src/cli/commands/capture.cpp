@@ -229,9 +229,7 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
     FrameDriver driver(prepared.world, driverOptions(request, global.shaderDir, filmPixelBytes));
     std::optional<PopCheck> check;
     if (arguments.check) {
-        RendererOptions renderer;
-        renderer.layerFormat = request.layerFormat;
-        renderer.shaderFolder = global.shaderDir;
+        const RendererOptions renderer{.layerFormat = request.layerFormat, .shaderFolder = global.shaderDir};
         check.emplace(prepared.world, use, renderer);
         options.frameDrawn = [&](int frame, const FramePlan& plan) { check->note(frame, plan); };
     }

@@ -200,9 +200,7 @@ Frame frameOf(const World& world, const View& view, const ConvergenceCase& wante
     renderer->advance();
 
     // Draw the timed frame.
-    renderer->start(plan);
-    while (renderer->advance()) {
-    }
+    drawAllSamples(*renderer, plan);
     frame.image = renderer->image();
     const RenderStats stats = renderer->stats();
     frame.run.method = wanted.use.method->name;

@@ -49,21 +49,15 @@ bool overlap(const Crop& crop, int x, int y, int size) {
 
 Image errorOfFewSamples(const World& world, const View& view, const ReferenceImage& reference, std::uint32_t fewSamples,
                         const RendererOptions& options) {
-    RenderSettings settings;
-    settings.sampleCount = fewSamples;
-    settings.lod = LodMode::off;
+    const RenderSettings settings{.sampleCount = fewSamples, .lod = LodMode::off};
     RendererOptions own = options;
     own.settings.clear();
     const auto renderer = methodNamed("accumulation").make(world, own);
-    renderer->start(planFrame(world, view, settings));
-    while (renderer->advance()) {
-    }
-    return flipErrorMap(reference.image, renderer->image());
+    return flipErrorMap(reference.image, imageOf(*renderer, planFrame(world, view, settings)));
 }
 
 Image blurOfGeometry(const World& world, const View& view, const RendererOptions& options) {
-    RenderSettings settings;
-    settings.lod = LodMode::off;
+    const RenderSettings settings{.lod = LodMode::off};
     const AovImages aovs = renderAovs(world, planFrame(world, view, settings), options.shaderFolder);
     Image blur = aovs.coc;
     for (std::size_t i = 0; i < blur.pixels.size(); ++i)

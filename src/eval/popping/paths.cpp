@@ -23,9 +23,7 @@ struct Depths {
 
 // Returns the depth range (m) of the objects in the view. Throws Error if the range is empty.
 Depths depthsOf(const World& world, const View& view) {
-    RenderSettings settings;
-    settings.sampleCount = 1;
-    settings.lod = LodMode::off;
+    const RenderSettings settings{.sampleCount = 1, .lod = LodMode::off};
     Depths depths;
     for (const ObjectPlan& object : planFrame(world, view, settings).objects) {
         depths.nearest = std::min(depths.nearest, std::max(object.nearestDepth, view.nearPlane));

@@ -118,7 +118,7 @@ PoppingFrame frameOf(const Renderers& renderers, PoppingMode mode, const ModeSta
     frame.speed = largestSpeed(now.plan, before.plan);
     frame.change = popBetween(expected, now.image, objects);
     if (const std::optional<HeldPlan> held = asBefore(now.plan, before.plan))
-        frame.step = popBetween(displayColours(rendered(renderers.of(mode), held->plan)), now.image,
+        frame.step = popBetween(displayColours(imageOf(renderers.of(mode), held->plan)), now.image,
                                 pixelsOf(held->changed, now.plan, objects));
     return frame;
 }
@@ -134,13 +134,13 @@ std::vector<PoppingFrame> measureMovement(World& world, const Renderers& rendere
         const View& view = movement[t].view;
         poseWorld(world, movement[t]);
         const FramePlan fullDetail = planOf(world, view, options, samples, LodMode::off);
-        const Image accumulated = displayColours(rendered(*renderers.accumulation, fullDetail));
+        const Image accumulated = displayColours(imageOf(*renderers.accumulation, fullDetail));
         for (std::size_t m = 0; m < poppingModes.size(); ++m) {
             const PoppingMode mode = poppingModes[m];
             ModeState now;
             now.plan = planOf(world, view, options, samples, levelsOf(mode));
-            now.image = displayColours(rendered(renderers.of(mode), now.plan));
-            now.reference = mode == PoppingMode::multirate ? displayColours(rendered(*renderers.multirate, fullDetail))
+            now.image = displayColours(imageOf(renderers.of(mode), now.plan));
+            now.reference = mode == PoppingMode::multirate ? displayColours(imageOf(*renderers.multirate, fullDetail))
                                                            : accumulated;
             if (t > 0) {
                 const Image expected = carriedOn(before[m].image, now.reference, before[m].reference);
@@ -177,7 +177,7 @@ Image withSplit(Renderer& renderer, FramePlan& plan, ObjectPlan& object, const P
     object.fine = {level, coarseCount, samples - coarseCount, pyramid.levels[level].triangleCount};
     object.boundaryShare = 0;
     markUsed(plan);
-    return rendered(renderer, plan);
+    return imageOf(renderer, plan);
 }
 
 double squaredDifference(const Image& a, const Image& b) {

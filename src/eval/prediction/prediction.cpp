@@ -92,11 +92,7 @@ void blurBy(Stand& stand, double coc) {
 }
 
 FramePlan planOf(const Stand& stand, std::uint32_t samples, std::uint32_t level, std::uint32_t seed = 0) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.seed = seed;
-    settings.lod = LodMode::off;
-    settings.keepAll = true;
+    const RenderSettings settings{.sampleCount = samples, .seed = seed, .lod = LodMode::off, .keepAll = true};
     FramePlan plan = planFrame(stand.world, stand.view, settings);
     for (ObjectPlan& object : plan.objects) {
         object.fine.level = level;
@@ -114,10 +110,7 @@ Views viewsOf(Stand& stand, std::uint32_t samples, std::uint32_t level, std::uin
     for (const glm::dvec3& towards : blurredErrorViews()) {
         turnTo(stand, towards);
         const auto renderer = methodNamed("accumulation").make(stand.world, options);
-        renderer->start(planOf(stand, samples, level, seed));
-        while (renderer->advance()) {
-        }
-        views.push_back(renderer->image());
+        views.push_back(imageOf(*renderer, planOf(stand, samples, level, seed)));
     }
     return views;
 }

@@ -31,8 +31,7 @@ LargeSceneRow measureLargeScene(const LargeScene& scene, const LargeSceneOptions
         row.triangles += world.world.pyramids[static_cast<std::size_t>(object.mesh)].levels.front().triangleCount;
 
     // Time the planning repeatedly.
-    RenderSettings settings;
-    settings.sampleCount = 8;
+    const RenderSettings settings{.sampleCount = 8};
     FramePlan plan;
     std::vector<double> times;
     for (int i = 0; i <= options.runs; ++i) {
@@ -50,9 +49,7 @@ LargeSceneRow measureLargeScene(const LargeScene& scene, const LargeSceneOptions
     static_cast<void>(renderer->image());
     row.firstImageMilliseconds = millisecondsSince(start);
     while (more) more = renderer->advance();
-    renderer->start(plan);
-    while (renderer->advance()) {
-    }
+    drawAllSamples(*renderer, plan);
     const RenderStats stats = renderer->stats();
     row.frameMilliseconds = stats.renderMilliseconds;
     row.trianglesDrawn = stats.trianglesDrawn;

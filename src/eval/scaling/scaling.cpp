@@ -27,16 +27,12 @@ FramePlan planOf(const ScalingWorld& world, const ScalingPoint& point, LodMode m
     view.width = point.width;
     view.height = point.height;
     view.lens.fStop = point.fStop.value_or(view.lens.fStop);
-    RenderSettings settings;
-    settings.sampleCount = point.samples;
-    settings.lod = mode;
+    const RenderSettings settings{.sampleCount = point.samples, .lod = mode};
     return planFrame(world.world, view, settings);
 }
 
 double milliseconds(Renderer& renderer, const FramePlan& plan) {
-    renderer.start(plan);
-    while (renderer.advance()) {
-    }
+    drawAllSamples(renderer, plan);
     return renderer.stats().renderMilliseconds;
 }
 

@@ -37,12 +37,6 @@ std::vector<Setting> settingsOf(const View& view, const SpeedupOptions& options)
     return settings;
 }
 
-void finish(Renderer& renderer, const FramePlan& plan) {
-    renderer.start(plan);
-    while (renderer.advance()) {
-    }
-}
-
 bool sameLens(const Setting& a, const Setting& b) {
     return a.view.lens.fStop == b.view.lens.fStop && a.view.lens.focusDistance == b.view.lens.focusDistance;
 }
@@ -149,12 +143,12 @@ void prepare(SpeedupSubject& subject, const Setting& setting, int seeds, Rendere
     subject.renderer = subject.use.method->make(*subject.form->world, options);
     subject.renderer->start(subject.plans.front());
     subject.setupMilliseconds = millisecondsSince(begin);
-    finish(*subject.renderer, planOf(subject, setting, std::min(setting.samples, warmUpSamples)));
+    drawAllSamples(*subject.renderer, planOf(subject, setting, std::min(setting.samples, warmUpSamples)));
 }
 
 // Draws and times run `number`, which uses the seed with index number % seeds.
 void run(SpeedupSubject& subject, std::size_t number, const ReferenceImage* reference) {
-    finish(*subject.renderer, subject.plans[number % subject.plans.size()]);
+    drawAllSamples(*subject.renderer, subject.plans[number % subject.plans.size()]);
     const RenderStats stats = subject.renderer->stats();
     subject.milliseconds.push_back(stats.renderMilliseconds);
     subject.gpuMilliseconds.push_back(stats.gpuMilliseconds);

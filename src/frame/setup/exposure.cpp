@@ -84,16 +84,11 @@ double meteredExposure(World& world, const View& view, const RenderSettings& set
     RenderSettings few = settings;
     few.sampleCount = meterSamples;
     few.positions = 1;
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
-    options.shaderFolder = shaderFolder;
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f, .shaderFolder = shaderFolder};
     const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(world, options);
     const auto rendered = [&](bool withEnvironment) {
         const ShownEnvironment shown(world, withEnvironment);
-        renderer->start(planFrame(world, small, few));
-        while (renderer->advance()) {
-        }
-        return renderer->image();
+        return imageOf(*renderer, planFrame(world, small, few));
     };
     Image image = rendered(false);
     if (world.environment.type != EnvironmentType::uniform) addBackground(image, rendered(true));

@@ -96,13 +96,6 @@ Image pixelsOf(const std::vector<const ObjectPlan*>& changed, const FramePlan& p
     return pixels;
 }
 
-Image rendered(Renderer& renderer, const FramePlan& plan) {
-    renderer.start(plan);
-    while (renderer.advance()) {
-    }
-    return renderer.image();
-}
-
 Image displayColours(const Image& linear) {
     const Image encoded = displayEncoded(linear);
     Image colours(linear.width, linear.height, 3);

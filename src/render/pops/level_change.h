@@ -7,7 +7,6 @@
 
 #include "image/image.h"
 #include "plan/frame_plan.h"
-#include "render/renderer.h"
 
 namespace defocus::engine {
 
@@ -33,9 +32,6 @@ Image objectPixels(const Image& level, const Image& coc);
 // Returns the pixels of the mask `objects` that lie in the bounding boxes of the objects `changed`, grown by their
 // blur.
 Image pixelsOf(const std::vector<const ObjectPlan*>& changed, const FramePlan& plan, const Image& objects);
-
-// Renders a complete image of `plan`. Needs a current GL context.
-Image rendered(Renderer& renderer, const FramePlan& plan);
 
 // Returns the colours of a linear image as display values (sRGB, [0, 1], EV 0) in 3 channels.
 Image displayColours(const Image& linear);

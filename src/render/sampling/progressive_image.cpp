@@ -39,9 +39,7 @@ void ProgressiveImage::drawFrame(FramePlan plan) {
     plan_ = withAllLevels(std::move(plan));
     finished_ = true;
     renderer_->setWave({.samples = plan_.settings.sampleCount});
-    renderer_->start(plan_);
-    while (renderer_->advance()) {
-    }
+    drawAllSamples(*renderer_, plan_);
     glFinish();
 }
 

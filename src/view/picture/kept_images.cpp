@@ -97,9 +97,7 @@ bool KeptImages::grow(double milliseconds) {
 void KeptImages::drawImage() {
     if (!stack_.allocated()) stack_.allocate(info_.size.fullWidth(), info_.size.fullHeight(), planned());
     if (!renderer_) renderer_ = methodNamed("accumulation").make(*world_, options_);
-    renderer_->start(samplesOf(plan_, drawn_, 1));
-    while (renderer_->advance()) {
-    }
+    drawAllSamples(*renderer_, samplesOf(plan_, drawn_, 1));
     stack_.store(drawn_, *renderer_->imageTexture());
     waitForGpu();
     ++drawn_;

@@ -11,8 +11,8 @@
 #include "eval/convergence/convergence.h"
 #include "eval/convergence/crops.h"
 #include "eval/convergence/rows.h"
-#include "gl/context.h"
 #include "gl_conduct.h"
+#include "gl_context_test.h"
 #include "scratch_folder.h"
 #include "small_world.h"
 
@@ -42,17 +42,16 @@ private:
     std::uint32_t claimed_;
 };
 
-class Convergence : public testing::Test {
+class Convergence : public GlContextTest {
 protected:
     // Renders the reference image once for all tests, since this takes longer than rendering most of the compared
     // images.
     static void SetUpTestSuite() {
-        context_ = createHeadlessContext();
+        GlContextTest::SetUpTestSuite();
         const std::unique_ptr<SmallWorld> small = smallSpheres();
         const ScratchFolder folder;
         reference_ = referenceImage(small->world, small->view, {256, {}}, folder.path());
     }
-    static void TearDownTestSuite() { context_.reset(); }
 
     static std::unique_ptr<SmallWorld> smallSpheres() {
         auto small = fiveSpheres();
@@ -91,7 +90,6 @@ protected:
         return runs;
     }
 
-    static inline std::unique_ptr<GlContext> context_;
     static inline ReferenceImage reference_;
 
     std::unique_ptr<SmallWorld> small_ = smallSpheres();
@@ -255,20 +253,14 @@ TEST_F(Convergence, methodsDrawMotionIfTheySaySo) {
     Pose moved = small_->world.pose;
     for (Object& object : moved.objects) object.worldFromObject[3].x += 0.2;
     const std::vector<Pose> moving = {small_->world.pose, moved};
-    RenderSettings settings;
-    settings.sampleCount = 8;
-    settings.lod = LodMode::off;
-    settings.keepAll = true;
+    RenderSettings settings{.sampleCount = 8, .lod = LodMode::off, .keepAll = true};
     for (const char* name : {"accumulation", "scheuermann", "circular"}) {
         const MethodUse use = parseMethodUse(name);
-        RendererOptions own;
-        own.settings = use.settings;
+        const RendererOptions own{.settings = use.settings};
         const auto imageOf = [&](const std::vector<Pose>& poses) {
             small_->world.shutter.poses = poses;
             const auto renderer = use.method->make(small_->world, own);
-            renderer->start(planFrame(small_->world, small_->view, settings));
-            while (renderer->advance()) {
-            }
+            drawAllSamples(*renderer, planFrame(small_->world, small_->view, settings));
             return renderer->image().pixels;
         };
         EXPECT_EQ(imageOf(moving) != imageOf({}), use.method->drawsMotion) << name;

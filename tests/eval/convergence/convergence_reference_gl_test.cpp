@@ -12,6 +12,7 @@
 #include "gl/context.h"
 #include "gl_conduct.h"
 #include "image/image_io.h"
+#include "render/rendered.h"
 #include "scratch_folder.h"
 #include "small_world.h"
 
@@ -39,18 +40,9 @@ protected:
 
 TEST_F(ConvergenceReference, isTheMeanOfAllItsSamplesAtFullDetail) {
     const ReferenceImage mean = reference(31);
-    RenderSettings settings;
-    settings.sampleCount = 31;
-    settings.sequence = referenceSequence;
-    settings.firstSample = referenceOffset;
-    settings.lod = LodMode::off;
-    RendererOptions precise;
-    precise.layerFormat = LayerFormat::rgba32f;
-    const auto renderer = methodNamed("accumulation").make(small_->world, precise);
-    renderer->start(planFrame(small_->world, small_->view, settings));
-    while (renderer->advance()) {
-    }
-    const Image direct = renderer->image();
+    const RenderSettings settings{
+        .sampleCount = 31, .sequence = referenceSequence, .firstSample = referenceOffset, .lod = LodMode::off};
+    const Image direct = imageInFloats(small_->world, planFrame(small_->world, small_->view, settings));
     ASSERT_EQ(mean.image.pixels.size(), direct.pixels.size());
     for (std::size_t i = 0; i < direct.pixels.size(); ++i)
         ASSERT_NEAR(mean.image.pixels[i], direct.pixels[i], 1e-6 * std::max(1.0f, direct.pixels[i]));

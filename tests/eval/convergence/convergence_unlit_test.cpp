@@ -10,9 +10,7 @@ namespace {
 // 0.6)/√1.16, reflects 0.2 + 0.8·0.6/√1.16 of its colour.
 TEST(ConvergenceUnlit, paintsTheLightOnTheVertices) {
     Scene scene;
-    Material lit;
-    lit.baseColorFactor = {0.5f, 0.25f, 1, 0.5f};
-    lit.alphaMode = AlphaMode::blend;
+    const Material lit{.baseColorFactor = {0.5f, 0.25f, 1, 0.5f}, .alphaMode = AlphaMode::blend};
     scene.materials.push_back(lit);
     scene.meshes = {quad(0), quad(-1)};
     scene.meshes[0].vertices.normals.clear();

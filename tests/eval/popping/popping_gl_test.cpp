@@ -1,18 +1,14 @@
 #include <gtest/gtest.h>
 
 #include "eval/popping/popping.h"
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "small_world.h"
 
 namespace defocus::engine {
 namespace {
 
-class Popping : public testing::Test {
+class Popping : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-
     Popping() : small_(fiveSpheres()) {
         for (const Object& object : small_->world.pose.objects)
             small_->world.pose.bounds.extend(glm::dvec3(object.worldFromObject[3]));
@@ -40,7 +36,6 @@ protected:
     std::vector<PoppingFrame> first_, frames_;
     std::vector<SampleStep> steps_;
 };
-std::unique_ptr<GlContext> Popping::context_;
 
 // With pyramids of one level, every mode draws full detail, so the modes do not differ.
 TEST_F(Popping, withoutCoarserLevelsThereIsNone) {

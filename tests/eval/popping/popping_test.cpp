@@ -99,9 +99,7 @@ TEST(PoppingPaths, impossibleMovementsAreErrors) {
 TEST(PoppingPaths, theBusiestStretchHasTheMostChangesOfLevel) {
     const auto small = spheres();
     const std::vector<MovementFrame> frames = framesAlong(Movement::focusPull, small->world, small->view, 40);
-    RenderSettings settings;
-    settings.lod = LodMode::nearest;
-    settings.thresholds = {0.5, 2};
+    const RenderSettings settings{.lod = LodMode::nearest, .thresholds = {0.5, 2}};
     const auto changes = [&](const View& a, const View& b) {
         int changed = 0;
         for (const ObjectPlan& x : planFrame(small->world, a, settings).objects)

@@ -110,8 +110,7 @@ TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     options.runs = 1;
     options.referenceSamples = 0;
     // Spheres in focus are simplified by size, and the other spheres by blur.
-    RenderSettings plan;
-    plan.thresholds = {2, 3};
+    const RenderSettings plan{.thresholds = {2, 3}};
     const std::vector<SpeedupForm> forms = {{"", &small->world, plan, 0}};
     std::vector<SpeedupRow> rows;
     measureSpeedup(forms, small->view, options, [&](const SpeedupRow& row) { rows.push_back(row); });
@@ -120,9 +119,7 @@ TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     EXPECT_FALSE(rows[1].blurOnly);
     ASSERT_TRUE(rows[2].sizeOnly && rows[2].blurOnly);
     const auto planned = [&](double blur, double size) {
-        RenderSettings settings;
-        settings.sampleCount = 8;
-        settings.thresholds = {blur, size};
+        const RenderSettings settings{.sampleCount = 8, .thresholds = {blur, size}};
         return planFrame(small->world, small->view, settings).trianglesDrawn;
     };
     EXPECT_EQ(rows[2].triangles, planned(2, 3));

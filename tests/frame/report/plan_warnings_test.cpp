@@ -27,8 +27,7 @@ std::unique_ptr<SmallWorld> quadsAt(const std::vector<double>& depths) {
 
 std::vector<std::string> warningsOf(const SmallWorld& small, std::uint32_t samples = 64,
                                     const char* method = "accumulation") {
-    RenderSettings settings;
-    settings.sampleCount = samples;
+    const RenderSettings settings{.sampleCount = samples};
     return planWarnings(planFrame(small.world, small.view, settings), parseMethodUse(method));
 }
 

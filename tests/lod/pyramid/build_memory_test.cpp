@@ -45,9 +45,7 @@ void expectWithinBound(const std::string& name, const Mesh& mesh, const PyramidO
 }
 
 PyramidOptions fullDetailOnly() {
-    PyramidOptions options;
-    options.maxLevels = 1;
-    return options;
+    return {.maxLevels = 1};
 }
 
 TEST(BuildMemory, boundHolds) {
@@ -117,8 +115,7 @@ TEST(BuildMemory, cachedPyramidsAreNotRefused) {
     const ScratchFolder folder;
     const std::vector<Mesh> meshes = {sphere(60, 30)};
     static_cast<void>(cachedPyramids(meshes, folder.path()));
-    PyramidOptions limited;
-    limited.memoryLimit = 1;
+    const PyramidOptions limited{.memoryLimit = 1};
     EXPECT_EQ(cachedPyramids(meshes, folder.path(), limited).loaded, 1u);
     EXPECT_THROW(static_cast<void>(cachedPyramids(meshes, {}, limited)), Error);
 }

@@ -36,8 +36,7 @@ TEST(PyramidEnd, MoreHandlesEndWithinTwiceWhatTheyNeed) {
 
 TEST(PyramidEnd, ALevelThatSavesLessThanAQuarterIsNotMade) {
     const Mesh mesh = torus(24, 16);
-    PyramidOptions options;
-    options.minTriangles = static_cast<std::uint32_t>(mesh.triangleCount()) * 4 / 5;
+    const PyramidOptions options{.minTriangles = static_cast<std::uint32_t>(mesh.triangleCount()) * 4 / 5};
     const Pyramid pyramid = buildPyramid(mesh, options);
     EXPECT_EQ(pyramid.levels.size(), 1u);
     EXPECT_EQ(pyramid.end, PyramidEnd::smallSaving);
@@ -62,8 +61,7 @@ TEST(PyramidEnd, WithoutASurfaceThereIsNothingToSimplify) {
 }
 
 TEST(PyramidEnd, AsManyLevelsAsAskedFor) {
-    PyramidOptions options;
-    options.maxLevels = 3;
+    const PyramidOptions options{.maxLevels = 3};
     EXPECT_EQ(buildPyramid(sphere(48, 32), options).end, PyramidEnd::maxLevels);
     EXPECT_EQ(fullDetail(sphere(48, 32)).end, PyramidEnd::maxLevels);
 }

@@ -13,21 +13,6 @@
 namespace defocus::engine {
 namespace {
 
-// Adds every attribute to the mesh, so that a test can compare all attributes of a level's vertices with the mesh's
-// attributes.
-Mesh decorated(Mesh mesh) {
-    const std::size_t count = mesh.vertices.count();
-    for (std::size_t v = 0; v < count; ++v) {
-        const auto byte = static_cast<std::uint8_t>(v % 251);
-        mesh.vertices.tangents.push_back({1, 0, 0, v % 2 == 0 ? 1.0f : -1.0f});
-        mesh.vertices.uv1.push_back(0.5f * mesh.vertices.uv0[v]);
-        mesh.vertices.colors.emplace_back(byte / 255.0f, 0.5f, 1, 1);
-        mesh.vertices.joints.push_back({byte, 0, 0, 0});
-        mesh.vertices.weights.push_back({1, 0, 0, 0});
-    }
-    return mesh;
-}
-
 TEST(Pyramid, EmptyMeshHasOneEmptyLevel) {
     const Pyramid pyramid = buildPyramid(Mesh{});
     ASSERT_EQ(pyramid.levels.size(), 1u);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lod/pyramid/pyramid.h"
+#include "small_world.h"
 
 namespace defocus::engine {
 namespace {
@@ -18,19 +19,14 @@ float blurAt(const glm::vec3& p) {
 
 Mesh plane(bool blurred) {
     Mesh mesh;
-    Primitive primitive{-1, {}};
     for (int y = 0; y <= cells; ++y)
         for (int x = 0; x <= cells; ++x) {
             const glm::vec3 p(2.0f * static_cast<float>(x) / cells - 1, 2.0f * static_cast<float>(y) / cells - 1, 0);
             mesh.vertices.positions.push_back(p);
             mesh.vertices.normals.emplace_back(0, 0, 1);
             if (blurred) mesh.vertices.blurs.push_back({0, blurAt(p), blurAt(p)});
-            if (x == cells || y == cells) continue;
-            const auto first = static_cast<std::uint32_t>(y * (cells + 1) + x);
-            const auto next = first + cells + 1;
-            primitive.indices.insert(primitive.indices.end(), {first, first + 1, next, first + 1, next + 1, next});
         }
-    mesh.primitives.push_back(primitive);
+    mesh.primitives.push_back({-1, gridIndices(cells)});
     mesh.blurBounds = boundsOf(mesh.vertices.blurs);
     return mesh;
 }

@@ -142,8 +142,7 @@ TEST(Components, WhatIsGoneIsMissedEvenlyOverTheMesh) {
 
 TEST(Components, ASingleOneIsNeverRemoved) {
     for (const Mesh& mesh : {torus(6, 4), tetrahedra(1, [](std::uint32_t) { return 1.0f; })}) {
-        PyramidOptions options;
-        options.minTriangles = 1;
+        const PyramidOptions options{.minTriangles = 1};
         const Pyramid pyramid = buildPyramid(mesh, options);
         EXPECT_GT(pyramid.levels.back().triangleCount, 3u);
         EXPECT_TRUE(isClosed(pyramid.levels.back().positions, levelIndices(pyramid, pyramid.levels.size() - 1)));

@@ -40,10 +40,7 @@ void addLight(SmallWorld& small, LightType type, double intensity, const glm::dv
 }
 
 RenderSettings withShadows() {
-    RenderSettings settings;
-    settings.sampleCount = 64;
-    settings.shadows = Shadows::on;
-    return settings;
+    return {.sampleCount = 64, .shadows = Shadows::on};
 }
 
 FramePlan shadowedPlan(SmallWorld& small) {

@@ -43,8 +43,7 @@ TEST(RowsOfParts, coverTheImageOnce) {
 }
 
 FramePlan planOf(const SmallWorld& small) {
-    RenderSettings settings;
-    settings.sampleCount = 16;
+    const RenderSettings settings{.sampleCount = 16};
     return planFrame(small.world, small.view, settings);
 }
 

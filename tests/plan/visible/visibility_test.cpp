@@ -36,10 +36,7 @@ private:
 };
 
 RenderSettings settingsFor(std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    return settings;
+    return {.sampleCount = samples, .lod = LodMode::off};
 }
 
 // Returns objects of one triangle each, up to `size` m large, at random positions. Most are in front of the camera, a
@@ -277,8 +274,7 @@ TEST(Visibility, anObjectBlurredMoreThanTheLensBlursIsSeenFromFarther) {
 
 std::unique_ptr<SmallWorld> oneSphere(const glm::dmat4& worldFromObject, bool doubleSided = false) {
     auto small = std::make_unique<SmallWorld>();
-    Material material;
-    material.doubleSided = doubleSided;
+    const Material material{.doubleSided = doubleSided};
     small->scene.materials.push_back(material);
     small->scene.meshes.push_back(bumpySphere(160, 120, 0));
     place(*small, 0, worldFromObject);

@@ -3,26 +3,17 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
-
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus::engine {
 
-class Accumulation : public testing::Test {
+class Accumulation : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
     static RenderSettings settingsFor(std::uint32_t samples, LodMode lod = LodMode::fractional) {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        settings.lod = lod;
-        settings.thresholds = {0.5, 2};
-        return settings;
+        return {.sampleCount = samples, .lod = lod, .thresholds = {0.5, 2}};
     }
 
     static Image rendered(const SmallWorld& small, const RenderSettings& settings,
@@ -30,24 +21,14 @@ protected:
         const auto renderer = methodNamed("accumulation").make(small.world, options);
         return imageOf(*renderer, planFrame(small.world, small.view, settings));
     }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 // Fixture for images in which one sample may draw two levels of detail of an object, each in some of the pixels
 // (LodMode::continuous).
-class ScreenDoor : public testing::Test {
+class ScreenDoor : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
     static RenderSettings continuousFor(std::uint32_t samples) {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        settings.lod = LodMode::continuous;
-        settings.thresholds = {0.5, 2};
-        return settings;
+        return {.sampleCount = samples, .lod = LodMode::continuous, .thresholds = {0.5, 2}};
     }
 
     static Image renderedPlan(const SmallWorld& small, const FramePlan& plan, RendererOptions options = {}) {
@@ -55,9 +36,6 @@ protected:
         const auto renderer = methodNamed("accumulation").make(small.world, options);
         return imageOf(*renderer, plan);
     }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 }  // namespace defocus::engine

@@ -30,8 +30,7 @@ std::unique_ptr<SmallWorld> wall(double depth, double halfSize) {
 
 TEST_F(Accumulation, geometryShaderLayersGiveTheSameImage) {
     const auto small = fiveSpheres();
-    RendererOptions options;
-    options.geometryShaderLayers = true;
+    const RendererOptions options{.geometryShaderLayers = true};
     const Image expected = rendered(*small, settingsFor(16));
     const Image image = rendered(*small, settingsFor(16), options);
     EXPECT_LT(largestDifference(expected, image),
@@ -99,8 +98,7 @@ TEST_F(Accumulation, blurredEdgeSpreadsOverTheCircleOfConfusion) {
 TEST_F(Accumulation, constantSceneStaysConstant) {
     const auto small = wall(1, 4);
     for (const std::uint32_t n : {1u, 2u, 3u, 7u, 64u, 65u, 200u}) {
-        RendererOptions exact;
-        exact.layerFormat = LayerFormat::rgba32f;
+        const RendererOptions exact{.layerFormat = LayerFormat::rgba32f};
         const Image image = rendered(*small, settingsFor(n), exact);
         const glm::vec3 expected(0.1f, 0.7f, 1.0f / 3);
         for (std::size_t i = 0; i < image.pixels.size() / 4; ++i)
@@ -111,8 +109,7 @@ TEST_F(Accumulation, constantSceneStaysConstant) {
 
 TEST_F(Accumulation, halfFloatLayersErrNoMoreThanStated) {
     const auto small = wall(1, 4);
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba16f;
+    const RendererOptions options{.layerFormat = LayerFormat::rgba16f};
     const Image image = rendered(*small, settingsFor(64), options);
     const double expected[3] = {0.1, 0.7, 1.0 / 3};
     for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(image.at(48, 32)[c], expected[c], 0x1p-11 * expected[c]);
@@ -192,8 +189,7 @@ TEST_F(Accumulation, gradientSkyIsItsFormula) {
     small.view.height = 48;
     small.view.lens.dofEnabled = false;
     small.view.worldFromCamera = glm::rotate(glm::dmat4(1), 0.3, glm::dvec3(1, 0, 0));
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const Image image = rendered(small, settingsFor(1), options);
     const double tanX = 0.36;
     for (int y = 0; y < 48; y += 5)
@@ -236,8 +232,7 @@ void addLocalLights(SmallWorld& small) {
 // shaders as constants. Additional dark lights exceed the limit, so that all lights become uniforms.
 TEST_F(Accumulation, constantLightsLightAsUniformOnes) {
     const auto small = fiveSpheres();
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const Image sunOnly = rendered(*small, settingsFor(4), options);
     addLocalLights(*small);
     const Image constant = rendered(*small, settingsFor(4), options);
@@ -299,12 +294,9 @@ TEST_F(Accumulation, normalsThatLookAwayDoNotGlare) {
 TEST_F(Accumulation, statsCountWhatThePlanSays) {
     const auto small = fiveSpheres();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(100));
-    RendererOptions options;
-    options.wave = 7;
+    const RendererOptions options{.wave = 7};
     const auto renderer = methodNamed("accumulation").make(small->world, options);
-    renderer->start(plan);
-    while (renderer->advance()) {
-    }
+    drawAllSamples(*renderer, plan);
     EXPECT_EQ(renderer->stats().trianglesDrawn, plan.trianglesDrawn);
     EXPECT_EQ(renderer->stats().samples, 100u);
     renderer->start(plan);

@@ -25,9 +25,7 @@ protected:
     }
 
     static Drawn drawnBy(const SmallWorld& small, FramePlan plan, std::uint32_t wave = 0) {
-        RendererOptions options;
-        options.layerFormat = LayerFormat::rgba32f;
-        options.wave = wave;
+        const RendererOptions options{.layerFormat = LayerFormat::rgba32f, .wave = wave};
         const auto renderer = methodNamed("accumulation").make(small.world, options);
         Drawn result;
         result.plan = std::move(plan);

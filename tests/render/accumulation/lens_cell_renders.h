@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "plan/lens_cells/lens_cells.h"
 #include "render/methods.h"
 #include "render/rendered.h"
@@ -17,9 +17,7 @@
 namespace defocus::engine {
 
 inline RenderSettings ratedSettings(std::uint32_t samples, LodMode lod = LodMode::off) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = lod;
+    RenderSettings settings{.sampleCount = samples, .lod = lod};
     if (lod != LodMode::off) settings.thresholds = {0.5, 2};
     return settings;
 }
@@ -58,11 +56,8 @@ inline double relativeDifferenceFrom(const Image& image, const glm::vec3& color)
 
 // Fixture for images that are drawn with lens cells, which are regions of the lens. Each cell has one sample, whose
 // image is blurred as a lens of the cell's size would blur it.
-class LensCellImages : public testing::Test {
+class LensCellImages : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
     static LensCells lensCellsOf(const SmallWorld& small, const RenderSettings& settings) {
         return lensCells(planFrame(small.world, small.view, settings));
     }
@@ -74,9 +69,6 @@ protected:
         small->view.lens.fStop = 0.25;
         return small;
     }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 }  // namespace defocus::engine

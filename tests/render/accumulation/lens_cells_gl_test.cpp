@@ -23,8 +23,7 @@ namespace {
 TEST_F(LensCellImages, blocksAreThoseOfTheWholeFrame) {
     const auto small = blurredSpheres();
     const FramePlan plan = planFrame(small->world, small->view, ratedSettings(192, LodMode::fractional));
-    RendererOptions few;
-    few.wave = 16;
+    const RendererOptions few{.wave = 16};
     const auto full = rendererOf("multirate", small->world, few);
     const auto part = rendererOf("multirate", small->world, few);
     full->start(plan);
@@ -68,8 +67,7 @@ TEST_F(LensCellImages, keepAllGivesTheSameBits) {
 // shader.
 TEST_F(LensCellImages, geometryShaderLayersGiveTheSameImage) {
     const auto small = blurredSpheres();
-    RendererOptions options;
-    options.geometryShaderLayers = true;
+    const RendererOptions options{.geometryShaderLayers = true};
     const RenderSettings settings = ratedSettings(64);
     EXPECT_LT(
         largestDifference(drawnBy("multirate", *small, settings), drawnBy("multirate", *small, settings, options)),
@@ -110,8 +108,7 @@ TEST_F(LensCellImages, panelsThatTouchShowNoLineBetweenThem) {
         small.view.lens.fStop = 0.25;
         small.view.lens.focusDistance = 2.1;
         finish(small);
-        RendererOptions exact;
-        exact.layerFormat = LayerFormat::rgba32f;
+        const RendererOptions exact{.layerFormat = LayerFormat::rgba32f};
         ASSERT_GT(lensCellsOf(small, ratedSettings(64)).classes(), 0);
         // Returns the largest error of pixels near the common edge of the two panels, away from their outer edges.
         const auto worst = [&](const char* method) {
@@ -145,8 +142,7 @@ FarLight farLight(double fStop) {
 }
 
 Image imageOfLight(const char* method, const FarLight& light, std::uint32_t samples) {
-    RendererOptions exact;
-    exact.layerFormat = LayerFormat::rgba32f;
+    const RendererOptions exact{.layerFormat = LayerFormat::rgba32f};
     return imageOf(*rendererOf(method, light.world, exact), planFrame(light.world, light.view, ratedSettings(samples)));
 }
 
@@ -249,8 +245,7 @@ TEST_F(LensCellImages, constantSceneStaysConstant) {
     small.view.lens.fStop = 0.2;
     small.view.lens.focusDistance = 2;
     finish(small);
-    RendererOptions exact;
-    exact.layerFormat = LayerFormat::rgba32f;
+    const RendererOptions exact{.layerFormat = LayerFormat::rgba32f};
     for (const std::uint32_t n : {16u, 64u, 100u}) {
         ASSERT_GT(lensCellsOf(small, ratedSettings(n)).inFront, 0);
         ASSERT_GT(lensCellsOf(small, ratedSettings(n)).behind, 0);

@@ -35,8 +35,7 @@ std::unique_ptr<SmallWorld> threeSquares() {
 
 TEST_F(LensLayer, leavesThePictureUnchanged) {
     const auto small = fiveSpheres();
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
+    const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const Image plain = rendered(*small, settingsFor(24, LodMode::off), options);
     EXPECT_LT(largestDifference(plain, drawn(*small, 24).picture), 1e-5);
 }

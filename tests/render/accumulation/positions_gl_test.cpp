@@ -43,8 +43,7 @@ protected:
 
 // With four positions per pixel, each pixel is the mean of 2 × 2 pixels of an image of twice the width and height.
 TEST_F(Positions, areThePixelsOfATwiceAsLargeImage) {
-    RendererOptions exact;
-    exact.layerFormat = LayerFormat::rgba32f;
+    const RendererOptions exact{.layerFormat = LayerFormat::rgba32f};
     for (const bool curvedFocus : {false, true}) {
         const auto small = fiveSpheres();
         small->view.lens.fieldCurvature = curvedFocus ? 1 : 0;
@@ -68,8 +67,7 @@ TEST_F(Positions, doNotChangeAConstantPicture) {
     small->view.lens.focusDistance = 2;
     finish(*small);
     small->world.environment = {EnvironmentType::uniform, {0.1f, 0.7f, 1.0f / 3}, {}, {}, nullptr, 1};
-    RendererOptions exact;
-    exact.layerFormat = LayerFormat::rgba32f;
+    const RendererOptions exact{.layerFormat = LayerFormat::rgba32f};
     for (const char* method : {"accumulation", "multirate"}) {
         const Image image = drawnBy(method, *small, settingsWith(4, 20), exact);
         EXPECT_LT(relativeDifferenceFrom(image, {0.1f, 0.7f, 1.0f / 3}), 1e-6) << method;
@@ -99,8 +97,7 @@ TEST_F(Positions, ofAnyWaveOrTileHaveTheSameBits) {
     const FramePlan plan = planFrame(small->world, small->view, settingsWith(4, 20));
     const Image image = imageOf(*rendererOf("accumulation", small->world), plan);
     for (const std::uint32_t wave : {1u, 3u}) {
-        RendererOptions options;
-        options.wave = wave;
+        const RendererOptions options{.wave = wave};
         EXPECT_TRUE(sameBits(image, imageOf(*rendererOf("accumulation", small->world, options), plan))) << wave;
     }
     const Tile tile{{37, 13, 64, 51}, {0, 0, plan.view.width, plan.view.height}};

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "gl_conduct.h"
+#include "gl_context_test.h"
 #include "likeness.h"
 #include "plan/sample_range.h"
 #include "render/accumulation/lens_cell_renders.h"
@@ -14,16 +15,10 @@
 namespace defocus::engine {
 namespace {
 
-class DrawingThreads : public testing::Test {
+class DrawingThreads : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
     static RendererOptions inThreads(std::uint32_t threads, LayerFormat format = LayerFormat::rgba16f) {
-        RendererOptions options;
-        options.layerFormat = format;
-        options.threads = threads;
-        return options;
+        return {.layerFormat = format, .threads = threads};
     }
     // Renders `plan` with 1, 2 and 5 threads, and expects the same bits.
     static void expectSameBits(const char* method, const SmallWorld& small, const FramePlan& plan,
@@ -44,8 +39,6 @@ protected:
     void SetUp() override {
         if (!drawsInThreads(currentDevice(), currentDriver())) GTEST_SKIP() << currentDriver() << " may crash";
     }
-
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 TEST_F(DrawingThreads, changeNoBitOfLevelsOfDetail) {
@@ -69,10 +62,7 @@ TEST_F(DrawingThreads, changeNoBitOfShadowsAndEnvironmentMaps) {
     const FramePlan shadowed = planFrame(small->world, small->view, settings);
     ASSERT_FALSE(shadowed.shadows.maps.empty());
     expectSameBits("accumulation", *small, shadowed, "shadows");
-    auto map = std::make_shared<Image>(16, 8, 3);
-    for (std::size_t i = 0; i < map->pixels.size(); ++i) map->pixels[i] = static_cast<float>(i * 37 % 101) / 50;
-    small->world.environment.type = EnvironmentType::map;
-    small->world.environment.map = map;
+    small->world.environment = speckledMap();
     expectSameBits("accumulation", *small, planOf(*small, 24), "map");
 }
 

@@ -17,9 +17,7 @@ TEST_F(Accumulation, waveSizeChangesNoBit) {
     for (const LayerFormat format : {LayerFormat::rgba16f, LayerFormat::rgba32f}) {
         Image first;
         for (const std::uint32_t k : {1u, 3u, 64u}) {
-            RendererOptions options;
-            options.wave = k;
-            options.layerFormat = format;
+            const RendererOptions options{.layerFormat = format, .wave = k};
             const Image image = rendered(*small, settingsFor(70), options);
             if (first.empty())
                 first = image;
@@ -41,9 +39,7 @@ TEST_F(ScreenDoor, waveSizeChangesNoBit) {
     const FramePlan plan = planFrame(small->world, small->view, continuousFor(70));
     ASSERT_GE(sharingObjects(plan), 2);
     for (const LayerFormat format : {LayerFormat::rgba16f, LayerFormat::rgba32f}) {
-        RendererOptions options;
-        options.layerFormat = format;
-        options.wave = 1;
+        RendererOptions options{.layerFormat = format, .wave = 1};
         const Image first = renderedPlan(*small, plan, options);
         for (const std::uint32_t k : {3u, 64u}) {
             options.wave = k;
@@ -60,9 +56,7 @@ TEST_F(LensCellImages, waveSizeChangesNoBit) {
         for (const LayerFormat format : {LayerFormat::rgba16f, LayerFormat::rgba32f}) {
             Image first;
             for (const std::uint32_t k : {1u, 3u, 64u}) {
-                RendererOptions options;
-                options.wave = k;
-                options.layerFormat = format;
+                const RendererOptions options{.layerFormat = format, .wave = k};
                 const Image image = drawnBy("multirate", *small, settings, options);
                 if (first.empty()) first = image;
                 EXPECT_TRUE(sameBits(first, image)) << "K = " << k << ": " << largestDifference(first, image);

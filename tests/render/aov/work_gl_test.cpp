@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include "gl/context.h"
 #include "gl/read_back.h"
+#include "gl_context_test.h"
 #include "image/tone_map.h"
 #include "render/aov/work.h"
 #include "render/display/display_pass.h"
@@ -15,20 +15,12 @@
 namespace defocus::engine {
 namespace {
 
-class Work : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> Work::context_;
+using Work = GlContextTest;
 
 constexpr std::uint32_t samples = 48;
 
 RenderSettings manySamples() {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    return settings;
+    return {.sampleCount = samples};
 }
 
 // Returns quads that face a 50 mm lens at f/1.4, focused at 2 m, in an image of 96 × 72 px. At depth z, the image is

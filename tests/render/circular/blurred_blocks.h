@@ -4,21 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
 
-#include "gl/context.h"
 #include "gl/read_back.h"
+#include "gl_context_test.h"
 #include "likeness.h"
 #include "render/circular/circular_kernel.h"
 #include "render/circular/complex_blur.h"
 
 namespace defocus::engine {
 
-class ComplexBlurs : public testing::Test {
+class ComplexBlurs : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
     static constexpr int width = 96;
     static constexpr int height = 80;
 
@@ -69,9 +65,6 @@ protected:
         for (int y = 0; y < part.height; ++y) std::copy_n(image.at(0, y), row, part.at(0, y));
         return part;
     }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 }  // namespace defocus::engine

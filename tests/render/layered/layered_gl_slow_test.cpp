@@ -13,10 +13,10 @@ namespace {
 
 TEST_F(Layered, slopingAndRoundSurfacesAreAsTheAccumulationHasThem) {
     const auto small = fiveSpheres();
-    const double error = errorBetween(seenBy(*small, "layered"), seenBy(*small, "accumulation"));
+    const double error = rootMeanSquare(seenBy(*small, "layered"), seenBy(*small, "accumulation"));
     EXPECT_LT(error, 0.012);
     small->view.lens.fStop = 0.25;
-    EXPECT_LT(errorBetween(seenBy(*small, "layered"), seenBy(*small, "accumulation")), 0.012);
+    EXPECT_LT(rootMeanSquare(seenBy(*small, "layered"), seenBy(*small, "accumulation")), 0.012);
 }
 
 TEST_F(Layered, everyLensShapeAndControlIsTheAccumulations) {
@@ -37,8 +37,8 @@ TEST_F(Layered, everyLensShapeAndControlIsTheAccumulations) {
         const Image plain = seenBy(*small, "accumulation", 64);
         set(small->view.lens);
         const Image expected = seenBy(*small, "accumulation", 64);
-        const double changed = errorBetween(plain, expected);
-        const double error = errorBetween(seenBy(*small, "layered", 64), expected);
+        const double changed = rootMeanSquare(plain, expected);
+        const double error = rootMeanSquare(seenBy(*small, "layered", 64), expected);
         EXPECT_LT(error, 0.02) << name;
         EXPECT_LT(error, 0.8 * changed) << name;
     }

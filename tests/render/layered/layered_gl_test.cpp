@@ -12,13 +12,6 @@
 namespace defocus::engine {
 namespace {
 
-double maxBetween(const Image& a, const Image& b) {
-    double largest = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        largest = std::max(largest, std::abs(static_cast<double>(a.pixels[i]) - static_cast<double>(b.pixels[i])));
-    return largest;
-}
-
 // An unlit pane that faces the camera and covers `area`, in px from the image's top left corner.
 struct Pane {
     Rectangle area;
@@ -55,10 +48,10 @@ Pane wallAt(double depth, const glm::vec4& color) {
 TEST_F(Layered, apertureZeroIsThePinholeImage) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
-    EXPECT_LT(maxBetween(seenBy(*small, "accumulation", 1), seenBy(*small, "layered", 1)), 2e-3);
+    EXPECT_LT(largestDifference(seenBy(*small, "accumulation", 1), seenBy(*small, "layered", 1)), 2e-3);
     // A uniform sky is the same in all lens samples. The default sky varies within a pixel.
     small->world.environment = {EnvironmentType::uniform, glm::vec3(0.4f), {}, {}, nullptr, 1};
-    EXPECT_LT(maxBetween(seenBy(*small, "accumulation", 1), seenBy(*small, "layered:pinholes=1", 32)), 2e-3);
+    EXPECT_LT(largestDifference(seenBy(*small, "accumulation", 1), seenBy(*small, "layered:pinholes=1", 32)), 2e-3);
 }
 
 // An environment map is drawn with a frame plan without objects. This plan must not list blended primitives, either.
@@ -123,7 +116,7 @@ TEST_F(Layered, lightFromBeyondTheImageReachesIntoIt) {
     blurBy(*small, 24, 1.2);
     const Image expected = seenBy(*small, "accumulation");
     ASSERT_GT(expected.at(2, 32)[0], 0.05);
-    EXPECT_LT(errorBetween(seenBy(*small, "layered"), expected), 0.004);
+    EXPECT_LT(rootMeanSquare(seenBy(*small, "layered"), expected), 0.004);
 }
 
 // With more depth layers, the image approaches that of method "accumulation". Boards at many depths hide each other,
@@ -139,7 +132,7 @@ TEST_F(Layered, moreLayersComeCloserToTheAccumulation) {
     const auto small = panes(list);
     blurBy(*small, 40, 0.7);
     const Image expected = seenBy(*small, "accumulation");
-    const auto error = [&](const char* method) { return errorBetween(seenBy(*small, method), expected); };
+    const auto error = [&](const char* method) { return rootMeanSquare(seenBy(*small, method), expected); };
     const double one = error("layered:layers=1");
     const double four = error("layered:layers=4");
     const double sixteen = error("layered:layers=16");
@@ -152,29 +145,26 @@ TEST_F(Layered, whatLetsLightThroughShowsWhatLiesBehind) {
                               {{40, 20, 80, 60, 3}, {0.1f, 0.6f, 0.1f, 0.25f}},
                               {{10, 30, 90, 40, 5}, {0.9f, 0.9f, 0.2f, 1}}});
     blurBy(*small, 16, 1.2);
-    EXPECT_LT(errorBetween(seenBy(*small, "layered"), seenBy(*small, "accumulation")), 0.006);
+    EXPECT_LT(rootMeanSquare(seenBy(*small, "layered"), seenBy(*small, "accumulation")), 0.006);
 }
 
 TEST_F(Layered, aTransparentBackgroundKeepsCoverage) {
     const auto small = fiveSpheres();
     small->world.environment.visible = false;
     const Image image = seenBy(*small, "layered");
-    EXPECT_LT(errorBetween(image, seenBy(*small, "accumulation")), 0.015);
+    EXPECT_LT(rootMeanSquare(image, seenBy(*small, "accumulation")), 0.015);
     EXPECT_EQ(image.at(159, 0)[3], 0);
 }
 
 RendererOptions wavesOf(std::uint32_t samples) {
-    RendererOptions options;
-    options.wave = samples;
-    return options;
+    return {.wave = samples};
 }
 
 TEST_F(Layered, theSizeOfWavesChangesNoBit) {
     const auto small = fiveSpheres();
     const Image one = seenBy(*small, "layered", 72, wavesOf(1));
     EXPECT_EQ(one.pixels, seenBy(*small, "layered", 72, wavesOf(64)).pixels);
-    RendererOptions geometry;
-    geometry.geometryShaderLayers = true;
+    const RendererOptions geometry{.geometryShaderLayers = true};
     EXPECT_EQ(one.pixels, seenBy(*small, "layered", 72, geometry).pixels);
 }
 

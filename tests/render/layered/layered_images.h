@@ -3,29 +3,19 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <memory>
-
-#include "gl/context.h"
+#include "gl_context_test.h"
+#include "likeness.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus::engine {
 
-class Layered : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static inline std::unique_ptr<GlContext> context_;
-};
+using Layered = GlContextTest;
 
 inline RenderSettings samplesOf(std::uint32_t samples) {
-    RenderSettings settings;
-    settings.lod = LodMode::off;
-    settings.sampleCount = samples;
-    settings.keepAll = true;  // keeps the lens in the plan even if nothing is blurred
-    return settings;
+    // keepAll keeps the lens in the plan even if nothing is blurred
+    return {.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
 }
 
 inline Image seenBy(const SmallWorld& small, const char* method, std::uint32_t samples = 256,
@@ -34,13 +24,6 @@ inline Image seenBy(const SmallWorld& small, const char* method, std::uint32_t s
     options.settings = use.settings;
     const auto renderer = use.method->make(small.world, options);
     return imageOf(*renderer, planFrame(small.world, small.view, samplesOf(samples)));
-}
-
-inline double errorBetween(const Image& a, const Image& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        sum += std::pow(static_cast<double>(a.pixels[i]) - static_cast<double>(b.pixels[i]), 2);
-    return std::sqrt(sum / static_cast<double>(a.pixels.size()));
 }
 
 }  // namespace defocus::engine

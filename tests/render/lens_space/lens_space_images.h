@@ -9,8 +9,8 @@
 #include <string>
 
 #include "core/error.h"
-#include "gl/context.h"
 #include "gl_conduct.h"
+#include "gl_context_test.h"
 #include "image/metrics.h"
 #include "render/methods.h"
 #include "render/rendered.h"
@@ -19,19 +19,14 @@
 namespace defocus::engine {
 
 inline RenderSettings raySettings(std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    settings.keepAll = true;  // samples the lens even if nothing is visibly blurred; no culling
-    return settings;
+    // keepAll samples the lens even if nothing is visibly blurred, and disables culling
+    return {.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
 }
 
 inline Image lensSpaceImage(const char* method, const SmallWorld& small, std::uint32_t samples,
                             RenderStats* stats = nullptr, std::uint32_t wave = 0) {
     const MethodUse use = parseMethodUse(method);
-    RendererOptions options;
-    options.settings = use.settings;
-    options.wave = wave;
+    const RendererOptions options{.wave = wave, .settings = use.settings};
     const auto renderer = use.method->make(small.world, options);
     Image image = imageOf(*renderer, planFrame(small.world, small.view, raySettings(samples)));
     if (stats != nullptr) *stats = renderer->stats();
@@ -45,9 +40,7 @@ inline double psnrAgainst(const Image& reference, const Image& image) {
 // Returns two lit, rippled spheres under a gradient sky. One is in front of the focal plane and one behind it.
 inline std::unique_ptr<SmallWorld> twoSpheres(int slices = 24, int stacks = 18) {
     auto small = std::make_unique<SmallWorld>();
-    Material glossy;
-    glossy.metallicFactor = 0;
-    glossy.roughnessFactor = 0.4f;
+    const Material glossy{.metallicFactor = 0, .roughnessFactor = 0.4f};
     small->scene.materials.push_back(glossy);
     small->scene.meshes.push_back(bumpySphere(slices, stacks, 0));
     place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {-0.2, -0.1, -1.4}), glm::dvec3(0.2)));
@@ -97,12 +90,9 @@ inline void expectRefusal(const char* method, const SmallWorld& small, const std
     }
 }
 
-class LensSpace : public testing::TestWithParam<const char*> {
+class LensSpace : public GlContextTest, public testing::WithParamInterface<const char*> {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
     void TearDown() override { EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR}); }
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 // Returns a grid that covers 6 × 6 px within one tile. It has side² squares of two triangles each.
@@ -139,12 +129,9 @@ inline std::unique_ptr<SmallWorld> gridInATile(std::uint32_t side) {
 // software driver.
 inline constexpr std::uint32_t longerThanLoops = 184;
 
-class LensSpaceAlone : public testing::Test {
+class LensSpaceAlone : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override { SKIP_ON_SECOND_DRIVER(); }
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 }  // namespace defocus::engine

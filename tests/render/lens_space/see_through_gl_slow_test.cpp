@@ -1,5 +1,6 @@
 // Tests cut-out and alpha-blended surfaces in both lens-space methods.
 
+#include "likeness.h"
 #include "render/lens_space/lens_space_images.h"
 
 namespace defocus::engine {
@@ -30,12 +31,6 @@ std::unique_ptr<SmallWorld> panes(int count, float alpha) {
     small->view.lens.fStop = 1;
     finish(*small);
     return small;
-}
-
-double meanRed(const Image& image) {
-    double sum = 0;
-    for (std::size_t i = 0; i < image.pixels.size(); i += 4) sum += image.pixels[i];
-    return sum / static_cast<double>(image.pixels.size() / 4);
 }
 
 // Black panes of opacity α let the fraction (1 − α)ⁿ of the background through.

@@ -31,8 +31,7 @@ PlaceInImage seenThroughLens(const glm::dvec3& inView, const LensSample& sample,
 // Draws random points in random object-space boxes. For each sample, expects a point's image to lie inside the bounds
 // computed for its box.
 void expectBoxesHoldWhatIsSeen(const SmallWorld& small) {
-    RenderSettings settings;
-    settings.sampleCount = 32;
+    const RenderSettings settings{.sampleCount = 32};
     const FramePlan plan = planFrame(small.world, small.view, settings);
     ASSERT_TRUE(seesBoxes(plan));
     std::mt19937 random(1);
@@ -77,8 +76,7 @@ TEST(LensSight, boxesHoldWhatAPinholeSees) {
 // The image bounds of a small box are at most 3 px wide, and their depth is the depth of the box.
 TEST(LensSight, boxesAreNotMuchLargerThanWhatTheyHold) {
     const auto small = fiveSpheres();
-    RenderSettings settings;
-    settings.sampleCount = 8;
+    const RenderSettings settings{.sampleCount = 8};
     const FramePlan plan = planFrame(small->world, small->view, settings);
     const ObjectPlan& object = plan.objects.front();
     const LensSight sight(plan, object, 3);
@@ -94,8 +92,7 @@ TEST(LensSight, boxesAreNotMuchLargerThanWhatTheyHold) {
 // Image bounds of boxes are available only if the circle of confusion is a linear function of depth. Lens controls,
 // motion or an object's blur scale make it nonlinear.
 TEST(LensSight, knowsWhereItDoesNotHold) {
-    RenderSettings settings;
-    settings.sampleCount = 8;
+    const RenderSettings settings{.sampleCount = 8};
     const auto plan = [&](const auto& change) {
         const auto small = fiveSpheres();
         change(*small);

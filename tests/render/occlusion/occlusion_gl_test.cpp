@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gl/context.h"
+#include "gl_context_test.h"
 #include "models.h"
 #include "posed_world.h"
 #include "render/methods.h"
@@ -11,16 +12,12 @@
 namespace defocus::engine {
 namespace {
 
-class OccludedSurfaces : public testing::Test {
+class OccludedSurfaces : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override {
         if (!currentIsSoftware()) GTEST_SKIP() << "a GPU draws everything";
     }
-    static std::unique_ptr<GlContext> context_;
 };
-std::unique_ptr<GlContext> OccludedSurfaces::context_;
 
 struct OpaqueDrawn {
     Image image;
@@ -28,22 +25,15 @@ struct OpaqueDrawn {
 };
 
 RenderSettings sharpLevels(std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = LodMode::off;
-    return settings;
+    return {.sampleCount = samples, .lod = LodMode::off};
 }
 
 OpaqueDrawn opaqueDrawn(const char* method, const SmallWorld& small, const RenderSettings& settings,
                         std::uint32_t wave = 0, std::uint32_t threads = 1) {
-    RendererOptions options;
-    options.wave = wave;
-    options.threads = threads;
+    const RendererOptions options{.wave = wave, .threads = threads};
     const auto renderer = methodNamed(method).make(small.world, options);
     const FramePlan plan = planFrame(small.world, small.view, settings);
-    renderer->start(plan);
-    while (renderer->advance()) {
-    }
+    drawAllSamples(*renderer, plan);
     const RenderStats stats = renderer->stats();
     return {renderer->image(), static_cast<double>(stats.trianglesHidden) / static_cast<double>(stats.trianglesDrawn)};
 }
@@ -120,9 +110,7 @@ TEST_F(OccludedSurfaces, ofAPinholeChangeNoBit) {
     ASSERT_FALSE(plan.usesLens);
     const auto imageOf = [&](double minHidden) {
         const auto renderer = methodNamed("accumulation").make(small->world, {});
-        renderer->start(plan);
-        while (renderer->advance()) {
-        }
+        drawAllSamples(*renderer, plan);
         const RenderStats stats = renderer->stats();
         EXPECT_GE(static_cast<double>(stats.trianglesHidden), minHidden * static_cast<double>(stats.trianglesDrawn));
         return renderer->image();

@@ -14,16 +14,13 @@
 namespace defocus::engine {
 
 inline RenderSettings settingsWithTheLens() {
-    RenderSettings settings;
-    settings.lod = LodMode::off;
-    settings.keepAll = true;  // keeps the lens in the plan even if nothing is blurred
-    return settings;
+    // keepAll keeps the lens in the plan even if nothing is blurred
+    return {.lod = LodMode::off, .keepAll = true};
 }
 
 inline Image postProcessed(const SmallWorld& small, std::string_view method) {
     const MethodUse use = parseMethodUse(method);
-    RendererOptions options;
-    options.settings = use.settings;
+    const RendererOptions options{.settings = use.settings};
     const auto renderer = use.method->make(small.world, options);
     return imageOf(*renderer, planFrame(small.world, small.view, settingsWithTheLens()));
 }

@@ -9,7 +9,8 @@
 
 #include "bokeh.h"
 #include "core/error.h"
-#include "gl/context.h"
+#include "gl_context_test.h"
+#include "models.h"
 #include "render/post_process/boards.h"
 #include "render/rendered.h"
 #include "small_world.h"
@@ -17,21 +18,9 @@
 namespace defocus::engine {
 namespace {
 
-class PostProcesses : public testing::TestWithParam<const char*> {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> PostProcesses::context_;
+class PostProcesses : public GlContextTest, public testing::WithParamInterface<const char*> {};
 
-class PostProcessesAlone : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> PostProcessesAlone::context_;
+using PostProcessesAlone = GlContextTest;
 
 bool inTenBits(std::string_view method) {
     return method.find("r10g10b10a2") != std::string_view::npos;
@@ -284,12 +273,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, PostProcesses,
                                          "circular:near-field=coverage,near-components=1",
                                          "circular:blend-bias=2,bias-by=luminance", "circular:transparency-buckets=0",
                                          "scheuermann:coc=thin-lens,taps=64,max-coc=unlimited,transparency-buckets=1"),
-                         [](const auto& instance) {
-                             std::string name = instance.param;
-                             std::replace_if(
-                                 name.begin(), name.end(), [](char c) { return std::isalnum(c) == 0; }, '_');
-                             return name;
-                         });
+                         [](const auto& instance) { return testNameOf(instance.param); });
 
 }  // namespace
 }  // namespace defocus::engine

@@ -9,18 +9,15 @@
 #include <numbers>
 #include <string>
 
-#include "gl/context.h"
+#include "gl_context_test.h"
+#include "models.h"
 #include "render/post_process/boards.h"
 
 namespace defocus::engine {
 namespace {
 
-class BlendedSurfaces : public testing::TestWithParam<const char*> {
+class BlendedSurfaces : public GlContextTest, public testing::WithParamInterface<const char*> {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-
     // Returns the tested method's image with at most `count` buckets, which are groups of blended surfaces.
     static Image inBuckets(const SmallWorld& small, int count) {
         const std::string method = GetParam();
@@ -28,7 +25,6 @@ protected:
         return postProcessed(small, method + separator + "transparency-buckets=" + std::to_string(count));
     }
 };
-std::unique_ptr<GlContext> BlendedSurfaces::context_;
 
 constexpr glm::vec3 sky(0.5f, 0.4f, 0.3f);
 constexpr glm::vec4 paneColor(0.2f, 0.6f, 0.3f, 0.5f);
@@ -200,12 +196,7 @@ TEST_P(BlendedSurfaces, comeCloserToTheAccumulation) {
 INSTANTIATE_TEST_SUITE_P(Methods, BlendedSurfaces,
                          testing::Values("circular", "circular:resolution=half",
                                          "scheuermann:coc=thin-lens,taps=64,max-coc=unlimited"),
-                         [](const auto& instance) {
-                             std::string name = instance.param;
-                             std::replace_if(
-                                 name.begin(), name.end(), [](char c) { return std::isalnum(c) == 0; }, '_');
-                             return name;
-                         });
+                         [](const auto& instance) { return testNameOf(instance.param); });
 
 }  // namespace
 }  // namespace defocus::engine

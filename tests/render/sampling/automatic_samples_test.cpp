@@ -113,8 +113,7 @@ TEST(FourPositions, areForManyTrianglesAndImagesOfModerateSize) {
 TEST(FourPositions, needAQuarterOfTheSamples) {
     const FramePlan plan = detailedPlanOf(1);
     const auto countOf = [&](double samples, std::uint32_t positions, bool chooses) {
-        RenderSettings settings;
-        settings.positions = positions;
+        RenderSettings settings{.positions = positions};
         settings = withSamples(settings, plan, samples, chooses);
         return std::pair(settings.sampleCount, settings.positions);
     };

@@ -181,8 +181,7 @@ TEST(BlockSchedule, measuredLevelsKeepToHalfOfTheTargetAndCountInTheEstimate) {
 }
 
 TEST(BlockSchedule, samplesBeginWhereTheFramesDo) {
-    RenderSettings settings;
-    settings.firstSample = 4096;
+    const RenderSettings settings{.firstSample = 4096};
     BlockSchedule schedule(settings, targetOf(0.001));
     EXPECT_EQ(schedule.nextBlock().firstSample, 4096u);
     schedule.endBlock(planOf(schedule.nextBlock(), 64), 0, [&] { return MadeFrame(0.02).mean(64); });

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "gl/context.h"
 #include "gl/read_back.h"
 #include "gl_conduct.h"
+#include "gl_context_test.h"
 #include "image/metrics.h"
 #include "image/tone_map.h"
 #include "likeness.h"
@@ -19,10 +19,8 @@
 namespace defocus::engine {
 namespace {
 
-class Growing : public testing::Test {
+class Growing : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override {
         SKIP_ON_SECOND_DRIVER();
         small_ = fiveSpheres();
@@ -30,22 +28,12 @@ protected:
         small_->view.height = 48;
     }
 
-    static RendererOptions options() {
-        RendererOptions options;
-        options.layerFormat = LayerFormat::rgba32f;
-        return options;
-    }
+    static RendererOptions options() { return {.layerFormat = LayerFormat::rgba32f}; }
 
-    static RenderSettings settingsOf(std::uint32_t samples) {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        return settings;
-    }
+    static RenderSettings settingsOf(std::uint32_t samples) { return {.sampleCount = samples}; }
 
     Image renderedAtOnce(std::uint32_t samples, LodMode lod) const {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        settings.lod = lod;
+        const RenderSettings settings{.sampleCount = samples, .lod = lod};
         const auto renderer = methodNamed("accumulation").make(small_->world, options());
         return imageOf(*renderer, planFrame(small_->world, small_->view, settings));
     }
@@ -60,14 +48,11 @@ protected:
     }
 
     std::unique_ptr<SmallWorld> small_;
-    static std::unique_ptr<GlContext> context_;
 };
-std::unique_ptr<GlContext> Growing::context_;
 
 TEST_F(Growing, blocksAddUpToTheFrameRenderedAtOnce) {
     ProgressiveImage image = progressive();
-    RenderSettings settings;
-    settings.lod = LodMode::off;
+    const RenderSettings settings{.lod = LodMode::off};
     image.begin(small_->view, settings, 192);
     EXPECT_FALSE(image.finished());
     const Image grownImage = grown(image);
@@ -127,13 +112,10 @@ TEST_F(Growing, movingFramesAndStillOnesTakeTurns) {
 }
 
 TEST_F(Growing, continuingIsRefusedWithinABlock) {
-    RenderSettings settings;
-    settings.sampleCount = 32;
+    const RenderSettings settings{.sampleCount = 32};
     const FramePlan plan = planFrame(small_->world, small_->view, settings);
     const auto renderer = methodNamed("accumulation").make(small_->world, options());
-    renderer->start(plan);
-    while (renderer->advance()) {
-    }
+    drawAllSamples(*renderer, plan);
     EXPECT_THROW(renderer->continueWith(plan), std::exception);
 }
 

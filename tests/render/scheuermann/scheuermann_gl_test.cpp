@@ -8,7 +8,7 @@
 #include "aperture_shapes.h"
 #include "bokeh.h"
 #include "core/error.h"
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "image/tone_map.h"
 #include "render/methods.h"
 #include "render/post_process/boards.h"
@@ -19,24 +19,16 @@
 namespace defocus::engine {
 namespace {
 
-class ScheuermannImage : public testing::Test {
-protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-    static std::unique_ptr<GlContext> context_;
-};
-std::unique_ptr<GlContext> ScheuermannImage::context_;
+using ScheuermannImage = GlContextTest;
 
 constexpr double lightSide = 6;  // side of the bright square, px
 constexpr double lightEnergy = 360;
 
 Image rendered(const World& world, const View& view, const char* method) {
     const MethodUse use = parseMethodUse(method);
-    RendererOptions options;
-    options.settings = use.settings;
+    const RendererOptions options{.settings = use.settings};
     const auto renderer = use.method->make(world, options);
-    RenderSettings settings;
-    settings.lod = LodMode::off;
+    const RenderSettings settings{.lod = LodMode::off};
     return imageOf(*renderer, planFrame(world, view, settings));
 }
 

@@ -16,9 +16,7 @@ namespace {
 constexpr int width = 1000;
 
 ClipCircleOfConfusion cocOf(double fStop, double focusDistance) {
-    Lens lens;
-    lens.fStop = fStop;
-    lens.focusDistance = focusDistance;
+    const Lens lens{.fStop = fStop, .focusDistance = focusDistance};
     return clipCircleOfConfusion(lens, 1024, 768);
 }
 

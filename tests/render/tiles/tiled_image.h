@@ -5,10 +5,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <vector>
 
-#include "gl/context.h"
+#include "gl_context_test.h"
 #include "likeness.h"
 #include "plan/visible/tiles.h"
 #include "render/methods.h"
@@ -17,11 +16,8 @@
 
 namespace defocus::engine {
 
-class Tiles : public testing::Test {
+class Tiles : public GlContextTest {
 protected:
-    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
-    static void TearDownTestSuite() { context_.reset(); }
-
     static PixelRectangle wholeOf(const FramePlan& plan) { return {0, 0, plan.view.width, plan.view.height}; }
 
     // Returns the image assembled from tiles, each of which is rendered separately. Pixels that no tile covers are NaN.
@@ -71,15 +67,9 @@ protected:
 
     static FramePlan planWith(const SmallWorld& small, const View& view, LodMode mode = LodMode::fractional,
                               std::uint32_t samples = 20) {
-        RenderSettings settings;
-        settings.sampleCount = samples;
-        settings.lod = mode;
-        settings.thresholds = {0.5, 2};
+        const RenderSettings settings{.sampleCount = samples, .lod = mode, .thresholds = {0.5, 2}};
         return planFrame(small.world, view, settings);
     }
-
-private:
-    static inline std::unique_ptr<GlContext> context_;
 };
 
 }  // namespace defocus::engine

@@ -16,10 +16,7 @@ TEST_F(Tiles, haveTheBitsOfOnePieceAtEachKindOfLevel) {
 // Images drawn in tiles are exact even if a transmitting object refracts parts of the image that lie outside the tile.
 TEST_F(Tiles, haveTheBitsOfOnePieceWhereGlassShowsWhatLiesElsewhere) {
     const auto small = fiveSpheres();
-    Material glass;
-    glass.transmissionFactor = 1;
-    glass.thicknessFactor = 1;
-    glass.roughnessFactor = 0.3f;
+    const Material glass{.roughnessFactor = 0.3f, .transmissionFactor = 1, .thicknessFactor = 1};
     small->scene.materials.front() = glass;
     const FramePlan plan = planWith(*small, small->view);
     ASSERT_TRUE(plan.usesTransmission);

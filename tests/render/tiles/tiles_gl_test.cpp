@@ -38,10 +38,7 @@ TEST_F(Tiles, haveTheBitsOfOnePieceWhileObjectsAndCameraMove) {
 
 TEST_F(Tiles, haveTheBitsOfOnePieceBeforeAMapAndBeforeNothing) {
     const auto small = fiveSpheres();
-    auto map = std::make_shared<Image>(16, 8, 3);
-    for (std::size_t i = 0; i < map->pixels.size(); ++i) map->pixels[i] = static_cast<float>(i * 37 % 101) / 50;
-    small->world.environment.type = EnvironmentType::map;
-    small->world.environment.map = map;
+    small->world.environment = speckledMap();
     expectTheBitsOfOnePiece(*small, planWith(*small, small->view), "map");
     small->world.environment = {};
     small->world.environment.type = EnvironmentType::none;
@@ -62,9 +59,7 @@ TEST_F(Tiles, haveTheBitsOfOnePieceWhereSurfacesBlend) {
 // Images drawn in tiles are exact even if objects outside the tile, or outside the image, cast shadows into it.
 TEST_F(Tiles, haveTheBitsOfOnePieceWhereShadowsFallIntoThem) {
     const auto small = fiveSpheres();
-    RenderSettings settings;
-    settings.sampleCount = 20;
-    settings.shadows = Shadows::on;
+    const RenderSettings settings{.sampleCount = 20, .shadows = Shadows::on};
     const FramePlan plan = planFrame(small->world, small->view, settings);
     ASSERT_FALSE(plan.shadows.maps.empty());
     expectTheBitsOfOnePiece(*small, plan, "shadows");

@@ -16,6 +16,7 @@
 #include "image/metrics.h"
 #include "refocus/kept_lens_images.h"
 #include "render/gpu_scene/frame_uniforms.h"
+#include "render/rendered.h"
 #include "view/picture/kept_images.h"
 #include "view/picture/view_picture.h"
 
@@ -161,11 +162,8 @@ protected:
         RenderSettings settings = frame_.settings;
         settings.sampleCount = samples;
         settings.firstSample = firstSample;
-        const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(frame_.world, {});
-        renderer->start(planFrame(frame_.world, request_.view, settings));
-        while (renderer->advance()) {
-        }
-        return renderer->image();
+        return imageOf(*methodNamed("accumulation").make(frame_.world, {}),
+                       planFrame(frame_.world, request_.view, settings));
     }
 
     FrameBudget budget_;
