@@ -6,6 +6,9 @@
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <numbers>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "plan/plan_checks.h"
 #include "plan/plan_text.h"
@@ -97,6 +100,25 @@ TEST(LensCells, middlesKeepApart) {
     const double apart = nearest(lensCellsOf(*small, 64).middles, [](const glm::vec2& p) { return p; });
     EXPECT_GT(apart, 1.5 * nearest(samples, [](const LensSample& s) { return s.lens; }));
     EXPECT_GT(apart, 1.0 / 8);  // half the width of 64 equal disks with the lens's total area, in lens radii
+}
+
+// In a frame that is drawn in blocks, the cells of all blocks together divide the lens about as finely as the cells of
+// a frame that is drawn at once. Blocks with the same centres would show ghost copies of lights, however many samples
+// are drawn.
+TEST(LensCells, blocksHaveDifferentMiddles) {
+    const auto small = muchBlurred();
+    std::vector<glm::vec2> middles;
+    for (std::uint32_t first = 0; first < 1024; first += 64) {
+        RenderSettings block = settingsFor(64);
+        block.firstSample = first;
+        const LensCells cells = lensCells(planFrame(small->world, small->view, block));
+        middles.insert(middles.end(), cells.middles.begin(), cells.middles.end());
+    }
+    ASSERT_EQ(middles.size(), 1024u);
+    // A quarter of the squares of side 1/20 lens radius inside the lens would stay empty for 1,024 random points.
+    std::set<std::pair<int, int>> squares;
+    for (const glm::vec2& middle : middles) squares.emplace(std::lround(20 * middle.x), std::lround(20 * middle.y));
+    EXPECT_GT(squares.size(), 700u);
 }
 
 // Returns the RMS difference between two blurred images of a straight edge, over positions across the edge: one blurred
