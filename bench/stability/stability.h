@@ -18,7 +18,7 @@ struct StabilityCase {
     std::string name;       // short description of what makes the case difficult
     std::string measured;   // name and unit of the measured error
     std::string reference;  // name of the exact or comparison value, such as "closed form" or "double sum"
-    double limit = 0;       // max error that passes; infinity: for comparison only
+    double limit = 0;       // max error that passes; infinity: the error is only shown for comparison
     std::function<double()> error;
     std::string method = {};  // method that renders the reference; empty: none
 };

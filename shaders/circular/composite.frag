@@ -7,11 +7,11 @@
 
 layout(binding = 2) uniform sampler2D farBlurred;
 layout(binding = 3) uniform sampler2D nearBlurred;
-layout(binding = 4) uniform sampler2D nearRadii;     // radii within which the near field was gathered, in field px
-layout(location = 2) uniform float perNearDiameter;  // 1 / (largest CoC diameter in front of the focus plane in px)
+layout(binding = 4) uniform sampler2D nearRadii;     // radii in field px within which the near field was gathered
+layout(location = 2) uniform float perNearDiameter;  // 1 / (largest CoC diameter in px in front of the focus plane)
 // 0: there is no near field. ≥ 1: factor by which the near field's coverage is multiplied.
 layout(location = 0) uniform float blendBias;
-layout(location = 1) uniform float perFarDiameter;   // 1 / (largest CoC diameter behind the focus plane in px)
+layout(location = 1) uniform float perFarDiameter;   // 1 / (largest CoC diameter in px behind the focus plane)
 
 layout(location = 0) out vec4 image;
 

@@ -1,4 +1,4 @@
-// Computes for each tile the max blur radius of the near surfaces whose disks reach this tile or a neighbouring tile.
+// Computes, for each tile, the max blur radius of the near surfaces whose disks reach this tile or a neighbouring tile.
 // Disks spread beyond the edges of their surfaces.
 layout(binding = 0) uniform sampler2D tiles;
 layout(location = 0) uniform int farthest;   // max distance in tiles at which a disk reaches a tile or its neighbour

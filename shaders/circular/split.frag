@@ -7,8 +7,8 @@
 #include "circular/clear_image.glsl"
 
 layout(location = 0) uniform float largestRadius;   // max blur radius, in image px
-layout(location = 1) uniform float perFarDiameter;  // 1 / (largest CoC diameter behind the focus plane in px)
-layout(location = 2) uniform float perNearDiameter; // 1 / (largest CoC diameter in front of the focus plane in px)
+layout(location = 1) uniform float perFarDiameter;  // 1 / (largest CoC diameter in px behind the focus plane)
+layout(location = 2) uniform float perNearDiameter; // 1 / (largest CoC diameter in px in front of the focus plane)
 
 layout(location = 0) out vec4 farField;
 layout(location = 1) out float farRadius;

@@ -1,8 +1,8 @@
 // Applies the clip-space lens shear p' = p + C·(u, k·v, 0, 0) for lens point (u, v) and aspect ratio k (Munkberg, Toth
 // and Akenine-Möller 2012; here C > 0 behind the focus plane). src/lens/circle_of_confusion.h documents C and its
-// terms. With cocControls, C differs from a + b·w. `own` holds the surface's blur modifiers: a factor and an added
-// fraction of the image's width. Depth is reversed with an infinite far plane: z = near, so z/w runs from 1 at the near
-// plane to 0 at infinity.
+// terms. Without cocControls, C is a + b·w. `own` holds the surface's blur modifiers: a factor and an added fraction of
+// the image's width. Depth is reversed with an infinite far plane: z = near, so z/w runs from 1 at the near plane to 0
+// at infinity.
 
 float bandShift = 0.0;   // change of the CoC coefficients b₁ and b₂ by the sample's wavelength; 0 unless chromatic
 

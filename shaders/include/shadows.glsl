@@ -43,8 +43,8 @@ float depthAlongFacet(int texel, vec4 clip, vec3 normal, float width, vec2 toMid
     return dot(vec2(a.z, b.z), steps) * (way > farthest ? farthest / way : 1.0);
 }
 
-// Returns for each colour channel 1 if the facet is lit according to shadow map `slot` of this layer's sample, else 0.
-// `toLight` is a unit vector.
+// Returns, for each colour channel, 1 if the facet is lit according to shadow map `slot` of this layer's sample, else
+// 0. `toLight` is a unit vector.
 vec3 litAt(int slot, Facet facet, vec3 toLight) {
     int texel = shadowTexel(gl_Layer, slot);
     float cosine = dot(facet.normal, toLight);

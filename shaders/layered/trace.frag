@@ -1,4 +1,4 @@
-// Traces one lens sample: outputs for each pixel the nearest surface over all layers that its lens ray hits.
+// Traces one lens sample: outputs, for each pixel, the nearest surface over all layers that its lens ray hits.
 //
 // A surface of signed blur c px (diameter) at position q of the pinhole image appears in pixel p through the lens point
 // (u, v) if q = p − c/2·(u, v). The ray is therefore a line in the pinhole image, along which c grows with the

@@ -43,7 +43,7 @@ layout(location = 3) uniform uint recordCapacity;
 layout(location = 5) uniform float shadingStep;
 // A job is the work of a workgroup: one tile, and one line sample of each of its pixels. Mesa's software driver ends
 // the loops of a thread after a total of 65,535 iterations (rounds). Jobs that need more continue in later dispatches.
-layout(location = 6) uniform uint maxRounds;      // approximate max loop iterations per dispatch; 0: unlimited
+layout(location = 6) uniform uint maxRounds;      // approximate max number of iterations per dispatch; 0: unlimited
 // x: 1 to run deferred jobs, 0 to run all tiles and lines. y, z and w are indices into `ranges`. y: first deferred job
 // to run; z: start of the saved states; w: position for storing deferred jobs.
 layout(location = 7) uniform uvec4 jobs;

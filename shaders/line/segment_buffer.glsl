@@ -104,7 +104,7 @@ float inverseDepthAt(Segment segment, float p) {
     return mix(segment.depths.x, segment.depths.y, clamp((p - segment.ends.x) / (segment.ends.y - segment.ends.x), 0.0, 1.0));
 }
 
-// Returns true if segment `a` covers all of segment `b` and is not farther at both ends of `b`.
+// Returns true if segment `a` covers all of segment `b` and is at least as near as `b` at both ends of `b`.
 bool hides(Segment a, Segment b) {
     return a.ends.x <= b.ends.x && a.ends.y >= b.ends.y && inverseDepthAt(a, b.ends.x) >= b.depths.x &&
            inverseDepthAt(a, b.ends.y) >= b.depths.y;

@@ -15,7 +15,7 @@ bool lessByCoordinates(const glm::vec3& a, const glm::vec3& b) {
     return a.z < b.z;
 }
 
-// Returns for each position the smallest index of an equal position (−0 equals 0).
+// Returns, for each position, the smallest index of an equal position (−0 equals 0).
 std::vector<std::uint32_t> weldedIndices(const std::vector<glm::vec3>& positions) {
     std::vector<std::uint32_t> order(positions.size());
     std::iota(order.begin(), order.end(), 0u);

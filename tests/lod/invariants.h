@@ -117,7 +117,8 @@ inline void expectPyramidInvariants(const Mesh& mesh, const Pyramid& pyramid) {
     expectContinuousLevels(pyramid);
 }
 
-// Expects the connected part with the largest area to keep its shape as long as another part has more triangles.
+// Expects the connected part with the largest area to keep its shape in every level in which another part has more
+// triangles.
 inline void expectMainPartLasts(const Mesh& mesh, const Pyramid& pyramid) {
     const std::vector<std::uint32_t> parts = partsByPosition(mesh);
     const auto partIndices = [&](std::size_t level) {

@@ -186,7 +186,7 @@ inline bool isClosed(const std::vector<glm::vec3>& positions, const std::vector<
                        [](const auto& edge) { return edge.second.count == 2 && edge.second.balance == 0; });
 }
 
-// Returns for each vertex the index, from 0, of its connected part. Vertices at the same position are connected.
+// Returns the index, from 0, of each vertex's connected part. Vertices at the same position are connected.
 inline std::vector<std::uint32_t> partsByPosition(const Mesh& mesh) {
     std::map<PositionKey, std::uint32_t> ids;
     std::vector<std::uint32_t> places;

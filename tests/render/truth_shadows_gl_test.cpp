@@ -6,8 +6,8 @@ namespace defocus::engine {
 namespace {
 
 // With the same sample points on lens and sun, GPU and ray tracer give the same penumbrae, up to the size of shadow-map
-// texels. A shadow map rounds a shadow's edge to a texel, in each sample to a different one. A bias also moves
-// shadow-map lookups by part of a texel, which is visible where light grazes the ball.
+// texels. A shadow map rounds the edge of a shadow to texels, differently in each sample. A bias also moves shadow-map
+// lookups by part of a texel, which is visible where light grazes the ball.
 TEST_F(TruthOfShadows, rasteriserAndRayTracerSeeTheSamePenumbrae) {
     expectTheSameShadows(*ballBeforeAWall(), 64, 37);
 }

@@ -47,7 +47,7 @@ struct Trial {
     double error = 0;
 };
 
-// Returns for each trial whether it is on the Pareto front. A trial is not on the front if another trial's cost and
+// Returns, for each trial, whether it is on the Pareto front. A trial is not on the front if another trial's cost and
 // error are both at most as large and at least one of them is smaller. Of several equal trials, either all are on the
 // front or none.
 std::vector<bool> paretoFront(std::span<const Trial> trials);

@@ -11,7 +11,7 @@ enum class Movement {
     focusPull,  // the focus moves from the nearest to the farthest object, evenly in 1/distance, like a focus ring
     dolly,      // the camera moves forward by half the focus distance; the plane of focus stays fixed in the scene
     turntable,  // the camera circles the scene's centre once, about the vertical axis
-    clip,       // an animation of the scene plays once, such as a walk cycle; the camera is fixed
+    clip,       // an animation of the scene, such as a walk cycle, plays once; the camera is fixed
 };
 
 const char* movementName(Movement movement);  // returns the name on the command line

@@ -12,11 +12,11 @@ namespace defocus::engine {
 using Condition = std::string (*)(const SettingContext&);
 
 // A comment beside a function states when it returns a reason; functions without a comment have names that say so.
-std::string methodWithoutSamples(const SettingContext& context);     // the method draws no lens samples
-std::string methodWithoutPositions(const SettingContext& context);   // the method draws one pixel position per sample
-std::string methodWithoutShapes(const SettingContext& context);      // the method supports only round or oval apertures
-std::string methodWithoutLensPoints(const SettingContext& context);  // the lens is the same for all colours and pixels
-std::string methodWithoutThreads(const SettingContext& context);     // the method draws in one thread
+std::string methodWithoutSamples(const SettingContext& context);     // if the method draws no lens samples
+std::string methodWithoutPositions(const SettingContext& context);   // if each sample has one pixel position
+std::string methodWithoutShapes(const SettingContext& context);      // if only round and oval apertures are supported
+std::string methodWithoutLensPoints(const SettingContext& context);  // if all colours and pixels share one lens
+std::string methodWithoutThreads(const SettingContext& context);     // if the method draws in one thread
 std::string methodWithoutMotion(const SettingContext& context);
 std::string withoutLayers(const SettingContext& context);
 std::string withoutShutter(const SettingContext& context);
@@ -26,7 +26,7 @@ std::string withoutVariant(const SettingContext& context);
 std::string withoutShadows(const SettingContext& context);
 std::string withoutBlur(const SettingContext& context);
 std::string withoutBlurOrExposure(const SettingContext& context);
-std::string withFixedSamples(const SettingContext& context);  // the request gives the number of samples
+std::string withFixedSamples(const SettingContext& context);  // if the request gives the number of samples
 std::string withoutLevels(const SettingContext& context);
 std::string withMeasuredLevels(const SettingContext& context);
 

@@ -16,8 +16,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Each set… function parses a text, and throws Error, with the allowed values in its message, for an invalid text. Each
-// …Text function returns nullopt if the value is unset.
+// Each set… function parses the text of a value. If the text is invalid, it throws Error with the allowed values in its
+// message. Each …Text function returns nullopt if the value is unset.
 
 constexpr std::uint64_t maxSegments = 64;
 constexpr double farthest = 1e12;  // largest coordinate, m

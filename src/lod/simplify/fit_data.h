@@ -54,7 +54,7 @@ struct Grouping {
     Numbered<UnknownNumber, MeshVertexNumber> sources;  // mesh vertex that provides each group's initial value
     [[nodiscard]] std::size_t count() const { return sources.size(); }
 
-    // Returns for each group the sum of value(vertex) over its vertices, starting from `zero`.
+    // Returns, for each group, the sum of value(vertex) over its vertices, starting from `zero`.
     template <typename T, typename Value>
     [[nodiscard]] Numbered<UnknownNumber, T> summed(const T& zero, const Value& value) const {
         Numbered<UnknownNumber, T> sums(count(), zero);

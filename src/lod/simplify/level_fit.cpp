@@ -112,8 +112,8 @@ Numbered<LevelVertexNumber, glm::vec3> fitPositions(const FitSource& source, con
     return positions;
 }
 
-// Returns for each group of vertices that share a normal the sum of the normals of all triangles around it, weighted by
-// area. The sum is zero if there are no triangles.
+// Returns, for each group of vertices that share a normal, the sum of the normals of all triangles around it, weighted
+// by area. The sum is zero if there are no triangles.
 Numbered<UnknownNumber, glm::dvec3> faceNormals(const Numbered<LevelVertexNumber, glm::vec3>& positions,
                                                 const LevelMesh& level, const Grouping& groups) {
     Numbered<UnknownNumber, glm::dvec3> sums(groups.count(), glm::dvec3(0));
@@ -125,7 +125,7 @@ Numbered<UnknownNumber, glm::dvec3> faceNormals(const Numbered<LevelVertexNumber
     return sums;
 }
 
-// Returns for each group of vertices that share a normal the mean cosine between the normals of level 0 and the
+// Returns, for each group of vertices that share a normal, the mean cosine between the normals of level 0 and the
 // interpolated `normals`. Detail that the level has lost lowers this mean; curvature that the level preserves does not
 // lower it.
 Numbered<UnknownNumber, float> agreements(const FitSource& source, const LevelMesh& level,

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int minResolution = 128;
 constexpr int maxResolution = 512;
-constexpr double cellsPerEdge = 16;  // approximate grid cells per triangle edge, for evenly sized triangles
+constexpr double cellsPerEdge = 16;  // approximate number of grid cells per triangle edge, for evenly sized triangles
 
 constexpr double maxUnseen = 5e-3;   // max relative area difference that is not corrected
 constexpr int localRounds = 2;       // number of rounds that move each outline edge towards level 0's outline

@@ -180,7 +180,7 @@ void collapseTo(Simplifier& s, std::size_t floor, std::size_t target, double sha
     }
 }
 
-// Returns the approximate cost of the `rank`-th cheapest good or poor collapse (simplify.h).
+// Returns the approximate cost of the `rank`-th cheapest good or poor collapse (classes of simplify.h).
 float costAtRank(const SurfaceMesh& mesh, std::size_t rank) {
     std::vector<float> costs;
     const std::size_t stride = 1 + mesh.n_vertices() / costSample;
@@ -193,8 +193,8 @@ float costAtRank(const SurfaceMesh& mesh, std::size_t rank) {
     return *place;
 }
 
-// Performs good and poor collapses (simplify.h) with a cost of at most `max`, in vertex order, until `target` faces are
-// left. Returns true if any collapse was performed.
+// Performs good and poor collapses (classes of simplify.h) with a cost of at most `max`, in vertex order, until
+// `target` faces are left. Returns true if any collapse was performed.
 bool sweep(Simplifier& s, std::size_t target, float max) {
     if (s.mesh->n_vertices() == 0) return false;
     bool collapsed = false;

@@ -174,7 +174,7 @@ Creases creases(Simplifier& s, const Corners& corners) {
 
 // ---- find the point of the level for each mesh vertex
 
-// Finds for each vertex of the mesh the closest point (anchor) of the simplified surface. The search for the closest
+// Finds, for each vertex of the mesh, the closest point (anchor) of the simplified surface. The search for the closest
 // face starts at the vertex onto which a removed vertex has collapsed.
 
 constexpr std::size_t maxSteps = 12;          // max number of vertices visited on the way to the closest face
@@ -295,8 +295,8 @@ Numbered<VertexHandle, std::uint32_t> anchorStrides(const Origin& origin, const 
     return strides;
 }
 
-// Returns for each mesh vertex its anchor: the closest point on the level's faces of the same primitive. Some vertices
-// share the anchor of another vertex or have none.
+// Returns, for each mesh vertex, its anchor: the closest point on the level's faces of the same primitive. Some
+// vertices share the anchor of another vertex or have none.
 Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot& level) {
     const FaceRings rings = faceRings(level, origin.frame);
     Numbered<MeshVertexNumber, TriangleCorner> cornerOf(origin.firstVertex.size() + level.twins.size());

@@ -37,7 +37,7 @@ private:
     std::uint32_t sampleTotal_ = 0;
 };
 
-// Returns for each pixel the number of triangles that cover its centre, summed over all lens samples (1 channel).
+// Returns, for each pixel, the number of triangles that cover its centre, summed over all lens samples (1 channel).
 // Hidden triangles and fragments that fail the alpha test are counted; culled back faces and the sky are not. Counts
 // are exact up to 16.7 million per pixel. Needs a current OpenGL context.
 Image renderWork(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder = {});

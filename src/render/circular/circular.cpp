@@ -63,7 +63,7 @@ CircularOptions parsed(const MethodSettings& settings) {
     return options;
 }
 
-// Returns the largest blur diameter in front of the focus plane in px. For objects that extend to the near plane, it is
+// Returns the largest blur diameter in px in front of the focus plane. For objects that extend to the near plane, it is
 // the image width.
 double largestNearDiameter(const FramePlan& plan) {
     double largest = 0;
@@ -74,7 +74,7 @@ double largestNearDiameter(const FramePlan& plan) {
     return largest;
 }
 
-// Returns the largest blur diameter behind the focus plane in px, at least 1 px and the diameter of the sky's blur.
+// Returns the largest blur diameter in px behind the focus plane, at least 1 px and the diameter of the sky's blur.
 double largestFarDiameter(const FramePlan& plan) {
     double largest = std::max(largestCocAtInfinity(plan.coc, plan.view.width), 1.0);
     for (const ObjectPlan& object : plan.objects) largest = std::max(largest, object.coc.farthest);

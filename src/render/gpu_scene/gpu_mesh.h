@@ -69,7 +69,7 @@ void uploadMeshes(const World& world, std::span<const MeshUpload> uploads, std::
 // Floating-Point Computation).
 glm::dvec3 meshOrigin(const Bounds& bounds);
 
-// Returns for each vertex the range of the vertex colours of all triangles at this vertex; `indices` is a triangle
+// Returns, for each vertex, the range of the vertex colours of all triangles at this vertex; `indices` is a triangle
 // list. Each channel is 256 · max + min, with max and min in 1/255, rounded outwards.
 std::vector<glm::u16vec4> cornerColorRanges(const std::vector<glm::vec4>& colors,
                                             std::span<const std::uint32_t> indices);

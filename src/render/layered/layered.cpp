@@ -57,7 +57,7 @@ public:
         run_ = std::bit_floor(std::min(total / pinholeCount_, blockSamples));
         const int border = borderOf(plan);
         pinholes_ = pinholePlan(scene_.world(), plan, pinholeCount_);
-        // Shift each sample's position in the pixel by the subpixel offset of the pinhole image that the sample reads.
+        // Copy the plan, and shift each sample by the subpixel offset of the pinhole image that it reads.
         plan_ = plan;
         plan_.moments.clear();
         for (std::uint32_t i = 0; i < total; ++i) plan_.samples[i].pixel += pinholes_.samples[pinholeOf(i)].pixel;

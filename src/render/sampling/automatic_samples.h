@@ -36,16 +36,16 @@ bool fourPositionsSuffice(const FramePlan& plan, double samples);
 RenderSettings withSamples(RenderSettings settings, const FramePlan& plan, double samples, bool choosesPositions);
 
 // Returns the number of samples of a frame whose error cannot be estimated before it is complete, such as a frame in
-// tiles. The number is computed as in firstSamples(), but for points at most 3.5 (draft), 2 (good) or 1.4 px (fine)
-// apart.
+// tiles. The number is computed as in firstSamples(), but the distance between points is at most 3.5 (draft), 2 (good)
+// or 1.4 px (fine).
 std::uint32_t samplesForBlur(const FramePlan& plan, Quality quality);
 
 // Returns the blur diameter in px at which the blur disk has maxAutomaticSamples times the area of the image. In wider
 // disks, on average fewer than one of that many samples shows a blurred point inside the image.
 double largestSampledBlur(const FramePlan& plan);
 
-// Returns whether an object has a bounded blur that exceeds largestSampledBlur(). Further samples then hardly improve
-// the image, because single samples show the object sharply.
+// Returns whether an object has a bounded blur that exceeds largestSampledBlur(). More samples then barely improve the
+// image, because few of them, if any, show a point with that much blur.
 bool blursBeyondSamples(const FramePlan& plan);
 
 // Returns the largest blur diameter in px of the plan's objects with bounded blur; 0 without such objects. Blur above

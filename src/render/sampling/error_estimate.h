@@ -63,7 +63,7 @@ private:
 
     int width_ = 0;
     int height_ = 0;
-    std::vector<Kept> kept_;  // images by ascending sample count, from about a quarter of the latest count
+    std::vector<Kept> kept_;  // images by ascending sample count, going back to about a quarter of the latest count
     std::optional<double> error_;
     std::optional<double> flip_;
 };

@@ -17,7 +17,7 @@ constexpr const char* firstAttribute = "defocus:firstSample";
 constexpr const char* endAttribute = "defocus:endSample";
 constexpr const char* frameSamplesAttribute = "defocus:frameSamples";
 constexpr const char* secondsAttribute = "defocus:seconds";
-constexpr const char* noBlocks = "none";  // layer of a file without blocks: EXR files need a channel
+constexpr const char* noBlocks = "none";  // placeholder layer of a file without blocks; EXR files need a channel
 
 std::string layerName(std::uint32_t firstSample, const char* what) {
     return fmt::format("samples{:05}.{}", firstSample, what);

@@ -67,7 +67,7 @@ std::vector<int> sceneRoots(Source& source, const std::vector<int>& parents, std
     return roots;
 }
 
-// Returns for each node whether it is needed: the descendants of `roots`, the joints of their skins, and the joints'
+// Returns, for each node, whether it is needed: the descendants of `roots`, the joints of their skins, and the joints'
 // ancestors.
 std::vector<bool> neededNodes(const Source& source, const std::vector<int>& parents, const std::vector<int>& roots) {
     const std::vector<tinygltf::Node>& nodes = source.model.nodes;

@@ -81,7 +81,7 @@ ReadImage openImage(Source& source, std::size_t index) {
     return result;
 }
 
-// Returns for each image whether a material uses it.
+// Returns, for each image, whether a material uses it.
 std::vector<bool> usedImages(const Source& source, const std::vector<Material>& materials) {
     std::vector<bool> used(entryCount(source.document, "images"));
     for (const Material& material : materials)
@@ -103,8 +103,8 @@ TextureImage roughnessOf(const TextureImage& glossy, double glossinessFactor) {
     return rough;
 }
 
-// Replaces specular-glossiness textures, which are stored as metallic-roughness textures of their materials, by
-// roughness textures. A material whose texture was removed becomes a dielectric.
+// Replaces the specular-glossiness textures, which materials hold in `metallicRoughness`, with roughness textures. A
+// material whose texture was removed because it has no image becomes a dielectric.
 void convertGlossiness(Source& source, std::vector<Material>& materials, Textures& textures) {
     std::map<std::pair<int, float>, int> converted;  // (texture, roughness factor) → converted texture
     for (std::size_t i = 0; i < materials.size(); ++i) {

@@ -191,9 +191,9 @@ void tiltFocus(ViewState& state);
 void frameSelection(const PreparedFrame& frame, ViewState& state);
 void frameScene(const PreparedFrame& frame, ViewState& state);
 
+inline constexpr double poppingDuration = 8;  // duration of the popping test, s
 // Starts or stops the popping test: a focus pull from near to far and back, which shows fractional levels on the left
 // side and nearest levels on the right.
-inline constexpr double poppingDuration = 8;  // duration of the popping test, s
 void togglePoppingTest(ViewState& state);
 
 // Advances focus pull and animation by `seconds`, and ends the popping test after poppingDuration.

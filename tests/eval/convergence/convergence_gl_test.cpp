@@ -138,7 +138,7 @@ TEST_F(Convergence, biasAndSamplingErrorObeyTheTriangleInequality) {
     EXPECT_LT(runs[1].triangles, runs[0].triangles);
     EXPECT_EQ(runs[1].pyramidMilliseconds, 12);
 
-    // Thresholds of zero give an image equal to full detail in every pixel.
+    // With thresholds of zero, the image equals the image at full detail in every pixel.
     ASSERT_TRUE(runs[2].bias);
     EXPECT_EQ(runs[2].bias->mse, 0);
     EXPECT_EQ(runs[2].imageHash, runs[0].imageHash);

@@ -17,8 +17,8 @@ Mesh ballAndSlabs(std::uint32_t count, std::uint32_t holes, float size) {
     return mesh;
 }
 
-// Small slabs with many handles need many triangles, but the ball keeps its shape as long as another part has more
-// triangles.
+// Small slabs with many handles need many triangles, but the ball keeps its shape in every level in which another part
+// has more triangles.
 TEST(Components, ABallOutlastsSmallPartsOfManyHandles) {
     struct Scene {
         std::uint32_t count, holes;

@@ -54,7 +54,7 @@ std::unique_ptr<SmallWorld> panes(const std::vector<glm::dmat4>& places) {
     return small;
 }
 
-// Returns for each pane whether it is drawn by stochastic transparency. `places` are the panes' transforms to world
+// Returns, for each pane, whether it is drawn by stochastic transparency. `places` are the panes' transforms to world
 // space.
 std::vector<bool> choicesFor(const std::vector<glm::dmat4>& places) {
     const auto small = panes(places);

@@ -50,7 +50,7 @@ Integrals integralsOf(std::span<const CircularComponent> kernel) {
         const double inside = profileOf(kernel, t);  // u = t; dA = π du
         const double outside = profileOf(kernel, 1 + t * t);
         const double du = 2 * t / steps;
-        const double arcs = (pi - 4 * std::atan(t)) * du;  // area without the 4 arcs that the square cuts off
+        const double arcs = (pi - 4 * std::atan(t)) * du;  // area of the ring at u = 1 + t², inside the square
         sums.disk += pi / steps * inside;
         sums.kernel += pi / steps * inside + arcs * outside;
         sums.squares += pi / steps * inside * inside + arcs * outside * outside;

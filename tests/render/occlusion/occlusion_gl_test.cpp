@@ -1,4 +1,4 @@
-// Tests that occlusion culling on software rasterizers does not change a bit of the image.
+// Tests that occlusion culling on software rasterizers leaves every bit of the image unchanged.
 
 #include <gtest/gtest.h>
 

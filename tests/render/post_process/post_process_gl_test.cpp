@@ -243,7 +243,7 @@ TEST_F(PostProcessesAlone, tenBitsHoldTheWholeImage) {
 }
 
 // A blend bias brightens blurred edges, here of a bright board over black. A constant bias of 2 doubles the coverage c.
-// A bias by luminance only multiplies it by 1 + c.
+// A bias by luminance multiplies it by 1 + c instead.
 TEST_F(PostProcessesAlone, biasByLuminanceLeavesEdges) {
     const auto small = boards({{1, {-0.3, 0}, {0.3, 0.5}, {4, 4, 4, 1}}}, glm::vec3(0));
     small->view.lens.blurScale = 24 / (0.05 * (1.0 / 1 - 1.0 / 2) * 96 / 0.72);

@@ -31,7 +31,7 @@ WindowEvent button(bool pressed, double x) {
     return event;
 }
 
-// Returns for each frame the number of events that it consumes.
+// Returns, for each frame, the number of events that it consumes.
 std::vector<std::size_t> frames(std::deque<WindowEvent> queue, bool interfaceHasHand) {
     std::vector<std::size_t> counts;
     const EventPace pace{interfaceHasHand, {100, 100}};
