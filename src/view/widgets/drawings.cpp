@@ -174,7 +174,7 @@ void stopRing(double& fStop, float scale) {
     box.list.PopClipRect();
     box.list.AddTriangleFilled({centre - 5 * scale, box.end.y}, {centre + 5 * scale, box.end.y},
                                {centre, box.end.y - 7 * scale}, color(ImGuiCol_CheckMark));
-    tooltip("Aperture ring: drag, click or turn the mouse wheel. In the picture: Shift wheel or [ ].");
+    tooltip("Aperture ring: drag, click or turn the mouse wheel. In the image: Shift wheel or [ ].");
 }
 
 void aperturePreview(const Lens& lens, float scale) {
