@@ -116,7 +116,7 @@ def munkberg():
          "`coc-interpolation=linear` (preset), [clip_blur.glsl](../shaders/lens_space/clip_blur.glsl); by default, triangles in which C "
          "isn't linear are divided", "`CocInterpolation.bendsOnlyInDividedTriangles`", "–", "–"],
         ["C is given at both ends of the shutter time, and linear between them: C(t) = (1 − t)·c₀ + t·c₁",
-         "glTF attributes `_COC`, `_COC_OFFSET`, `_COC_0` and `_COC_1`, `_COC_SCALE`, `--node-blur` ([lens](lens.md#controls-of-the-blur))",
+         "glTF attributes `_COC`, `_COC_OFFSET`, `_COC_0` and `_COC_1`, `_COC_SCALE`, `--node-blur` ([lens](lens.md#blur-controls))",
          "`VertexBlurs.*`, `CocControls.scaleOfAnObjectIsItsOwn`", "pictures", "pictures"],
         ["Example of a radial blur: C = (a + b·w)·(1 + x² + y²) in clip space", "`_COC_SCALE` as printed; `--radial-blur-gain` is our form, "
          "which depends on the position in the image only", "`VertexBlurs.drawTheRadialExampleAsPrinted`", "–",
