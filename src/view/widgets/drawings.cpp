@@ -222,8 +222,8 @@ void depthDiagram(const FramePlan& plan, float scale) {
     box.list.AddText({box.end.x - width - 6 * scale, box.end.y - ImGui::GetFontSize() - 2 * scale},
                      color(ImGuiCol_Text), text.c_str());
     tooltip(
-        "Side view with the camera on the left. Curve: blur over depth, orange in front of the focus and blue behind "
-        "it. Band: depths with less than one pixel of blur. Lines: objects, bright where they are in the band.");
+        "Side view with the camera on the left. Curve: blur over depth, orange in front of the focus plane and blue "
+        "behind it. Band: depths with less than one pixel of blur. Lines: objects, bright where they are in the band.");
 }
 
 void timeBar(std::span<const PassTime> parts, double budget, float scale) {
