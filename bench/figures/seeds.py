@@ -244,7 +244,7 @@ def garcia():
         ["Sums of weights G are stored as (G − O) / S, with S = Σ(G − O), which lie in [0, 1]", "`bracketOf` in [complex_blur.h](../src/render/circular/complex_blur.h)",
          "`Brackets.ofEightTapsAreGarcias`, `Brackets.ofEightTapsStoreAWhiteFieldAsOne`, `ComplexBlurs.publishedBracketsLoseLessThanRanges`",
          "offset −0.0387, scale 0.943 (real part, first of two components)",
-         f"−0.0387 and 0.943; with ten bits from the sharp image to the result (`PostProcessesAlone.tenBitsHoldTheWholeImage`), a "
+         f"−0.0387 and 0.943; with ten bits from the sharp image to the result (`PostProcessesAlone.tenBitsHoldTheWholeImage`), an "
          f"image is {ten_bits:.1f} dB from one with 32-bit floats"],
         ["Eight taps on each side, quarter size, one near and two far components", "preset", "`bench convergence`", "–",
          f"FLIP {fish[0]} as published, {fish[1]} by default, {fish[2]} at its best ([fish](../bench/results/llvmpipe-circular.txt)); "

@@ -12,13 +12,11 @@ namespace defocus::engine {
 using Condition = std::string (*)(const SettingContext&);
 
 // A comment beside a function states when it returns a reason; functions without a comment have names that say so.
-std::string methodWithoutSamples(const SettingContext& context);  // the method draws no lens samples
-std::string methodWithoutPositions(
-    const SettingContext& context);  // the method draws one position per sample, or no samples
-std::string methodWithoutShapes(const SettingContext& context);  // the method supports only round or oval apertures
-std::string methodWithoutLensPoints(
-    const SettingContext& context);  // the method's lens is uniform over the image and all colours
-std::string methodWithoutThreads(const SettingContext& context);  // the method draws in one thread
+std::string methodWithoutSamples(const SettingContext& context);     // the method draws no lens samples
+std::string methodWithoutPositions(const SettingContext& context);   // the method draws at most one position per sample
+std::string methodWithoutShapes(const SettingContext& context);      // the method supports only round or oval apertures
+std::string methodWithoutLensPoints(const SettingContext& context);  // one lens serves all pixels and colours
+std::string methodWithoutThreads(const SettingContext& context);     // the method draws in one thread
 std::string methodWithoutMotion(const SettingContext& context);
 std::string withoutLayers(const SettingContext& context);
 std::string withoutShutter(const SettingContext& context);
