@@ -61,7 +61,8 @@ def cells_of(row):
 
 
 def row_of(cells):
-    # Results of older sweeps lack the method, because they measured only accumulation. Omit this method from the key.
+    # Older sweeps have no column "method": they measured only accumulation. The keys of all sweeps omit "accumulation", so that rows of
+    # older and newer sweeps have equal keys.
     skipped = (None, "", "accumulation") if "sweep" in cells else (None,)
     key = [f"{cells[name]:.6g}" if isinstance(cells[name], float) else cells[name] for name in KEYS if cells.get(name) not in skipped]
     time = [cells.get(name) for name in ("milliseconds", "low", "high")]

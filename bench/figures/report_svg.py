@@ -18,7 +18,7 @@ MARKERS = "osD^vPX*<>h"
 # Placeholder colours that as_svg replaces with CSS colours of the page.
 INK, GRID = "#010203", "#010204"
 COLOURS = [f"#0102{i:02x}" for i in range(0x10, 0x10 + len(PALETTE))]
-LABEL_LETTERS = 42  # number of letters that fit beside a plot; longer labels are drawn smaller
+LABEL_LENGTH = 42  # number of characters of a label that fit beside a plot at full size; longer labels are drawn smaller
 
 
 def add_tooltips(line, texts):
@@ -109,4 +109,4 @@ def label_beside(axes, ends):
                                                          "linestyle": ":", "shrinkA": 4, "shrinkB": 4})
         axes.plot([beside], [share], marker, color=colour, markersize=6, transform=axes.transAxes, clip_on=False)
         axes.annotate(text, (text_at, share), xycoords="axes fraction", color=colour, va="center",
-                      fontsize=min(9.5, 9.5 * LABEL_LETTERS / len(text)), annotation_clip=False)
+                      fontsize=min(9.5, 9.5 * LABEL_LENGTH / len(text)), annotation_clip=False)

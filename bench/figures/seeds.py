@@ -106,21 +106,21 @@ def munkberg():
         ["A limit of the foreground blur changes neither focus and background (Figure 3) nor the motion (Figure 4)",
          "`--foreground-limit`, [circle_of_confusion.h](../src/lens/circle_of_confusion.h)",
          "`CircleOfConfusion.foregroundLimitHasItsKinkWhereThePaperSays`, `CocControls.limitInFrontLeavesFocusAndBackground`, "
-         "`CocControls.limitInFrontLeavesTheMotion`", "pictures", "[pictures](../bench/results/lens/README.md)"],
+         "`CocControls.limitInFrontLeavesTheMotion`", "images", "[images](../bench/results/lens/README.md)"],
         ["A range of depths is in focus, and near and far blur stay (Figure 5)", "`--focus-range-front`, `--focus-range-behind`",
          "`CircleOfConfusion.focusRangeIsSharpAndPreservesNearAndFarBlur`, `CocControls.focusRangePreservesNearAndFarBlur`, "
-         "`CocControls.focusRangeIsSharpAsAPinhole`", "pictures", "pictures"],
+         "`CocControls.focusRangeIsSharpAsAPinhole`", "images", "images"],
         ["The focus plane is tilted (Figure 6)", "`--focus-tilt`",
-         "`CircleOfConfusion.tiltedPlaneIsInFocus`, `CocControls.tiltedPlaneIsSharpAllAlong`", "pictures", "pictures"],
+         "`CircleOfConfusion.tiltedPlaneIsInFocus`, `CocControls.tiltedPlaneIsSharpAllAlong`", "images", "images"],
         ["C is given per vertex and linear inside a triangle",
          "`coc-interpolation=linear` (preset), [clip_blur.glsl](../shaders/lens_space/clip_blur.glsl); by default, triangles in which C "
          "isn't linear are divided", "`CocInterpolation.bendsOnlyInDividedTriangles`", "–", "–"],
         ["C is given at both ends of the shutter time, and linear between them: C(t) = (1 − t)·c₀ + t·c₁",
-         "glTF attributes `_COC`, `_COC_OFFSET`, `_COC_0` and `_COC_1`, `_COC_SCALE`, `--node-blur` ([lens](lens.md#controls-of-the-blur))",
-         "`VertexBlurs.*`, `CocControls.scaleOfAnObjectIsItsOwn`", "pictures", "pictures"],
+         "glTF attributes `_COC`, `_COC_OFFSET`, `_COC_0` and `_COC_1`, `_COC_SCALE`, `--node-blur` ([lens](lens.md#blur-controls))",
+         "`VertexBlurs.*`, `CocControls.scaleOfAnObjectIsItsOwn`", "images", "images"],
         ["Example of a radial blur: C = (a + b·w)·(1 + x² + y²) in clip space", "`_COC_SCALE` as printed; `--radial-blur-gain` is our form, "
          "which depends on the position in the image only", "`VertexBlurs.drawTheRadialExampleAsPrinted`", "–",
-         "[pictures](../bench/results/lens/README.md#the-radial-example-of-the-text)"],
+         "[images](../bench/results/lens/README.md#the-radial-example-of-the-text)"],
         ["A limited foreground saves work (Figures 4 and 7)", "`defocus_foreground_bench --stochastic`",
          "[the run](../bench/results/lens/figure-7.md)", "4 to 9 times; 3 times with motion",
          f"thicket: {thicket[2]} times as fast, {thicket[3]} times fewer tests; chess board with motion: {chess[2]} times as fast, {chess[3]} "
@@ -134,7 +134,7 @@ def munkberg():
         ["Aberrations vary over the lens, C = f(u, v) (future work)",
          "[aberrations.h](../src/lens/aberrations.h): Seidel's astigmatism and coma, `--astigmatism`, `--coma`, also in `stochastic`",
          "`Aberrations.*`: the moments of a point's blur in closed form, and the direction of each ray to the background; "
-         "`LensSpaceAlone.stochasticPointsSeeAberrations`", "–", "[pictures](../bench/results/lens/README.md#beyond-the-paper-c--fu-v)"],
+         "`LensSpaceAlone.stochasticPointsSeeAberrations`", "–", "[images](../bench/results/lens/README.md#beyond-the-paper-c--fu-v)"],
         ["A coverage test takes few multiply-adds",
          "`relativeTo` and `edgeFunctions` in [triangles.glsl](../shaders/lens_space/triangles.glsl)",
          "counted by hand: 2 operations per coordinate and corner, 2 per edge function; with motion, 2 for each interpolated component",
@@ -172,7 +172,7 @@ def scheuermann():
          f"FLIP {fish[0]} as published, {fish[1]} with 64 taps, the blur of the lens and 16 pinholes (fish); {chess[0]} and {chess[1]} (chess)"],
         ["Blur is linear in depth between three planes of the artist, with a cut-off behind",
          "[blurriness.frag](../shaders/scheuermann/blurriness.frag)",
-         "`BlurrinessPlanes.*`; keys in shots: `FrameSequence.settingsOfAMethodHaveKeys`", "largest blur 10 px",
+         "`BlurrinessPlanes.*`; keyframes in shots: `FrameSequence.settingsOfAMethodHaveKeys`", "largest blur 10 px",
          f"the diameter of a point's disk differs from the lens equation by up to {worst:.0f} px; within half a pixel in {right} of {cases} cases"],
         ["A small pre-blurred copy hides the gaps between the taps",
          "[preblur.frag](../shaders/scheuermann/preblur.frag). The printed code reads the tap of the copy from the full-size image, which we "
@@ -244,8 +244,8 @@ def garcia():
         ["Sums of weights G are stored as (G − O) / S, with S = Σ(G − O), which lie in [0, 1]", "`bracketOf` in [complex_blur.h](../src/render/circular/complex_blur.h)",
          "`Brackets.ofEightTapsAreGarcias`, `Brackets.ofEightTapsStoreAWhiteFieldAsOne`, `ComplexBlurs.publishedBracketsLoseLessThanRanges`",
          "offset −0.0387, scale 0.943 (real part, first of two components)",
-         f"−0.0387 and 0.943; with ten bits from the sharp image to the result (`PostProcessesAlone.tenBitsHoldTheWholeImage`), a "
-         f"picture is {ten_bits:.1f} dB from one with 32-bit floats"],
+         f"−0.0387 and 0.943; with ten bits from the sharp image to the result (`PostProcessesAlone.tenBitsHoldTheWholeImage`), an "
+         f"image is {ten_bits:.1f} dB from one with 32-bit floats"],
         ["Eight taps on each side, quarter size, one near and two far components", "preset", "`bench convergence`", "–",
          f"FLIP {fish[0]} as published, {fish[1]} by default, {fish[2]} at its best ([fish](../bench/results/llvmpipe-circular.txt)); "
          f"{chess[0]}, {chess[1]}, {chess[2]} (chess)"],
@@ -290,7 +290,7 @@ def tzeng():
     return [
         ["Lines through the lens are weighted by κ, which is needed (Figure 4)",
          "[weights.glsl](../shaders/line/weights.glsl), `--line-weights`",
-         "`LensSpaceAlone.kappaMakesDisksUniform`, `LensSpace.convergesToTheAccumulation`", "pictures",
+         "`LensSpaceAlone.kappaMakesDisksUniform`, `LensSpace.convergesToTheAccumulation`", "images",
          "without κ, the middle of a blurred point is more than 1.5 times as bright as its rim"],
         ["Visibility along a line is exact", "[line.glsl](../shaders/line/line.glsl)",
          "`LensSpaceAlone.exactLinesFindIntersections`, `LensSpace.convergesToTheAccumulation`", "–", "–"],
@@ -311,7 +311,7 @@ def tzeng():
         ["16 lines have a better quality than 256 points", "as above", "as above", "better",
          f"{span([row[8] / row[7] for row in rows], 1)} times the RMSE of 256 points with exact lines, {span([row[8] / row[11] for row in rows], 1)} times that of 64 points; "
          f"on three teapots, {line_rows.quality_ratio(line_rows.EXACT):.2f} times the RMSE of 256 points with exact lines, "
-         f"{line_rows.quality_ratio(line_rows.PUBLISHED):.2f} times as published ([pictures](../bench/results/line-samples.md))"],
+         f"{line_rows.quality_ratio(line_rows.PUBLISHED):.2f} times as published ([images](../bench/results/line-samples.md))"],
         ["A choice of three levels by the score, blur over edge length, saves time at high blur (Figure 7)",
          "`--lod-metric score`; the constant of the score is ours",
          "`TzengPlan.drawsTheLevelNearestToTheScore`, `defocus_lens_space_bench --figure7`", "about 50 % of the time saved; twice as fast on teapots",
@@ -350,7 +350,7 @@ def lee():
          "`Layered.everyLensShapeAndControlIsTheAccumulations`", "spherical, chromatic", "the same"],
         ["Focus control: each pixel has its own focus, fitted by least squares to marks of the user",
          "`--focus-points` with four to 16 pixels, for all methods that use C: a tilted and curved surface ([focus.h](../src/frame/setup/focus.h)); "
-         "theirs has a free form", "`FocusThrough.findsTheCurvedSurfaceOfManyPoints`, `FocusThrough.leavesTheMinBlur`", "pictures", "–"],
+         "theirs has a free form", "`FocusThrough.findsTheCurvedSurfaceOfManyPoints`, `FocusThrough.leavesTheMinBlur`", "images", "–"],
     ]
 
 

@@ -93,13 +93,13 @@ def speed_sentence():
     full, levels = drawn["off"], drawn["fractional"]
     return textwrap.fill(
         f"With 64 lens samples of the built-in scene, {levels['triangles'] / 1e6:.0f} million triangles are drawn instead of "
-        f"{full['triangles'] / 1e6:.0f} million; culled triangles aren't counted. The RMSE from a converged image is "
-        f"{error_ratio(drawn):.2f} times that of full meshes, and FLIP is {error_ratio(drawn, 'flip'):.2f} times as "
-        f"large. On {run_of(FISH)['machine']['threads']} CPU cores without a GPU, a frame takes "
+        f"{full['triangles'] / 1e6:.0f} million; culled triangles aren't counted. Measured against a "
+        f"converged image, the RMSE is {error_ratio(drawn):.2f} times that of full meshes, and the perceptual error FLIP is "
+        f"{error_ratio(drawn, 'flip'):.2f} times as large. On {run_of(FISH)['machine']['threads']} CPU cores without a GPU, a frame takes "
         f"{seconds(levels):.1f} s instead of {seconds(full):.1f} s, {levels['speedUp']:.1f} times as fast. Coarser levels "
-        f"(`--lod-metric size`) are {by_size['fractional']['speedUp']:.1f} times as fast, at {error_ratio(by_size):.1f} times the "
-        "RMSE. [Results](docs/results.md) has more measurements, also against a CPU ray tracer and on [a "
-        "GPU](docs/results.md#on-a-gpu).", 128, break_long_words=False, break_on_hyphens=False) + "\n"
+        f"(`--lod-metric size`) are {by_size['fractional']['speedUp']:.1f} times as fast as full meshes, with {error_ratio(by_size):.1f} "
+        "times their RMSE. [Results](docs/results.md) has more measurements, including a comparison with a CPU ray tracer and "
+        "timings on [a GPU](docs/results.md#on-a-gpu).", 128, break_long_words=False, break_on_hyphens=False) + "\n"
 
 
 def demo():

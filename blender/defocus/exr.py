@@ -24,7 +24,7 @@ def text_at(data, place):
 def read_header(data):
     """Returns the attributes of an EXR file's header (name → bytes), and the offset after the header."""
     if data[:4] != b"\x76\x2f\x31\x01":
-        raise Failure("the picture is not an EXR file")
+        raise Failure("the image is not an EXR file")
     attributes, place = {}, 8
     while data[place]:
         name, place = text_at(data, place)
@@ -63,11 +63,11 @@ def read(file):
         with open(file, "rb") as opened:
             data = opened.read()
     except OSError as error:
-        raise Failure(f"defocus wrote no picture that can be read: {error.strerror}") from error
+        raise Failure(f"defocus wrote no image that can be read: {error.strerror}") from error
     try:
         return read_data(data)
     except (IndexError, KeyError, ValueError, struct.error, zlib.error) as error:
-        raise Failure("the picture is damaged") from error
+        raise Failure("the image is damaged") from error
 
 
 def read_data(data):

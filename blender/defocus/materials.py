@@ -54,7 +54,7 @@ def material_notes(material):
                 for node in sorted(upstream(shader.inputs[name], set()), key=lambda node: node.name):
                     if node.type not in EXPORTED_NODES:
                         notes.append(f"{name} of the material '{material.name}' depends on '{node.name}', which glTF cannot hold")
-    notes += [f"of the image '{node.image.name}' of the material '{material.name}', one picture is used in all frames"
+    notes += [f"all frames use the same frame of the image '{node.image.name}' of the material '{material.name}'"
               for node in material.node_tree.nodes
               if node.type == "TEX_IMAGE" and node.image and node.image.source in {"SEQUENCE", "MOVIE"}]
     notes += [f"the image '{image.name}' of the material '{material.name}' is missing: {image.filepath}" for image in missing_images(material)]

@@ -11,10 +11,10 @@ def choices(*rows):
     return [(value, name, text) for value, name, text in rows]
 
 
-QUALITIES = choices(("draft", "Draft", "FLIP difference of about 0.03 from the converged picture"),
-                    ("good", "Good", "FLIP difference of about 0.01 from the converged picture"),
-                    ("fine", "Fine", "FLIP difference of about 0.005 from the converged picture"))
-METHODS = choices(("auto", "Automatic", "Multirate where a visible part of the picture is widely blurred, else accumulation"),
+QUALITIES = choices(("draft", "Draft", "FLIP difference of about 0.03 from the converged image"),
+                    ("good", "Good", "FLIP difference of about 0.01 from the converged image"),
+                    ("fine", "Fine", "FLIP difference of about 0.005 from the converged image"))
+METHODS = choices(("auto", "Automatic", "Multirate where a visible part of the image is widely blurred, else accumulation"),
                   ("accumulation", "Accumulation", "Mean of one image for each lens sample"),
                   ("multirate", "Multirate", "Each lens sample stands for a part of the lens; needs fewer samples for wide blurs"),
                   ("layered", "Layered", "Lens rays through the depth layers of one pinhole image"),
@@ -45,10 +45,10 @@ class DefocusSettings(bpy.types.PropertyGroup):
     samples: bpy.props.IntProperty(name="Samples", min=0, max=65536, default=0,
                                    description="Number of lens samples. 0: the number that the quality needs, 16 to 1,024")
     quality: bpy.props.EnumProperty(name="Quality", items=QUALITIES, default="good",
-                                    description="Quality of a picture with an automatic number of samples")
+                                    description="Quality of an image with an automatic number of samples")
     target_error: bpy.props.FloatProperty(
         name="Target Error", min=0, max=1, default=0, precision=4, step=0.1,
-        description="Add samples until the estimated root mean square error of the encoded picture is smaller. 0: off")
+        description="Add samples until the estimated root mean square error of the encoded image is smaller. 0: off")
     method: bpy.props.EnumProperty(name="Method", items=METHODS, default="auto", description="Rendering method")
     levels: bpy.props.EnumProperty(name="Levels of Detail", items=LEVELS, default="auto",
                                    description="Use of simplified meshes for blurred objects")

@@ -13,8 +13,9 @@ float lightWithin(float radius) {
     return t * (1.0 - lightOverRadius.x + lightOverRadius.x * t);
 }
 
-// Returns the fraction of the line's light between the lens centre and p, negated for p < 0. `sides`: the line's extent
-// for p < 0, and the fraction of the light with p > 0.
+// Returns the fraction of the line's light between the lens centre and p, negated for p < 0. The line's points have
+// positions p from −sides.x to 1. sides.x: length of the part with p < 0. sides.y: fraction of the line's light that
+// passes through the part with p > 0.
 float lightUpTo(float p, vec2 sides) {
     return p < 0.0 ? -(1.0 - sides.y) * lightWithin(-p / sides.x) : sides.y * lightWithin(p);
 }

@@ -69,11 +69,12 @@ std::optional<FrameRange> movementFrames(const JsonReader& reader) {
 // increasing.
 std::vector<std::pair<double, JsonReader>> keysOf(const JsonReader& reader, const std::vector<std::string>& known) {
     std::vector<std::pair<double, JsonReader>> keys;
-    for (const JsonReader& key : reader.elements(1, "one key or more, each with a frame")) {
+    for (const JsonReader& key : reader.elements(1, "one keyframe or more, each with a frame")) {
         key.requireObject(known);
         const double frame = key.at("frame").number(0, maxFrame);
         if (!keys.empty() && !(frame > keys.back().first))
-            key.at("frame").failExpecting(fmt::format("a frame after the previous key's frame {}", keys.back().first));
+            key.at("frame").failExpecting(
+                fmt::format("a frame later than {}, the frame of the previous keyframe", keys.back().first));
         keys.emplace_back(frame, key);
     }
     return keys;
@@ -114,7 +115,8 @@ ShotMovement movementOf(const JsonReader& reader) {
     const int movements = int{reader.has("keys")} + int{reader.has("turntable")} + int{reader.has("dolly")};
     if (movements > 1) reader.failWith("give only one of 'keys', 'turntable' and 'dolly'");
     if (reader.has("interpolation") && !reader.has("keys"))
-        reader.at("interpolation").failWith("interpolation applies only to keys; a dolly has its own 'interpolation'");
+        reader.at("interpolation")
+            .failWith("interpolation applies only to keyframes; a dolly has its own 'interpolation'");
     if (reader.has("keys")) return cameraKeysOf(reader);
     if (reader.has("turntable")) return turntableOf(reader.at("turntable"));
     if (reader.has("dolly")) return dollyOf(reader.at("dolly"));
@@ -152,7 +154,7 @@ FocusTrack focusOf(const JsonReader& reader) {
     if (!reader.has("keys")) {
         focus.keys = {{0, focusTargetOf(reader)}};
         if (const auto easing = reader.find("interpolation"))
-            easing->failWith("interpolation applies only to keys; leave it out or give 'keys'");
+            easing->failWith("interpolation applies only to keyframes; leave it out or give 'keys'");
         return focus;
     }
     if (namesFocusTarget(reader))

@@ -139,7 +139,7 @@ public:
     [[nodiscard]] std::string signalText() const {
         if (!WIFSIGNALED(status_)) return "";
         const int signal = WTERMSIG(status_);
-        return fmt::format("was ended by signal {} ({})", signal, ::strsignal(signal));
+        return fmt::format("was terminated by signal {} ({})", signal, ::strsignal(signal));
     }
 
 private:

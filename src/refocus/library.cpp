@@ -84,14 +84,15 @@ Image LightField::refocus(const RefocusSettings& settings, const Progress& progr
 }
 
 FocalStack LightField::stack(int count, const RefocusSettings& settings, const Progress& progress) {
-    if (count < 2) throw UsageError("a focal stack has at least 2 pictures");
+    if (count < 2) throw UsageError("a focal stack has at least 2 images");
     if (!std::holds_alternative<CameraFocus>(settings.focus))
-        throw UsageError("a focal stack sets the focus distances; leave out the focus");
+        throw UsageError(
+            "a focal stack chooses its own focus distances; give neither a focus distance nor a focus pixel");
     engine::Refocusing refocusing = engine::refocusingOf(settings, state_->field);
     FocalStack stack;
     stack.focusDistances = engine::stackDistances(state_->field.info().range, count);
     for (const double distance : stack.focusDistances) {
-        engine::report(progress, "pictures", stack.pictures.size(), stack.focusDistances.size());
+        engine::report(progress, "images", stack.pictures.size(), stack.focusDistances.size());
         refocusing.focusDistance = distance;
         stack.pictures.push_back(engine::refocused(state_->field, refocusing));
     }

@@ -48,8 +48,8 @@ glm::ivec2 wholeMove(const LightFieldInfo& info, std::size_t image, double shift
 std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocusing& refocusing,
                                         const std::string& name);
 
-// Returns the picture: linear, premultiplied RGBA. Throws Error in the cases of shiftedImages, and if the file is
-// damaged. Reads a few images at a time.
+// Returns the refocused picture: linear, premultiplied RGBA. Throws Error if shiftedImages throws it or if the file is
+// damaged. Keeps only a few lens images in memory at a time.
 Image refocused(LightField& field, const Refocusing& refocusing, const Progress& progress = {});
 // Returns the picture without gap filling: the weighted mean of the shifted images.
 Image sharpSum(LensImages& images, const Refocusing& refocusing, const Progress& progress = {});

@@ -44,7 +44,7 @@ Refocusing refocusingOf(const RefocusSettings& settings, LightField& field) {
     else if (const auto* const at = std::get_if<FocusPixel>(&settings.focus))
         refocusing.focusDistance = focusAtPixel(field, at->pixel);
     else if (!std::holds_alternative<CameraFocus>(settings.focus))
-        throw UsageError("the focus of a picture from lens images must be a distance or a pixel");
+        throw UsageError("the focus of an image from lens images must be a distance or a pixel");
     refocusing.fStop = settings.lens.fStop.value_or(refocusing.fStop);
     refocusing.shape = apertureShape(settings.lens);
     refocusing.fillGaps = settings.fillGaps;

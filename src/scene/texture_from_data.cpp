@@ -22,8 +22,9 @@ void checkSize(const ImageView& image, const std::string& label) {
     if (image.channels != 1 && image.channels != 3 && image.channels != 4)
         throw UsageError(fmt::format("{}: its image has {} channels; give 1, 3 or 4", label, image.channels));
     if (!coversItsPixels(image))
-        throw UsageError(fmt::format("{}: its image of {} × {} pixels with {} channels reaches beyond its {} values",
-                                     label, image.width, image.height, image.channels, image.pixels.size()));
+        throw UsageError(
+            fmt::format("{}: an image of {} × {} pixels with {} channels needs more than the {} values given", label,
+                        image.width, image.height, image.channels, image.pixels.size()));
 }
 
 bool premultiplied(const TextureData& texture) {

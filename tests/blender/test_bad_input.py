@@ -188,7 +188,7 @@ class BadInput(unittest.TestCase):
         given = bpy.context.preferences.addons["defocus_engine"].preferences
         before, given.program = given.program, "/bin/true"
         try:
-            with self.assertRaisesRegex(RuntimeError, "Error: defocus wrote no picture that can be read: No such file"):
+            with self.assertRaisesRegex(RuntimeError, "Error: defocus wrote no image that can be read: No such file"):
                 bpy.ops.render.render()
         finally:
             given.program = before

@@ -130,7 +130,7 @@ std::string parserFault(const json& shot) {
 
 // Returns whether the fault is of a kind that no schema can express: wrongly ordered numbers or an unknown method name.
 bool beyondSchemas(const std::string& fault) {
-    for (const char* part : {"a frame after the previous key", "a last frame", "/method:"})
+    for (const char* part : {"a frame later than", "a last frame", "/method:"})
         if (fault.find(part) != std::string::npos) return true;
     return false;
 }

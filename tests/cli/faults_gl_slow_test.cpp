@@ -203,7 +203,7 @@ TEST_F(Faults, aRenderThatIsStoppedSaysSoAndLeavesNothing) {
         int status = 0;
         ::waitpid(child, &status, 0);
         EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status;
-        expectSaidOneLine("of 65536 samples: no image is written");
+        expectSaidOneLine("of 65536 samples; no image was written");
         EXPECT_FALSE(fs::exists(folder() / "out.exr"));
         for (const fs::directory_entry& entry : fs::directory_iterator(folder()))
             EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();

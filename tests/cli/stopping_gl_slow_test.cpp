@@ -66,7 +66,7 @@ TEST_F(Stopping, aSignalEndsARenderWithinASecond) {
         const End end = ended(words, signal, 4);
         EXPECT_EQ(end.code, 1);
         EXPECT_LT(end.seconds, 1.5);
-        EXPECT_NE(end.said.find("of 128 samples: no image is written"), std::string::npos) << end.said;
+        EXPECT_NE(end.said.find("of 128 samples; no image was written"), std::string::npos) << end.said;
         EXPECT_EQ(fileCount(), 2u) << "warm.png and said";
     }
 }

@@ -28,10 +28,14 @@ TEST(UnusedSettings, aDefaultRequestHasNone) {
 TEST(UnusedSettings, eachIsNamedWithItsReason) {
     const std::vector<std::pair<std::vector<Given>, std::string>> cases = {
         {{{"method", "circular"}, {"seed", "2"}}, "--seed has no effect: method circular has no lens samples"},
+        {{{"method", "circular"}, {"samples", "8"}, {"positions", "4"}},
+         "--samples, --positions have no effect: method circular has no lens samples"},
+        {{{"method", "line"}, {"positions", "4"}},
+         "--positions has no effect: method line has one pixel position per lens sample"},
         {{{"method", "circular"}, {"bladeCount", "5"}, {"obstruction", "0.5"}},
          "--blades, --obstruction have no effect: method circular supports only round and oval apertures"},
         {{{"method", "scheuermann"}, {"bladeCount", "5"}, {"catEye", "0.5"}, {"coma", "1"}},
-         "--cat-eye, --coma have no effect: method scheuermann uses the same lens for all colours and pixels"},
+         "--cat-eye, --coma have no effect: method scheuermann cannot vary the lens across the image or by colour"},
         {{{"method", "circular"}, {"shutter", "0.1"}},
          "--shutter has no effect: method circular does not support motion blur"},
         {{{"motionSegments", "4"}}, "--motion-segments has no effect: there is no motion blur without --shutter"},

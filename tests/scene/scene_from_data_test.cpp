@@ -246,7 +246,7 @@ TEST(SceneFromData, invalidDataIsRefusedWithItsName) {
         {"texture 'Picture' (0): its image has no pixels (0 × 0)", [](Square& s) { s.colorTexture.image = {}; }},
         {"texture 'Picture' (0): its image has 2 channels; give 1, 3 or 4",
          [](Square& s) { s.colorTexture.image.channels = 2; }},
-        {"texture 'Bumps' (1): its image of 2 × 9 pixels with 3 channels reaches beyond its 12 values",
+        {"texture 'Bumps' (1): an image of 2 × 9 pixels with 3 channels needs more than the 12 values given",
          [](Square& s) { s.dataTexture.image.height = 9; }},
         {"texture 'Picture' (0): channel 1 of pixel (1, 0) is -1; textures hold values from 0 to 1",
          [](Square& s) { s.picture.at(1, 0)[1] = -1; }},

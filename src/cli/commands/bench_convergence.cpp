@@ -334,7 +334,7 @@ void addOutput(CLI::App& command, ConvergenceArguments& arguments) {
         ->group(group);
     command
         .add_option("--report", arguments.report,
-                    "Folder for index.html with plots, tables and pictures (requires python3-matplotlib)")
+                    "Folder for index.html with plots, tables and images (requires python3-matplotlib)")
         ->type_name("FOLDER")
         ->group(group);
     addAllowChanged(command, arguments.allowChanged);

@@ -148,7 +148,7 @@ void addBenchViewCommand(CLI::App& bench, const GlobalOptions& global) {
     addInteger(*command, "--frames", options.frames, 4, 10'000, "Frames of the camera's orbit, 1 degree each")
         ->group(group);
     addNumber(*command, "--rest", options.restSeconds, {0.1, 3600}, "S",
-              "Maximum time in s to wait for the picture to converge after the orbit")
+              "Maximum time in s to wait for the image to converge after the orbit")
         ->group(group);
     addInteger(*command, "--reference-samples", options.referenceSamples, 2, maxSamples,
                "Lens samples of the references at full detail")

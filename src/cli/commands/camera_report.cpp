@@ -24,7 +24,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 struct Blur {
     double depth = 0;      // m
     double pixels = 0;     // signed diameter; > 0 behind the focus plane
-    double onSensor = 0;   // diameter, mm, ≥ 0
+    double onSensor = 0;   // diameter, mm; signed like `pixels`
     bool inFocus = false;  // true: the diameter is at most CameraFacts::acceptable
 };
 
@@ -63,8 +63,8 @@ CameraFacts factsOf(const PreparedFrame& frame, const CameraQuestion& question) 
     facts.plain = coc.thinLens();
     for (const double depth : question.depths.empty() ? depthsAround(view.lens) : question.depths) {
         const double pixels = circleOfConfusion(coc, depth, view.width);
-        const double onSensor = std::abs(pixels) * facts.sensor.x / view.width;
-        facts.blurs.push_back({depth, pixels, onSensor, onSensor <= facts.acceptable * (1 + 1e-9)});
+        const double onSensor = pixels * facts.sensor.x / view.width;
+        facts.blurs.push_back({depth, pixels, onSensor, std::abs(onSensor) <= facts.acceptable * (1 + 1e-9)});
     }
     return facts;
 }
@@ -114,8 +114,8 @@ std::string cameraTable(const PreparedFrame& frame, const CameraQuestion& questi
     line("camera", fmt::format("{} of {}", frame.cameraName, frame.sceneName));
     line("lens", fmt::format("{:.4g} mm, f/{:.3g}{}", lens.focalLength, lens.fStop,
                              apertureDiameter(lens) > 0 ? "" : ", depth of field off"));
-    line("sensor", fmt::format("{:.4g} x {:.4g} mm, with the shape of the image of {}x{} px", facts.sensor.x,
-                               facts.sensor.y, frame.view.width, frame.view.height));
+    line("sensor", fmt::format("{:.4g} x {:.4g} mm (aspect ratio of the {}x{} image)", facts.sensor.x, facts.sensor.y,
+                               frame.view.width, frame.view.height));
     line("field of view", fmt::format("{:.4g} x {:.4g} degrees", facts.fieldOfView.x, facts.fieldOfView.y));
     line("focus",
          fmt::format("{}{}", inMetres(lens.focusDistance), lens.focusBreathing ? ", with focus breathing" : ""));
@@ -123,7 +123,7 @@ std::string cameraTable(const PreparedFrame& frame, const CameraQuestion& questi
          fmt::format("{:.3g} mm on the sensor{}", facts.acceptable, facts.customary ? ", 1/1500 of its diagonal" : ""));
     line("in focus", fmt::format("{} to {}", inMetres(facts.depth.near), inMetres(facts.depth.far)));
     line("depth of field",
-         fmt::format("{}: {} in front of the focus, {} behind", inMetres(facts.depth.far - facts.depth.near),
+         fmt::format("{}: {} in front of the focus plane, {} behind it", inMetres(facts.depth.far - facts.depth.near),
                      inMetres(lens.focusDistance - facts.depth.near), inMetres(behindFocus(facts))));
     line("hyperfocal", inMetres(facts.depth.hyperfocal));
     if (lens.exposureTime > 0)
@@ -135,7 +135,7 @@ std::string cameraTable(const PreparedFrame& frame, const CameraQuestion& questi
     for (const Blur& blur : facts.blurs)
         text += fmt::format("{:>12} {:>12.2f} {:>14.4f}{}\n", inMetres(blur.depth), blur.pixels, blur.onSensor,
                             blur.inFocus ? "  in focus" : "");
-    text += "\nBlur in the middle of the image; negative in front of the focus.\n";
+    text += "\nBlur in the middle of the image; negative in front of the focus plane.\n";
     return text;
 }
 

@@ -77,7 +77,7 @@ void checkArguments(const CaptureArguments& arguments) {
     if (arguments.refocus && (arguments.sampleRange || arguments.check || arguments.request.targetError))
         throw UsageError("--refocus cannot be combined with --sample-range, --check or --target-error");
     if (arguments.refocus && !arguments.request.layers.empty())
-        throw UsageError("--refocus computes pictures without layers; leave out --exr-layers");
+        throw UsageError("--refocus computes images without layers; leave out --exr-layers");
     const bool part = arguments.shard.count > 1 || arguments.sampleRange;
     if (!arguments.shot.video.empty()) {
         if (part)
@@ -207,8 +207,8 @@ void printFigures(const FilmFigures& figures, std::size_t frames) {
 }
 
 void printPops(const PopCheck& check) {
-    std::string text = fmt::format("pops of levels of detail, in {} pair{} of frames: ", check.compared(),
-                                   check.compared() == 1 ? "" : "s");
+    std::string text =
+        fmt::format("level-of-detail pops in {} frame pair{}: ", check.compared(), check.compared() == 1 ? "" : "s");
     if (const std::optional<FramePop>& pop = check.largest())
         text += fmt::format(
             "the largest has an RMSE of {:.4f}, in the pixels of '{}' from frame {} to {}; for comparison, another "

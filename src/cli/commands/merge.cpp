@@ -49,7 +49,8 @@ void mergeTiles(const MergeArguments& arguments, const GlobalOptions& global) {
     metadata.try_emplace("capDate", std::string());  // no date; otherwise, OpenImageIO would insert the current time
     std::vector<JoinedOutput> outputs;
     for (const std::filesystem::path& path : arguments.outputs) {
-        if (isStandardOutput(path)) throw UsageError("tiles can only be merged to files; give a file name with -o");
+        if (isStandardOutput(path))
+            throw UsageError("merged tiles cannot go to standard output; give a file name with -o");
         outputs.push_back({path, {arguments.toneMap, arguments.exposure.value_or(ownExposure(metadata))}});
     }
     joinRows(tiles, outputs, metadata);

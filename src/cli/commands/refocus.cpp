@@ -116,7 +116,7 @@ void runRefocus(const RefocusArguments& arguments, const GlobalOptions& global) 
 void addRefocusCommand(CLI::App& program, const GlobalOptions& global) {
     auto arguments = std::make_shared<RefocusArguments>();
     CLI::App* command = program.add_subcommand(
-        "refocus", "Choose focus, f-number and bokeh of a picture after rendering (render --lens-images)");
+        "refocus", "Choose focus, f-number and bokeh of an image after rendering (render --lens-images)");
     command->add_option("FILE", arguments->file, "File of lens images, from 'defocus render --lens-images'")
         ->required()
         ->type_name("FILE");
@@ -148,7 +148,7 @@ void addRefocusCommand(CLI::App& program, const GlobalOptions& global) {
               "Frames per second of --focus-pull")
         ->needs(pull);
     addInteger(*command, "--stack", arguments->stack, 2, 100,
-               "Write a focal stack for the output out.exr: N pictures (out.00.exr, out.01.exr …), a picture with "
+               "Write a focal stack for the output out.exr: N images (out.00.exr, out.01.exr …), an image with "
                "everything in focus (out.sharp.exr) and depths in m (out.depth.exr). The focus distances cover the "
                "rendered range, evenly in 1/distance")
         ->default_str("")
@@ -167,7 +167,8 @@ void addRefocusCommand(CLI::App& program, const GlobalOptions& global) {
         "  defocus refocus scene.lens.exr -o star.png --focus-pixel 512,384 --fstop 2.8 --blades 6\n"
         "  defocus refocus scene.lens.exr --focus-pull 1:4 --video pull.mp4 --fstop 2\n"
         "  defocus refocus scene.lens.exr --stack 16 -o stack.exr\n"
-        "  defocus refocus scene.lens.exr --html scene.html");
+        "  defocus refocus scene.lens.exr --html scene.html\n"
+        "Without --blades and other shape options, the aperture has the rendered shape.");
     command->callback([arguments, &global] {
         if (arguments->page.empty())
             runRefocus(*arguments, global);

@@ -93,7 +93,7 @@ void writeFocalStack(LightField& field, const Refocusing& refocusing, int pictur
         picture.focusDistance = distances[static_cast<std::size_t>(i)];
         writeImage(stackPath(output, fmt::format("{:02}", i)), refocused(field, picture),
                    refocusedMetadata(field.info(), picture), write);
-        report(progress, "pictures", static_cast<std::uint64_t>(i) + 1, static_cast<std::uint64_t>(pictures) + 1);
+        report(progress, "images", static_cast<std::uint64_t>(i) + 1, static_cast<std::uint64_t>(pictures) + 1);
     }
     writeImage(stackPath(output, "sharp"), allInFocus(field), field.info().metadata, write);
     std::filesystem::path depth = stackPath(output, "depth");

@@ -59,8 +59,8 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
                  ->group(group));
     command
         .add_flag("--resume", arguments.resume,
-                  "Continue an interrupted run with the same settings. Finished parts are read from folder out.tiles "
-                  "beside the first output, or from the file of --tile")
+                  "Continue an interrupted run with the same settings. Finished parts are read from the folder "
+                  "NAME.tiles beside the first output NAME.exr or, with --tile, from the output file itself")
         ->group(group);
     advanced(command
                  .add_flag("--keep-partial", arguments.keepPartial,
@@ -128,7 +128,7 @@ void checkOutputs(const RenderArguments& arguments) {
         fail("--aov writes files beside the first output; give a file as the first output");
     if (!request.layers.empty()) {
         if (std::ranges::none_of(arguments.outputs, holdsLayers)) fail("--exr-layers needs an .exr file as an output");
-        if (arguments.keepPartial) fail("--keep-partial keeps the picture only; leave out --exr-layers");
+        if (arguments.keepPartial) fail("--keep-partial keeps only the image, without layers; leave out --exr-layers");
     }
     FrameOutput::check(filesOf(arguments), request);
 }

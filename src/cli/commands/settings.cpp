@@ -90,7 +90,7 @@ std::string markdownRow(const Setting& setting) {
     const std::string standard = standardText(setting);
     return fmt::format("| `{}` | `{}` | {}{} | {} | {}{} | {} |\n", setting.option, snakeCase(setting.name),
                        cell(rangeText(setting)), unit, standard.empty() ? "" : fmt::format("`{}`", standard), shot,
-                       setting.keyed ? ", keys" : "", cell(setting.help));
+                       setting.keyed ? ", keyframes" : "", cell(setting.help));
 }
 
 std::string methodRow(const Method& method, const MethodSetting& setting) {

@@ -152,7 +152,7 @@ std::string faultOf(const Image& image, const FramePlan& plan, const RenderStats
                            plan.view.height);
     if (!allFinite(image)) return "the image has NaN or infinite pixels";
     if (stats.samples != sampleTotal)
-        return fmt::format("the method drew {} of {} samples", stats.samples, sampleTotal);
+        return fmt::format("the image is incomplete: the method drew {} of {} samples", stats.samples, sampleTotal);
     const bool asPlanned = stats.samples == plan.samples.size() || stats.samples == plan.settings.sampleCount;
     if (method.usesLensSamples && !asPlanned)
         return fmt::format("the method drew {} lens samples instead of {}", stats.samples, plan.samples.size());

@@ -71,7 +71,7 @@ struct PoppingFrame {
     std::uint32_t samples = 0;
     PoppingMode mode = PoppingMode::nearest;
     int frame = 0;     // number t of the frame in the movement, ≥ 1
-    double speed = 0;  // max change of an object's real-valued level, |λ_t − λ_{t−1}|
+    double speed = 0;  // max over all objects of |λ_t − λ_{t−1}|; λ_t is the object's real-valued level in frame t
     Pop change;
     Pop step;
 };

@@ -117,7 +117,7 @@ std::string firstFramesLine(std::span<const PoppingFrame> frames) {
     std::string line;
     for (const PoppingRow& row : rows)
         line += fmt::format("{}{} {:.5f}", line.empty() ? "" : ", ", poppingModeName(row.mode), row.stepRmse.worst);
-    return fmt::format("first {} frames of {}, {} samples, largest pop (RMSE, objects' pixels): {}\n",
+    return fmt::format("first {} frames of {}, {} samples, largest pop (RMSE over pixels covered by objects): {}\n",
                        rows.front().frames + 1, movementName(rows.front().movement), rows.front().samples, line);
 }
 

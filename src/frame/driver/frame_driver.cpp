@@ -334,7 +334,8 @@ void checkLayers(FrameOrder& order, const Method& method, bool perSample) {
     if (order.takeSample) throw UsageError("--exr-layers cannot be combined with --lens-images");
     const auto& layers = order.settings.layers;
     if (std::ranges::find(layers, Layer::motion) != layers.end() && perSample)
-        throw UsageError("layer motion needs a number of motion segments; leave out --motion-segments exact");
+        throw UsageError(
+            "layer 'motion' cannot be written with --motion-segments exact; give a number or leave the option out");
     if (order.untiledReason.empty()) order.untiledReason = "--exr-layers needs the whole image";
 }
 

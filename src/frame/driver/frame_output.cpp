@@ -193,7 +193,7 @@ std::string FrameOutput::stopMessage() const {
     if (driver.inTiles())
         return fmt::format("stopped: {} of {} rows are kept in {}; repeat the command with --resume to continue",
                            rowsKept_ + rowsDone_, wanted_.end, tilesFolder().string());
-    return fmt::format("stopped after {} of {} samples: no image is written", driver.samples(), driver.sampleTotal());
+    return fmt::format("stopped after {} of {} samples; no image was written", driver.samples(), driver.sampleTotal());
 }
 
 // Joins the temporary tiles into the output files, then removes the tiles.

@@ -161,7 +161,9 @@ std::vector<std::string> ignoredWarnings(const Scene& scene) {
             lines.push_back(fmt::format("{}{}: {}", ignored.count > 1 ? grouped(ignored.count) + " x " : "",
                                         ignored.what, ignored.reason));
     }
-    if (more > 0) lines.push_back(fmt::format("{} more kinds of content are ignored", grouped(more)));
+    if (more > 0)
+        lines.push_back(fmt::format("{} more kind{} of content {} ignored", grouped(more), more == 1 ? "" : "s",
+                                    more == 1 ? "is" : "are"));
     return lines;
 }
 

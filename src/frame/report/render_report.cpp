@@ -77,6 +77,16 @@ std::string inMillions(std::uint64_t count) {
     return count < 1'000'000 ? fmt::format("{}", count) : fmt::format("{:.1f} M", value * 1e-6);
 }
 
+bool usesLensSamples(const RenderReport& report) {
+    return parseMethodUse(report.method).method->usesLensSamples;
+}
+
+// Returns the number of drawn images in words: "64 samples", or "4 pinhole images" for a method without lens samples.
+std::string imageCount(const RenderReport& report) {
+    return fmt::format("{} {}{}", report.stats.samples, usesLensSamples(report) ? "sample" : "pinhole image",
+                       report.stats.samples == 1 ? "" : "s");
+}
+
 }  // namespace
 
 Metadata renderMetadata(const RenderReport& report) {
@@ -200,7 +210,7 @@ std::string summary(const RenderReport& report) {
     std::string triangles = inMillions(stats.trianglesDrawn) + " triangles";
     if (report.plan.trianglesAtFullDetail > stats.trianglesDrawn)
         triangles += fmt::format(" (full detail: {})", inMillions(report.plan.trianglesAtFullDetail));
-    std::string samples = fmt::format("{} samples", stats.samples);
+    std::string samples = imageCount(report);
     if (report.plan.settings.positions > 1)
         samples += fmt::format(" with {} positions", report.plan.settings.positions);
     if (stopSettings(report.options).given())
@@ -208,7 +218,8 @@ std::string summary(const RenderReport& report) {
     else if (stopSettings(report.options).automatic)
         samples += stats.estimatedError ? fmt::format(" (automatic, {})", errorText(stats)) : " (automatic)";
     else if (const std::uint32_t asked = report.options.samples.value_or(0);
-             asked > stats.samples && stats.samples == report.plan.frameSamples && !report.plan.usesLens)
+             asked > stats.samples && stats.samples == report.plan.frameSamples && !report.plan.usesLens &&
+             usesLensSamples(report))
         samples += fmt::format(" (of {}, as nothing is blurred; --keep-all draws all)", asked);
     return fmt::format("{}x{}, {} in {:.2f} s: {}, {}", report.plan.view.width, report.plan.view.height, samples,
                        stats.renderMilliseconds / 1000, triangles, stats.device);

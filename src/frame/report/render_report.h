@@ -37,7 +37,8 @@ std::string statsJson(const RenderReport& report);
 // Returns a text such as "error about 0.0047", or "error not estimated".
 std::string errorText(const RenderStats& stats);
 
-// Returns a summary such as "1024x768, 64 samples in 1.52 s: 2.1 M triangles (full detail: 115.2 M), llvmpipe …".
+// Returns a summary such as "1024x768, 64 samples in 1.52 s: 2.1 M triangles (full detail: 115.2 M), llvmpipe …". For a
+// method without lens samples, it gives the number of pinhole images instead.
 std::string summary(const RenderReport& report);
 
 }  // namespace defocus::engine

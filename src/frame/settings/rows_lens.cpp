@@ -201,8 +201,8 @@ Rows focusRows() {
             .excludes({"focusDistance", "focusNode"})
             .unused(withoutBlur),
         rows::other("focusPoints", "--focus-points", "X,Y,X,Y,X,Y", setFocusPoints, focusPointsText,
-                    "Tilt the focus plane through the surfaces at three pixels. With 4 to 16 pixels, fit a curved "
-                    "surface of focus to them (least squares of the blur)")
+                    "Tilt the focus plane so that it passes through the surfaces at three pixels. With 4 to 16 pixels, "
+                    "fit a curved focus surface that minimizes the sum of their squared blur")
             .clears(clearFocus<FocusPoints>)
             .excludes({"focusDistance", "focusNode", "focusPixel"})
             .unused(withoutBlur),

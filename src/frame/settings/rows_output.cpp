@@ -103,7 +103,7 @@ Rows displayRows() {
     return {
         rows::other(
             "exrLayers", "--exr-layers", "LAYER,…", setLayers, layersText,
-            "Data layers to add to .exr files, blurred by the lens with the picture's samples and premultiplied by "
+            "Data layers to add to .exr files, blurred by the lens with the image's samples and premultiplied by "
             "the coverage: depth (mean and nearest, m), position, normal, albedo, emission, motion (px while the "
             "shutter is open), coc (px), and the Cryptomattes objects and materials; or all")
             .clears(MEMBER(layers))
@@ -148,9 +148,12 @@ Rows developerRows() {
              {"proportional", LodMetric::proportional},
              {"score", LodMetric::score}},
             MEMBER(lodMetric),
-            "Rule that chooses the levels of detail. measured: by the error of the blurred shading (most accurate). "
-            "size: by the length of triangle edges in the image. error: by the distance to full detail in the image. "
-            "proportional: by the ratio of blur to the size of the object's bounding box (Jeong et al. 2011). score: "
+            "Rule that chooses the levels of detail. measured: by the measured error of the blurred shading (most "
+            "accurate). "
+            "size: by the length of triangle edges in the image. error: by how far, in px, the simplified surface lies "
+            "from "
+            "the full mesh in the image. proportional: by the ratio of blur to the size of the object's bounding box "
+            "(Jeong et al. 2011). score: "
             "by the ratio of blur to edge length (Tzeng et al. 2012). automatic: size if --blur-threshold or "
             "--size-threshold is given, else measured")
             .inShot("/lodMetric")
@@ -178,8 +181,8 @@ Rows developerRows() {
             .unit("px")
             .unused(methodWithoutSamples),
         rows::boolean("keepAll", "--keep-all", MEMBER(keepAll),
-                      "Disable culling, which is slower and doesn't change the image. If all blur is below half a "
-                      "pixel, also draw this blur, with all samples")
+                      "Disable culling: slower, same image. Also draw blur that is below half a pixel everywhere, with "
+                      "all samples; by default, this blur is not drawn")
             .effect(SettingEffect::run),
         rows::other(
             "memory", "--memory", "SIZE",

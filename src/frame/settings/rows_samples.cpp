@@ -130,22 +130,24 @@ Rows sampleRows() {
         rows::choice<std::optional<LodMode>>(
             "lod", "--lod", modes, MEMBER(lod),
             "Levels of detail of blurred objects. nearest: one level per object. fractional: the "
-            "lens samples are divided between two levels. continuous (default of capture): also "
-            "divides the pixels of one sample, for smoother transitions. off: full detail. auto: "
+            "lens samples are divided between two levels. continuous (the default of 'defocus capture'): as "
+            "fractional, and one sample draws both levels, each in some of its pixels, for smoother transitions. off: "
+            "full detail. auto: "
             "fractional, or off for a still image with --samples auto whose levels would take longer "
             "to build than they save")
             .inShot("/lod"),
         rows::number("blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(blurThreshold),
-                     "For --lod-metric size, error and score: edge length of the triangles, in px, for each px of "
-                     "blur; a larger value is coarser and faster. Default: depends on the number of samples. For "
-                     "proportional: level of an object whose blur is as large as its bounding box")
+                     "For --lod-metric size and score: permitted length of triangle edges, in px, per px of blur. For "
+                     "error: permitted error, in px, per px of blur. For proportional: the level used when an object's "
+                     "blur is as large as its bounding box. A larger value is coarser and faster. Default: 10 for "
+                     "proportional, else depends on the number of samples")
             .example("0.2")
             .inShot("/blurThreshold")
             .unused(withoutLevels),
         rows::number(
             "sizeThreshold", "--size-threshold", "K", 0, 1e6, MEMBER(sizeThreshold),
-            "For --lod-metric size and error: edge length, in px, that triangles may have even where nothing is "
-            "blurred. Default: depends on the number of samples")
+            "Permitted length of triangle edges (--lod-metric size) or permitted error (--lod-metric error), in px, "
+            "where nothing is blurred. Default: depends on the number of samples")
             .unit("px")
             .example("1")
             .inShot("/sizeThreshold")

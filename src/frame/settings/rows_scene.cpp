@@ -91,10 +91,10 @@ std::optional<std::string> sizeText(const Request& request) {
 }
 
 Row unitsRow() {
-    return Row(SettingKind::number, "units", "--units", "m|cm|mm|M|auto",
-               "Length of one unit of the scene: m, cm, mm or a number of metres. auto takes the unit in the file's "
-               "extras. Without it: 1 m if the camera has a physical lens or an option is given in m, else an estimate "
-               "from the scene's size")
+    return Row(SettingKind::number, "units", "--units", "m|cm|mm|METRES|auto",
+               "Length of one unit of the scene: m, cm, mm or a number of metres. auto: the unit stored in the "
+               "file's extras; without it, 1 m if the camera has a physical lens or an option sets a distance or a "
+               "position, else an estimate from the scene's size")
         .range(1e-9, 1e9)
         .choices({"auto", "m", "cm", "mm"})
         .clears(MEMBER(units))
@@ -251,14 +251,14 @@ Rows sceneRows() {
             .inShot("/multipleScattering"),
         rows::number("lightAngle", "--light-angle", "DEG", 0, 90, MEMBER(lightAngle),
                      "Angular diameter of directional lights in degrees; larger lights give softer shadows. Default: "
-                     "0.53 (the sun) for lights in the file")
+                     "0.53 (the sun) for lights in the file, 10 to 30 for the default lights")
             .unit("degrees")
             .example("5")
             .inShot("/lightAngle")
             .unused(withoutShadows),
         rows::number("lightRadius", "--light-radius", "M", 0, 1e6, MEMBER(lightRadius),
-                     "Radius of point and spot lights in m; larger lights give softer shadows. Default: 0.03 for "
-                     "lights in the file")
+                     "Radius of point and spot lights in m; larger lights give softer shadows. Default: 0.03. "
+                     "The default lights are directional")
             .unit("m")
             .example("0.1")
             .inShot("/lightRadius")

@@ -1,7 +1,7 @@
 #pragma once
-// Creates finishes: simplified materials with which the images that measure the error of levels are rendered
-// (picture.h). They follow glTF's metallic-roughness model, without normal maps, occlusion maps, transparency, clear
-// coat and sheen.
+// Creates finishes. A finish is a simplified material. The program renders the levels of a mesh with finishes and
+// compares the images (picture.h) to measure the levels' errors. Finishes follow glTF's metallic-roughness model,
+// without normal maps, occlusion maps, transparency, clear coat and sheen.
 
 #include <cstddef>
 #include <cstdint>

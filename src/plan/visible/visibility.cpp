@@ -40,7 +40,7 @@ struct ObjectViews {
     std::vector<LensRange> lenses;           // lens bounds for parts of the exposure; empty: no culling of back faces
     double lensRadius = 0;                   // radius in m of the disk that bounds the lens
     double shapeLoss = 1;                    // max factor by which a tilted focus plane shrinks a triangle's altitude
-    double minVolume = 0;                    // min view-space volume in m³ of a unit cube of object space
+    double minVolume = 0;                    // min volume in m³ of a cube with sides of one object unit
     double largestSize = 0;                  // upper bound of the norms of viewFromObject
     double largestOffset = 0;                // max distance in m of the object's origin from the camera
     OwnBlur own;                             // bounds of the blur modifiers of the object's surfaces

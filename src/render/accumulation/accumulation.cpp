@@ -234,9 +234,10 @@ private:
         sum_->reset({window.left, window.bottom});
     }
 
-    // Returns whether the environment is drawn into the layers. Environments that are not maps are usually composited
-    // when the layers are added to the sum. They must be drawn if they are visible through a transmitting surface, or
-    // if alpha marks blended surfaces for the blur by lens cells.
+    // Returns whether the environment is drawn into each sample's layer. A gradient or a single colour is usually
+    // composited behind the layers when they are added to the sum. It must be drawn into the layers if it is visible
+    // through a transmitting surface, or if the layers' alpha marks blended surfaces for the blur by lens cells. If
+    // pixels need alpha, the environment is never drawn.
     [[nodiscard]] bool drawsSky() const {
         const EnvironmentType type = scene_.world().environment.type;
         return !plan_.needsAlpha &&

@@ -266,28 +266,29 @@ std::vector<MethodSetting> circularSettings() {
         {.name = "max-coc",
          .defaultValue = "unlimited",
          .description = "Maximum blur diameter. published: 17 px at --resolution, as in Garcia's slides (68 px of the "
-                        "picture with --resolution quarter)",
+                        "image with --resolution quarter)",
          .choices = {"unlimited", "published"}},
         {.name = "kernel-taps",
          .defaultValue = "exact",
          .description = "Number of kernel samples on each side of the centre. exact: one per pixel. eight: 8, as in "
-                        "the slides",
+                        "Garcia's slides",
          .choices = {"exact", "eight"}},
         {.name = "storage",
          .defaultValue = "half",
-         .description = "Pixel format of the sums between the horizontal and the vertical pass. With r10g10b10a2, as "
-                        "in the slides, the sharp and the blurred images also have ten bits per channel, and radiance "
-                        "above 1 is clipped",
+         .description =
+             "Pixel format of the sums between the horizontal and the vertical pass. With r10g10b10a2, as "
+             "in Garcia's slides, the sharp and the blurred images also have ten bits per channel, and radiance "
+             "above 1 is clipped",
          .choices = {"float", "half", "r10g10b10a2"}},
         {.name = "near-field",
          .defaultValue = "premultiplied",
-         .description = "Weight of a pixel in the near field: its coverage times its blur (premultiplied, as in the "
-                        "slides), or its coverage",
+         .description = "Weight of a pixel in the near field: its coverage times its blur (premultiplied, as in "
+                        "Garcia's slides), or its coverage",
          .choices = {"premultiplied", "coverage"}},
         {.name = "blend-bias",
          .defaultValue = "1",
-         .description = "Factor on the opacity of the blurred foreground. Above 1, less of the sharp foreground shows "
-                        "through as a ghost, but edges become wider",
+         .description = "Multiplier for the opacity of the blurred foreground. Above 1, less of a sharp ghost of the "
+                        "foreground shows through, but edges become wider",
          .choices = {},
          .min = 1,
          .max = 4,
@@ -299,8 +300,8 @@ std::vector<MethodSetting> circularSettings() {
          .choices = {"constant", "luminance"}},
         {.name = "convolution",
          .defaultValue = "separable",
-         .description = "How the blur is convolved. separable: in two fast one-dimensional passes. direct: in one slow "
-                        "two-dimensional pass, to check separable",
+         .description = "How the image is convolved with the kernel. separable: in two fast one-dimensional passes. "
+                        "direct: in one slow two-dimensional pass, a reference for checking separable",
          .choices = {"separable", "direct"}},
         transparencyBucketsSetting("1"),
         pinholesSetting(),

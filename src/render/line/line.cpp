@@ -223,8 +223,8 @@ private:
         return readCounters();
     }
 
-    // Runs the deferred jobs (each is one line in one tile) until all are complete. Each dispatch runs as many jobs as
-    // there are saved states.
+    // Runs the deferred jobs to completion; a job is one line in one tile. The buffer holds the states of
+    // `places.slots` unfinished jobs, so at most that many jobs run at a time.
     void finishJobs(const Places& places) {
         const std::uint32_t count = readCounters().laterJobs;
         for (std::uint32_t first = 0; first < count; first += static_cast<std::uint32_t>(places.slots)) {
@@ -313,20 +313,23 @@ Method lineMethod() {
         {.name = "shading-step",
          .defaultValue = "4",
          .description =
-             "Distance in px between shading points along a visible segment, measured on the blurred surface; a "
-             "smaller value is more accurate and slower. 0: one point in the middle of each segment, as in the paper",
+             "Spacing of the shading points along a visible segment, in px of the blur that the segment contributes to "
+             "the image; a smaller value is more accurate and slower. 0: one point in the middle of each segment, as "
+             "in "
+             "the paper (Tzeng et al. 2012)",
          .choices = {},
          .min = 0,
          .max = 64},
         {.name = "interval-bits",
          .defaultValue = "64",
-         .description = "Number of bits that store both ends of a segment with --resolve published; 16 in the paper",
+         .description =
+             "Number of bits for the two ends of a segment together, with --resolve published; 16 in the paper",
          .choices = {"64", "16"},
          .onlyWith = "resolve=published"},
         {.name = "line-weights",
          .defaultValue = "area",
-         .description = "Weight of each part of a line: the lens area that it represents (area; κ in the paper), or "
-                        "its length (length), which makes the middle of bokeh too bright",
+         .description = "Weight of each part of a line. area: the lens area that it represents (κ in Tzeng et al. "
+                        "2012). length: its length, which makes the middle of bokeh too bright",
          .choices = {"area", "length"}},
         {.name = "lines-per-position",
          .defaultValue = "1",
@@ -336,8 +339,8 @@ Method lineMethod() {
          .max = 64},
         {.name = "bin-size",
          .defaultValue = "0",
-         .description = "Maximum number of triangles per tile of 8 x 8 px. Of more triangles, the farthest are left "
-                        "out, and --stats counts them. 0: unlimited",
+         .description = "Maximum number of triangles per tile of 8 x 8 px. If a tile has more, the farthest are "
+                        "dropped, and --stats reports how many. 0: unlimited",
          .choices = {},
          .min = 0,
          .max = 1'000'000},

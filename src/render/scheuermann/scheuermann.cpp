@@ -270,28 +270,29 @@ Method scheuermannMethod() {
     const std::vector<MethodSetting> settings = {
         {.name = "coc",
          .defaultValue = "published",
-         .description = "Blur as a function of depth: linear between three planes, as in the slides (published), or "
-                        "that of a thin lens",
+         .description = "Blur as a function of depth: linear between three planes, as in Scheuermann's slides "
+                        "(published), or that of a thin lens",
          .choices = {"published", "thin-lens"}},
         {.name = "taps",
          .defaultValue = "8",
-         .description = "Number of samples around each pixel (a Poisson disk); 8 in the slides",
+         .description = "Number of samples around each pixel (a Poisson disk); 8 in Scheuermann's slides",
          .choices = {},
          .min = 8,
          .max = maxTaps},
         {.name = "max-coc",
          .defaultValue = "published",
-         .description = "Maximum blur: 10 px, as in the slides (published), or unlimited",
+         .description = "Maximum blur: 10 px, as in Scheuermann's slides (published), or unlimited",
          .choices = {"published", "unlimited"}},
         {.name = "bits",
          .defaultValue = "16",
-         .description =
-             "Bits per channel of the stored images: 16 for half floats, 8 for display-encoded bytes, as in the slides",
+         .description = "Bits per channel of the stored images: 16 for half floats, 8 for display-encoded bytes, as in "
+                        "Scheuermann's "
+                        "slides",
          .choices = {"16", "8"}},
         {.name = "multisampling",
          .defaultValue = "1",
          .description = "Samples per pixel of a multisampled sharp image. Its colour and blurriness are averaged "
-                        "before the blur; the slides use a multisampled image. 1: no multisampling",
+                        "before the blur; Scheuermann's slides use a multisampled image. 1: no multisampling",
          .choices = {"1", "4"}},
         byHand("near-blur-depth", "Depth in m in front of which the blur is at its maximum; 0: computed from the lens",
                1e9),

@@ -160,14 +160,15 @@ public:
                                 where_, arc, each->name));
         for (const char* name : {"horizontalApertureOffset", "verticalApertureOffset"})
             if (number(name, 0, 0) != 0)
-                lines.push_back(fmt::format("{}: {} is ignored: the optical axis is the image's centre", where_, name));
+                lines.push_back(fmt::format(
+                    "{}: {} is ignored; the optical axis always passes through the image centre", where_, name));
         if (prim().attributes.contains("clippingPlanes") &&
             !prim().attributes.at("clippingPlanes").value.numbers.empty())
             lines.push_back(fmt::format("{}: clippingPlanes are ignored", where_));
         if (tenthMillimetres_)
             lines.push_back(
-                fmt::format("{}: by USD's rule the sensor would be {:.3g} m wide; the lengths of the lens are "
-                            "taken as millimetres",
+                fmt::format("{}: by USD's rule the sensor would be {:.3g} m wide; the lens lengths are read "
+                            "as millimetres instead",
                             where_, number("horizontalAperture", 0, 20.955) * stage_.metresPerUnit / 10));
         if (number("fStop", 0, 0) == 0)
             lines.push_back(fmt::format(

@@ -110,10 +110,10 @@ Interpolation interpolationNamed(const Source& source, const std::string& name, 
 
 std::vector<float> readTimes(Source& source, int accessor, const std::string& what) {
     std::vector<float> times = readFloats(source, accessor, 1, what + ": times");
-    if (times.empty()) fault(source.document, "{}: it has no keys", what);
+    if (times.empty()) fault(source.document, "{}: it has no keyframes", what);
     for (std::size_t i = 0; i < times.size(); ++i)
         if (!std::isfinite(times[i]) || (i > 0 && times[i] < times[i - 1]))
-            fault(source.document, "{}: the key times do not increase", what);
+            fault(source.document, "{}: the keyframe times do not increase", what);
     return times;
 }
 
@@ -143,7 +143,7 @@ void readKeys(Source& source, const tinygltf::AnimationSampler& sampler, std::si
     channel.values = readFloats(source, sampler.output, components, what + ": values");
     const std::size_t sets = channel.interpolation == Interpolation::cubicSpline ? 3 : 1;
     if (channel.values.size() != channel.times.size() * perKey * sets)
-        fault(source.document, "{}: {} keys need {} values, not {}", what, channel.times.size(),
+        fault(source.document, "{}: {} keyframes need {} values, not {}", what, channel.times.size(),
               channel.times.size() * perKey * sets, channel.values.size());
     if (!std::all_of(channel.values.begin(), channel.values.end(), [](float value) { return std::isfinite(value); }))
         fault(source.document, "{}: a value is NaN or infinite", what);

@@ -42,7 +42,7 @@ std::string withoutImage(const nlohmann::json& texture) {
     if (const auto extensions = texture.find("extensions"); extensions != texture.end() && extensions->is_object())
         for (const auto& [name, extension] : extensions->items()) formats.push_back(name);
     if (formats.empty()) return "it has no image";
-    return fmt::format("it has only an image of {}, which is not supported", fmt::join(formats, " and "));
+    return fmt::format("its only image is in the format {}, which is not supported", fmt::join(formats, " and "));
 }
 
 // Returns the texture reference `name` of the JSON object `owner`. A texture that cannot be drawn is omitted and listed

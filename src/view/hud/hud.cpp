@@ -40,7 +40,7 @@ void drawHandle(const ImVec2& top, const ImVec2& bottom, float scale) {
 
 std::string rightLabel(const ViewPicture& picture, const DisplaySettings& display) {
     std::string text = sideLabel(*picture.secondSide());
-    if (display.difference) text = fmt::format("{:.0f} × difference to {}", display.differenceGain, text);
+    if (display.difference) text = fmt::format("difference from {}, × {:.0f}", text, display.differenceGain);
     if (const auto psnr = picture.psnr())
         text += std::isfinite(*psnr) ? fmt::format("   {:.1f} dB", *psnr) : "   equal";
     return text;

@@ -88,7 +88,7 @@ void performancePanel(const Ui& ui) {
     tooltip("Times of the latest frames; the budget is at half the height");
     const InputLatency::Summary latency = ui.times.latency.summary();
     if (latency.count > 0)
-        textRow("Input to picture", fmt::format("{:.0f} ms, at most {:.0f} ms", latency.median, latency.worst),
+        textRow("Input to image", fmt::format("{:.0f} ms, at most {:.0f} ms", latency.median, latency.worst),
                 "From an input event to the end of the frame that shows its effect: median and maximum");
     ImGui::TextDisabled("%s", ui.device.c_str());
 }

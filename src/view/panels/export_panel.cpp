@@ -37,7 +37,7 @@ std::string freeName(const std::string& path) {
 void stillRows(ViewState& state) {
     const glm::ivec2 size = state.exportSize.value_or(state.pictureSize);
     std::array<int, 2> edited = {size.x, size.y};
-    rowLabel("Size", "Size of the still in px. Default: the size of the picture");
+    rowLabel("Size", "Size of the still in px. Default: the size of the image");
     if (ImGui::InputInt2("##size", edited.data()))
         state.exportSize = glm::ivec2(std::clamp(edited[0], 1, 16384), std::clamp(edited[1], 1, 16384));
     rowLabel("Samples");
@@ -100,14 +100,14 @@ void exportPanel(const Ui& ui) {
     tooltip("Choose a file and export a still (Ctrl E)");
     ImGui::SameLine();
     if (ImGui::Button("Copy as command")) actions.copyCommand = true;
-    tooltip("Copy the 'defocus render' command of this picture (Ctrl C)");
+    tooltip("Copy the 'defocus render' command of this image (Ctrl C)");
     rowLabel("Shot", "Keyframes for 'defocus capture', 2 s apart");
     ImGui::InputText("##shot", &state.shotPath);
-    if (ImGui::Button("Record key")) actions.recordKey = true;
+    if (ImGui::Button("Record keyframe")) actions.recordKey = true;
     tooltip("Record camera, lens and focus as a keyframe (K)");
     if (state.shotKeys.empty()) return;
     ImGui::SameLine();
-    if (ImGui::Button(fmt::format("Save {} keys###save", state.shotKeys.size()).c_str())) actions.saveShot = true;
+    if (ImGui::Button(fmt::format("Save {} keyframes###save", state.shotKeys.size()).c_str())) actions.saveShot = true;
     ImGui::SameLine();
     if (ImGui::Button("Discard")) state.shotKeys.clear();
 }

@@ -23,7 +23,7 @@ void fieldRows(ViewState& state, LensSection section) {
 
 void focusPointsRow(ViewState& state) {
     rowLabel("Focus points",
-             "Tilt the focus plane through three points: Ctrl click on them in the picture (--focus-points)");
+             "Tilt the focus plane through three points: Ctrl click on them in the image (--focus-points)");
     if (state.focusPoints.empty())
         ImGui::TextDisabled("Ctrl click on three points");
     else
@@ -59,7 +59,7 @@ void lensImagesRow(const Ui& ui) {
     const KeptImages* const kept = ui.picture.image ? ui.picture.image->keptImages() : nullptr;
     std::string about =
         "Images of single lens samples of the still view. While you change the focus or stop down, the window computes "
-        "the picture from these images";
+        "the displayed image from these images";
     if (kept == nullptr || kept->planned() == 0) {
         if (kept != nullptr && !kept->obstacle().empty()) about += ". There are none: " + kept->obstacle();
         return textRow("Lens images", "none", about.c_str());

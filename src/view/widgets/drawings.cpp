@@ -174,7 +174,7 @@ void stopRing(double& fStop, float scale) {
     box.list.PopClipRect();
     box.list.AddTriangleFilled({centre - 5 * scale, box.end.y}, {centre + 5 * scale, box.end.y},
                                {centre, box.end.y - 7 * scale}, color(ImGuiCol_CheckMark));
-    tooltip("Aperture ring: drag, click or turn the mouse wheel. In the picture: Shift wheel or [ ].");
+    tooltip("Aperture ring: drag, click or turn the mouse wheel. In the image: Shift wheel or [ ].");
 }
 
 void aperturePreview(const Lens& lens, float scale) {
@@ -222,8 +222,8 @@ void depthDiagram(const FramePlan& plan, float scale) {
     box.list.AddText({box.end.x - width - 6 * scale, box.end.y - ImGui::GetFontSize() - 2 * scale},
                      color(ImGuiCol_Text), text.c_str());
     tooltip(
-        "Side view with the camera on the left. Curve: blur over depth, orange in front of the focus and blue behind "
-        "it. Band: depths with less than one pixel of blur. Lines: objects, bright where they are in the band.");
+        "Side view with the camera on the left. Curve: blur over depth, orange in front of the focus plane and blue "
+        "behind it. Band: depths with less than one pixel of blur. Lines: objects, bright where they are in the band.");
 }
 
 void timeBar(std::span<const PassTime> parts, double budget, float scale) {

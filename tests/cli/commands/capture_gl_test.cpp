@@ -466,7 +466,7 @@ TEST_F(Capture, signalThatEndsFfmpegIsNamed) {
     const FakeFfmpeg killed(folder() / "bin", "kill -9 $$\n");
     const Outcome outcome = capture({"--video", "film.mp4", "--range", "1:2"});
     expectOneLine(outcome, 1);
-    EXPECT_NE(outcome.err.find("ended by signal 9 (Killed)"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("terminated by signal 9 (Killed)"), std::string::npos) << outcome.err;
     EXPECT_FALSE(fs::exists(folder() / "film.mp4"));
 }
 

@@ -144,6 +144,8 @@ TEST(Info, cameraAnswersWhatPhotographersAsk) {
     EXPECT_NEAR(json["exposure"]["ev100"], std::log2(4 * 125 / 4.0), 1e-9);
     ASSERT_EQ(json["blur"].size(), 3u);
     EXPECT_NEAR(json["blur"][0]["pixels"], -0.025 * 0.5 * 1000 / 0.72, 1e-9);
+    EXPECT_NEAR(json["blur"][0]["millimetres"], -0.025 * 0.5 * 50, 1e-9);
+    EXPECT_FALSE(json["blur"][0]["inFocus"]);
     EXPECT_NEAR(json["blur"][1]["pixels"], 0.025 * 0.25 * 1000 / 0.72, 1e-9);
     EXPECT_NEAR(json["blur"][2]["millimetres"], 0.025 * 0.5 * 50, 1e-9);
     EXPECT_TRUE(json["blur"][2]["depth"].is_null());

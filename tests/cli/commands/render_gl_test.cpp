@@ -56,6 +56,16 @@ TEST_F(Render, theSummaryTellsOfSamplesLeftOut) {
     EXPECT_NE(run(all).err.find("100 samples in"), std::string::npos);
 }
 
+TEST_F(Render, theSummaryOfAMethodWithoutSamplesCountsPinholeImages) {
+    const auto summaryWith = [&](const char* method) {
+        const Outcome outcome = run({"render", "quads.gltf", "--size", "32x24", "--method", method});
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return outcome.err;
+    };
+    EXPECT_NE(summaryWith("circular").find("32x24, 4 pinhole images in"), std::string::npos);
+    EXPECT_NE(summaryWith("scheuermann:pinholes=1").find("32x24, 1 pinhole image in"), std::string::npos);
+}
+
 // The public API and the program render bit-identical images for each of these sets of options.
 TEST_F(Render, isWhatTheLibraryRenders) {
     const auto expectSame = [&](const std::vector<std::pair<std::string, std::string>>& values) {

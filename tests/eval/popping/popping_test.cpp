@@ -199,8 +199,8 @@ TEST(PoppingRows, keepMovementsAndNumbersOfSamplesApart) {
 TEST(PoppingRows, firstFramesAreALineWithTheLargestPopOfEachMode) {
     EXPECT_EQ(
         firstFramesLine(ramp()),
-        "first 102 frames of dolly, 8 samples, largest pop (RMSE, objects' pixels): nearest 100.00000, fractional "
-        "50.00000\n");
+        "first 102 frames of dolly, 8 samples, largest pop (RMSE over pixels covered by objects): nearest 100.00000, "
+        "fractional 50.00000\n");
 }
 
 TEST(PoppingFiles, csvHoldsEveryChangeAndJsonTheWorst) {

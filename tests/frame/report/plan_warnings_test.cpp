@@ -184,6 +184,8 @@ TEST(PlanWarnings, ofManyIgnoredThingsAFewAreNamed) {
     const std::vector<std::string> lines = ignoredWarnings(scene);
     ASSERT_EQ(lines.size(), 21u);
     EXPECT_EQ(lines.back(), "1,000 more kinds of content are ignored");
+    scene.ignored.resize(21);
+    EXPECT_EQ(ignoredWarnings(scene).back(), "1 more kind of content is ignored");
 }
 
 // Two of three nodes share a name, and --focus-node gives this name.
