@@ -20,6 +20,7 @@ COMMANDS = {  # each name is a module of this package, with "-" for "_"
     "peers": "compare the time to an equal error with Embree's, Cycles' and EEVEE's",
     "copies": "write a glTF scene of many copies of another, a load for the benches",
     "levels": "compare levels with full detail on copies of thin parts or of models",
+    "quality": "measure how well the automatic number of samples meets its quality",
     "positions": "measure what four pixel positions per lens sample save and change",
     "refocus": "compare refocused with rendered pictures",
     "blending": "measure the noise of alpha-blended surfaces",
