@@ -66,7 +66,7 @@ TEST_F(RenderLayers, areRefusedWhereTheyCannotBeDrawn) {
     refuse({"--method", "circular", "-o", "a.exr"}, 2, "method circular draws no layers");
     refuse({"-o", "a.png"}, 1, ".exr");
     refuse({"-o", "a.exr", "--keep-partial"}, 1, "--keep-partial");
-    refuse({"-o", "a.exr", "--shutter", "1", "--motion-segments", "exact"}, 2, "motion segments");
+    refuse({"-o", "a.exr", "--shutter", "1", "--motion-segments", "exact"}, 2, "--motion-segments exact");
     expectOneLine(render({"--exr-layers", "depth,fog"}), 2);
     const Outcome plan = run({"plan", "ball.glb", "--fstop", "0.3", "--exr-layers", "depth"});
     EXPECT_NE(plan.out.find("--method auto is accumulation, as layers"), std::string::npos) << plan.out;
