@@ -22,8 +22,10 @@ from __future__ import annotations
 import json
 import os
 import sys
+import typing as _typing
 import warnings as _warnings
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Literal, Mapping, NamedTuple, Optional, Tuple, Union
+from typing import (
+    TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Literal, Mapping, NamedTuple, Optional, Tuple, Union)
 
 import numpy
 
@@ -42,6 +44,13 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._defocus import Array, Keywords, Path, Progress, RefocusKeywords
+else:  # less exact types for typing.get_type_hints; importing numpy.typing would take longer than all else
+    Array = numpy.ndarray
+    ArrayLike = Any
+    Keywords = RefocusKeywords = Any
+    Path = Union[str, os.PathLike]
+    Progress = Callable[[str, int, int], object]
+    Unpack = Optional
 
 __version__: str = _defocus.version
 __all__ = [
@@ -51,6 +60,8 @@ __all__ = [
 ]
 
 for _part in (Camera, Instance, Light, Material, Mesh, Texture, look_at):
+    # Type hints are texts whose names are looked up in the module, so they are resolved before the module changes.
+    _part.__annotations__ = _typing.get_type_hints(_part)
     _part.__module__ = __name__
 Scene.create = staticmethod(_create_scene)  # type: ignore[assignment]
 

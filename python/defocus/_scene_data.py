@@ -16,6 +16,9 @@ from ._settings import request_of as _request_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
+else:  # less exact types for typing.get_type_hints; importing numpy.typing would take longer than all else
+    ArrayLike = Any
+    NDArray = Iterable
 
 Part = TypeVar("Part")
 Color = Sequence[float]

@@ -111,7 +111,8 @@ std::string bytesText(std::uint64_t bytes) {
     double size = 1;
     for (const auto& [name, factor] : units)
         if (name.size() == 3 && static_cast<double>(bytes) >= factor) std::tie(unit, size) = std::pair(name, factor);
-    return fmt::format("{:.3g} {}", static_cast<double>(bytes) / size, unit);
+    const double value = static_cast<double>(bytes) / size;
+    return value < 999.5 ? fmt::format("{:.3g} {}", value, unit) : fmt::format("{:.0f} {}", value, unit);
 }
 
 }  // namespace defocus::engine

@@ -99,7 +99,7 @@ void checkRequest(const Request& request) {
     for (const Setting& setting : settings()) try {
             checkValue(setting, request, scratch);
         } catch (const Error& error) {
-            throw UsageError(fmt::format("{}: {}", setting.name, error.what()));
+            throw UsageError(namedError(setting.name, error.what()));
         }
     checkStop(request);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <set>
 #include <span>
@@ -20,6 +21,8 @@ namespace defocus::engine {
 
 namespace {
 
+constexpr int stripRows = 64;  // rows of an EXR file with layers that are interleaved together
+
 void checkImage(const ImageView& image, const std::string& name) {
     const std::size_t values = std::size_t(std::max(image.width, 0)) * std::size_t(std::max(image.height, 0)) *
                                std::size_t(std::max(image.channels, 0));
@@ -30,14 +33,15 @@ void checkImage(const ImageView& image, const std::string& name) {
 
 // Returns the complete encoded file, so that the caller stores it with one checked write. Image libraries report write
 // errors late or not at all.
+// `writePixels` writes all pixels to the output and returns false on failure.
 std::vector<unsigned char> encode(const std::string& name, const char* format, const OIIO::ImageSpec& spec,
-                                  const void* pixels) {
+                                  const std::function<bool(OIIO::ImageOutput&)>& writePixels) {
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format, &memory);
     if (!output) fail("cannot write {}: {}", name, firstLine(OIIO::geterror()));
     output->set_ioproxy(&memory);
-    if (!output->open("image", spec) || !output->write_image(spec.format, pixels) || !output->close())
+    if (!output->open("image", spec) || !writePixels(*output) || !output->close())
         fail("cannot write {}: {}", name, firstLine(output->geterror()));
     return bytes;
 }
@@ -54,9 +58,11 @@ void writeImage(const std::filesystem::path& path, const ImageView& image, const
     const std::string name = path.string();
     checkImage(image, name);
     const OIIO::ImageSpec spec = imageSpec(kind, image.width, image.height, image.channels, metadata);
-    const std::vector<unsigned char> bytes =
-        kind == FileKind::exr ? encode(name, formatName(kind), spec, image.pixels.data())
-                              : encode(name, formatName(kind), spec, displayBytes(kind, image, options, 0).data());
+    const auto writePixels = [&](OIIO::ImageOutput& output) {
+        if (kind == FileKind::exr) return output.write_image(spec.format, image.pixels.data());
+        return output.write_image(spec.format, displayBytes(kind, image, options, 0).data());
+    };
+    const std::vector<unsigned char> bytes = encode(name, formatName(kind), spec, writePixels);
     writeFile(path, std::as_bytes(std::span(bytes)));
 }
 
@@ -75,19 +81,29 @@ void writeChannels(const std::filesystem::path& path, const std::vector<NamedCha
     if (std::set<std::string>(channels.begin(), channels.end()).size() != channels.size())
         fail("cannot write {}: two channels have the same name", name);
 
-    // Interleave the channels of all images per pixel.
+    // Interleaves the channels of all images per pixel. Strips of rows save memory.
     const std::size_t stride = channels.size();
-    std::vector<float> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * stride);
-    std::size_t first = 0;
-    for (const NamedChannels& part : parts) {
-        const auto count = static_cast<std::size_t>(part.image.channels);
-        for (std::size_t i = 0; i < part.image.pixels.size(); ++i)
-            pixels[i / count * stride + first + i % count] = part.image.pixels[i];
-        first += count;
-    }
+    const auto writePixels = [&](OIIO::ImageOutput& output) {
+        std::vector<float> strip;
+        for (int top = 0; top < height; top += stripRows) {
+            const int rows = std::min(stripRows, height - top);
+            const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(rows);
+            strip.resize(pixels * stride);
+            std::size_t first = 0;
+            for (const NamedChannels& part : parts) {
+                const auto count = static_cast<std::size_t>(part.image.channels);
+                const float* values = part.image.at(0, top);
+                for (std::size_t i = 0; i < pixels * count; ++i)
+                    strip[i / count * stride + first + i % count] = values[i];
+                first += count;
+            }
+            if (!output.write_scanlines(top, top + rows, 0, OIIO::TypeFloat, strip.data())) return false;
+        }
+        return true;
+    };
     OIIO::ImageSpec spec = imageSpec(FileKind::exr, width, height, static_cast<int>(stride), metadata);
     spec.channelnames = channels;
-    const std::vector<unsigned char> bytes = encode(name, "openexr", spec, pixels.data());
+    const std::vector<unsigned char> bytes = encode(name, "openexr", spec, writePixels);
     writeFile(path, std::as_bytes(std::span(bytes)));
 }
 

@@ -408,7 +408,8 @@ void noteLevels(FramePlan& plan, const World& world) {
                                 "no lens sample can see their clusters"});
     const LodMode mode = plan.settings.lod;
     if (whole > 0 && (mode == LodMode::fractional || mode == LodMode::continuous))
-        plan.leftOut.push_back({fmt::format("sample split of {} object(s)", whole), "their level is an integer"});
+        plan.leftOut.push_back(
+            {fmt::format("sample split of {} object{}", whole, whole == 1 ? "" : "s"), "their level is an integer"});
 }
 
 }  // namespace

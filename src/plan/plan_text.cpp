@@ -68,9 +68,10 @@ double shownCoc(double coc) {
 std::string planTable(const FramePlan& plan) {
     const Lens& lens = plan.view.lens;
     std::string text = fmt::format(
-        "{} x {} px, {} samples of {}{}, {:.4g} mm f/{:.3g}, focus at {:.4g} m, aperture {:.4g} mm\n"
+        "{} x {} px, {} sample{} of {}{}, {:.4g} mm f/{:.3g}, focus at {:.4g} m, aperture {:.4g} mm\n"
         "level of detail: {}, {} metric, {}, {}, {} vertices\n\n",
-        plan.view.width, plan.view.height, plan.samples.size(), sequenceName(plan.settings.sequence),
+        plan.view.width, plan.view.height, plan.samples.size(), plan.samples.size() == 1 ? "" : "s",
+        sequenceName(plan.settings.sequence),
         plan.settings.positions > 1 ? fmt::format(" with {} positions", plan.settings.positions) : "", lens.focalLength,
         lens.fStop, lens.focusDistance, plan.apertureDiameter * 1000, lodModeName(plan.settings.lod),
         lodMetricName(plan.settings.metric), thresholdsText(plan),

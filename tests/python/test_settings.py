@@ -8,6 +8,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import typing
 
 import numpy
 import pytest
@@ -186,3 +187,10 @@ def test_version_is_the_program_s(program):
 def test_typed():
     package = pathlib.Path(importlib.util.find_spec("defocus").origin).parent
     assert (package / "py.typed").exists()
+
+
+def test_type_hints_can_be_read_at_run_time():
+    for name in defocus.__all__:
+        value = getattr(defocus, name)
+        if inspect.isfunction(value) or inspect.isclass(value) and not issubclass(value, BaseException):
+            typing.get_type_hints(value)

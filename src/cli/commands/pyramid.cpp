@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -29,7 +28,6 @@
 #include "lod/pyramid/cache.h"
 #include "lod/pyramid/finish.h"
 #include "lod/pyramid/surface_distance.h"
-#include "scene/gltf/gltf.h"
 #include "scene/gltf/write.h"
 
 namespace defocus::engine {

@@ -69,9 +69,10 @@ std::string copiesShow(const FramePlan& plan, double blur, const Gaps& gaps, std
             ? fmt::format("use about {} samples, or ", grouped(64 * static_cast<std::uint64_t>(std::ceil(needed / 64))))
             : std::string();
     return fmt::format(
-        "blur of up to {:.0f} px from {} samples: bright points may appear as separate copies; {}--blur-scale {:g} for "
+        "blur of up to {:.0f} px from {} sample{}: bright points may appear as separate copies; {}--blur-scale {:g} "
+        "for "
         "less blur",
-        blur, grouped(samples), more, roundNumber(scale));
+        blur, grouped(samples), samples == 1 ? "" : "s", more, roundNumber(scale));
 }
 
 // Returns a warning if the blur of some object is too large for any number of samples; otherwise empty.
@@ -96,10 +97,10 @@ std::vector<std::string> coarseDivisions(const FramePlan& plan) {
     const auto count = std::ranges::count_if(plan.objects, bounded);
     if (count == 0) return {};
     return {
-        fmt::format("the blur of {} object(s) varies too much inside triangles and is approximated: their edges are "
+        fmt::format("the blur of {} object{} varies too much inside triangles and is approximated: their edges are "
                     "divided into at most {} parts; use a smaller --field-curvature, --radial-blur-gain or "
                     "--astigmatism, or levels of detail",
-                    count, std::ranges::find_if(plan.objects, bounded)->maxParts)};
+                    count, count == 1 ? "" : "s", std::ranges::find_if(plan.objects, bounded)->maxParts)};
 }
 
 // Returns the names or numbers by which the request refers to nodes.

@@ -180,9 +180,10 @@ Rows developerRows() {
                      "are subdivided")
             .unit("px")
             .unused(methodWithoutSamples),
-        rows::boolean("keepAll", "--keep-all", MEMBER(keepAll),
-                      "Disable culling: slower, same image. Also draw blur that is below half a pixel everywhere, with "
-                      "all samples; by default, this blur is not drawn")
+        rows::boolean(
+            "keepAll", "--keep-all", MEMBER(keepAll),
+            "Draw hidden parts, too, which takes longer and changes no pixel. Draw blur even if it is below half "
+            "a pixel everywhere, with all samples, which changes the image slightly")
             .effect(SettingEffect::run),
         rows::other(
             "memory", "--memory", "SIZE",

@@ -94,7 +94,10 @@ Rows sampleRows() {
         modes.emplace_back(lodModeName(mode), mode);
     return {
         presetRow().inShot("/preset"),
-        samplesRow().everyday().example("64").inShot("/samples").unused(methodWithoutSamples),
+        samplesRow().everyday().example("64").inShot("/samples").unused([](const SettingContext& context) {
+            // Levels of detail depend on the number of samples in all methods.
+            return context.request.lod == LodMode::off ? methodWithoutSamples(context) : std::string();
+        }),
         positionsRow().inShot("/positions").unused(methodWithoutPositions),
         rows::choice<Quality>("quality", "--quality",
                               {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},

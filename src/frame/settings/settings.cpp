@@ -39,14 +39,17 @@ bool dependsOnScene(const Setting& setting) {
            setting.name == "hide";
 }
 
+std::string namedError(std::string_view setting, std::string_view error) {
+    const bool named = error.starts_with(setting) && error.substr(setting.size()).starts_with(' ');
+    return named ? std::string(error) : fmt::format("{}: {}", setting, error);
+}
+
 void setByName(Request& request, std::string_view name, const std::string& text) {
     if (const Setting* setting = settingNamed(name)) {
         try {
             return setting->set(request, text);
         } catch (const Error& error) {
-            const std::string what = error.what();
-            const bool named = what.starts_with(std::string(name) + " ");  // "method circular has no settings …"
-            throw UsageError(named ? what : fmt::format("{}: {}", name, what));
+            throw UsageError(namedError(name, error.what()));
         }
     }
     if (const std::string dashes = dashed(name); methodSettingNamed(dashes) != nullptr) {

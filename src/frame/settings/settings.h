@@ -90,6 +90,10 @@ bool dependsOnScene(const Setting& setting);
 // UsageError for a bad value or an unknown name; the message suggests the nearest known name.
 void setByName(Request& request, std::string_view name, const std::string& text);
 
+// Returns the message of an error in a setting's value, with the setting's name in front unless the message begins with
+// it ("method circular has no settings …").
+std::string namedError(std::string_view setting, std::string_view error);
+
 // Returns the text of the setting's value in a request; nullopt if the value is unset or the default.
 std::optional<std::string> changedText(const Setting& setting, const Request& request);
 
