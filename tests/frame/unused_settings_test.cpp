@@ -28,8 +28,11 @@ TEST(UnusedSettings, aDefaultRequestHasNone) {
 TEST(UnusedSettings, eachIsNamedWithItsReason) {
     const std::vector<std::pair<std::vector<Given>, std::string>> cases = {
         {{{"method", "circular"}, {"seed", "2"}}, "--seed has no effect: method circular has no lens samples"},
-        {{{"method", "circular"}, {"samples", "8"}, {"positions", "4"}},
+        {{{"method", "circular"}, {"lod", "off"}, {"samples", "8"}, {"positions", "4"}},
          "--samples, --positions have no effect: method circular has no lens samples"},
+        // The number of samples still chooses the levels of detail.
+        {{{"method", "circular"}, {"samples", "8"}, {"positions", "4"}},
+         "--positions has no effect: method circular has no lens samples"},
         {{{"method", "line"}, {"positions", "4"}},
          "--positions has no effect: method line has one pixel position per lens sample"},
         {{{"method", "circular"}, {"bladeCount", "5"}, {"obstruction", "0.5"}},
