@@ -95,7 +95,7 @@ TEST_F(Stopping, aLongStepIsNotAwaited) {
     const End end = ended(words, SIGINT, 8);
     EXPECT_EQ(end.code, 1);
     EXPECT_LT(end.seconds, 2.5);
-    EXPECT_NE(end.said.find("of 64 samples: "), std::string::npos) << end.said;
+    EXPECT_NE(end.said.find("of 64 samples; "), std::string::npos) << end.said;
 }
 
 TEST_F(Stopping, theSecondThreadWritesTheImageSoFar) {
