@@ -4,11 +4,11 @@ namespace defocus::engine {
 
 namespace {
 
-// Change of a ray when the point in the pixel moves by 1 px, or the lens point by the lens radius.
+// How a ray changes when the point in the pixel moves by 1 px, or the lens point by the lens radius.
 struct RaySteps {
-    float pixelX, pixelY;  // change of the slope per px
-    float radius;          // change of the origin: the lens radius, m
-    float focus;           // change of the slope that keeps the ray aimed at its point on the plane of focus
+    float pixelX, pixelY;  // change in slope
+    float radius;          // shift of the origin, m (the lens radius)
+    float focus;           // change in slope that keeps the ray aimed at its point on the plane of focus
 };
 
 DEFOCUS_VECTOR_CLONES void addSamples(const RaySteps& steps, const PacketPoints& points, RTCRayHit16& packet) {

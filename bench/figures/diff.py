@@ -19,7 +19,7 @@ from figures.command import parser_of, path
 from figures.files import read_csv, read_json
 
 MIN_RUNS = 3  # results with fewer runs get no verdict on times
-TOLERANCE = 0.01  # max change of an error that counts as equal, relative to the larger of the two errors
+TOLERANCE = 0.01  # max change in an error that counts as equal, relative to the larger of the two errors
 SSIM_ROUNDING = 1e-6  # max rounding error of a change of SSIM; CSV files contain six digits
 # Columns that identify a row, and columns that are errors.
 KEYS = ("sweep", "axis", "movement", "area", "case", "errorOf", "method", "setting", "varied", "value", "samples", "fStop",

@@ -10,7 +10,7 @@ from figures.results import (accumulation_rows, command_of, error_ratio, lines_o
 FISH, OWN, H200 = "llvmpipe-speedup-fish", "llvmpipe-speedup-jeong2011", "h200-speedup"
 MODES = {"nearest": "nearest level", "fractional": "split samples", "continuous": "split pixels", "multirate": "multirate"}
 MAX_ERROR_RATIO = 1.2  # max error with levels of detail, relative to the error at full detail
-# Max pop, the change of the image where an object switches its level, relative to mode nearest.
+# Max pop, the change in the image where an object switches its level, relative to mode nearest.
 MAX_POP_RATIO = {"fractional": 0.25, "continuous": 0.05, "multirate": 0.25}
 
 

@@ -1,7 +1,8 @@
 // Computes, for each tile, the max blur radius of the near surfaces whose disks reach this tile or a neighbouring tile.
 // Disks spread beyond the edges of their surfaces.
 layout(binding = 0) uniform sampler2D tiles;
-layout(location = 0) uniform int farthest;   // max distance in tiles at which a disk reaches a tile or its neighbour
+// Only disks of tiles at most this many tiles away can reach this tile or a neighbouring tile.
+layout(location = 0) uniform int farthest;
 
 layout(location = 0) out float reaching;
 

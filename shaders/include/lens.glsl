@@ -4,7 +4,7 @@
 // the image's width. Depth is reversed with an infinite far plane: z = near, so z/w runs from 1 at the near plane to 0
 // at infinity.
 
-float bandShift = 0.0;   // change of the CoC coefficients b₁ and b₂ by the sample's wavelength; 0 unless chromatic
+float bandShift = 0.0;   // change in the CoC coefficients b₁ and b₂ due to the sample's wavelength; 0 unless chromatic
 
 struct CocTerms {
     float factor;   // blur factor of the surface times (1 + g·r²), as in circle_of_confusion.h

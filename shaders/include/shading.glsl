@@ -28,8 +28,8 @@ struct SurfacePoint {
     vec3 normal;          // unit vector in world axes, like all directions in this struct
     vec3 toEye;           // unit vector
     vec3 emission;        // emitted radiance; set only if emissive
-    vec3 normalRight;     // change of the interpolated normal over one pixel to the right
-    vec3 normalUp;        // change of the interpolated normal over one pixel up
+    vec3 normalRight;     // change in the interpolated normal over one pixel to the right
+    vec3 normalUp;        // change in the interpolated normal over one pixel up
     // The next three members are set only if coarseLevel.
     float agreement;      // length |n| of the mean of the unit normals that `normal` represents, in (0, 1]
     float spread;         // result of normalSpread(agreement)

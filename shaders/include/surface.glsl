@@ -10,7 +10,7 @@ struct Surface {
     vec3 toEye;           // vector from the surface to this sample's lens point (m)
     vec3 position;        // position relative to the camera (m)
     vec2 lens;            // lens point (u, k·v) of the sample; k: aspect ratio
-    float bandShift;      // change of the CoC coefficient b by the sample's wavelength, as in lens.glsl
+    float bandShift;      // change in the CoC coefficient b due to the sample's wavelength, as in lens.glsl
     vec4 uv;              // texture coordinates of both UV sets
     vec4 tangent;
     vec2 ownBlur;         // the surface's blur factor, and its added blur as a fraction of the image's width

@@ -4,7 +4,7 @@
 vec3 hitWeights(vec3 edges) { return edges / (edges.x + edges.y + edges.z); }
 
 // Reads the surface of triangle `triangle` where the ray through lens point `lens` to image position `place` hits it.
-// `time`: fraction of the current part of the exposure, [0, 1].
+// `time`: time within the current part of the exposure, [0, 1].
 void readHit(uint triangle, float time, vec2 lens, vec2 place) {
     uvec3 vertices = triangles[triangle].xyz;
     vec4 a = clipAt(vertices.x, time);

@@ -7,9 +7,9 @@ struct Ray {
     // xy: lens point (u, k·v) with the aspect ratio k, or the vector from the lens centre to the rim along a line; zw:
     // position in px from the pixel's centre.
     vec4 lensAndPixel;
-    // Point sample: x is the fraction of the current part of the exposure, [0, 1]. Line sample: x is the line's extent
-    // on the side opposite to the rim point, relative to the rim's distance from the lens centre; y is the fraction of
-    // the line's light on the rim's side; z is the position of the shading point in a segment, [0, 1).
+    // Point sample: x is the time within the current part of the exposure, [0, 1]. Line sample: the line's points are p
+    // times the vector to the rim, with p from −x to 1; y is the fraction of the line's light at p > 0; z is the
+    // position of the shading point within a segment, [0, 1).
     vec4 values;
 };
 

@@ -16,8 +16,8 @@ Material materialOf(const GltfSurface& surface) {
             .roughnessFactor = static_cast<float>(surface.roughness)};
 }
 
-// Returns the change of the radiance over 1/512 px, or 0 for software rasterizers. GPUs round vertex positions to a
-// grid of 1/256 px, so interpolated positions have errors up to half a grid step.
+// Returns the change in radiance over 1/512 px, or 0 for software rasterizers. GPUs round vertex positions to a grid
+// of 1/256 px, so interpolated positions have errors up to half a grid step.
 glm::dvec3 overHalfAGridStep(const GltfSurface& surface, const WallPoint& point, const std::vector<PlacedLight>& lights,
                              const SmallWorld& small) {
     if (currentIsSoftware()) return glm::dvec3(0);

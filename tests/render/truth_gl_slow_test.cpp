@@ -62,7 +62,7 @@ void expectNoStructure(const std::string& name, const TruthScene& baked, const I
     EXPECT_NEAR(widened, 0, 5e-4) << name;      // excess of the blur's width, as a fraction
     EXPECT_NEAR(moved.right, 0, 1e-3) << name;  // px
     EXPECT_NEAR(moved.down, 0, 1e-3) << name;
-    EXPECT_NEAR(moved.growth * baked.view.width, 0, 2e-3) << name;  // change of the image's size, px
+    EXPECT_NEAR(moved.growth * baked.view.width, 0, 2e-3) << name;  // change in the image's size, px
 }
 
 void expectTruth(const std::string& name, Scene scene) {

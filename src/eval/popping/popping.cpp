@@ -81,7 +81,7 @@ Pop popBetween(const Image& expected, const Image& image, const Image& objects) 
             {rootMeanSquare(difference, &objects), mean(flip, &objects)}};
 }
 
-// Returns I_{t−1} + (R_t − R_{t−1}): the previous frame I plus the change of the full-detail frames R.
+// Returns I_{t−1} + (R_t − R_{t−1}): the previous frame I plus the change in the full-detail frames R.
 Image carriedOn(const Image& before, const Image& reference, const Image& referenceBefore) {
     Image result = before;
     for (std::size_t i = 0; i < result.pixels.size(); ++i)
@@ -157,7 +157,7 @@ std::vector<PoppingFrame> measureMovement(World& world, const Renderers& rendere
     return frames;
 }
 
-// ---- change of the image when one sample switches its level ---------------------------------------------------------
+// ---- change in the image when one sample switches its level ---------------------------------------------------------
 
 // Returns the most blurred of the objects that have a coarser level; null if there is none.
 ObjectPlan* maxBlurred(FramePlan& plan, const World& world) {

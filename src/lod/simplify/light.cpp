@@ -182,7 +182,7 @@ void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, st
     }
 }
 
-// Returns the smallest change of the vertex groups' normals that changes the mean radiance under each light by
+// Returns the smallest change in the vertex groups' normals that changes the mean radiance under each light by
 // approximately `wanted`. `damping` is relative to the mean diagonal of the equations; a larger value gives a smaller
 // change. Damping is needed because only about nine of the 26 lights are independent.
 std::vector<glm::vec3> smallestChange(const FollowingMeans& at, const LightMeans& wanted, double damping) {
@@ -269,7 +269,7 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
     constexpr int maxRounds = 8;
     constexpr double enough = 5e-4;
     // Rotating normals changes the shading at each point, and this change remains visible under a narrow blur. The RMS
-    // change of the normals is therefore limited to this multiple of the improvement of the mean radiance.
+    // change in the normals is therefore limited to this multiple of the improvement of the mean radiance.
     constexpr double maxTurn = 16;
     const std::vector<glm::vec3> original(normals.begin(), normals.end());
     std::vector<glm::vec3> best = original;

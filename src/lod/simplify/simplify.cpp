@@ -22,7 +22,7 @@ constexpr std::size_t minFacesToReport = 1000;  // meshes with fewer faces repor
 // Number of faces up to which the costs of all candidates (planned collapses) are always up to date, because errors are
 // most visible at coarse levels.
 constexpr std::size_t maxFacesToFollow = 8192;
-// Min number of faces of levels that are made in sweeps over all vertices.
+// Levels with at least this many faces are made by sweeps over all vertices, which are faster than a queue.
 constexpr std::size_t minFacesToSweep = 16'384;
 constexpr std::size_t sweepsPerLevel = 8;   // one sweep makes about 1/8 of the collapses that a level still needs
 constexpr std::size_t minSweepShare = 128;  // one sweep makes at least one collapse per 128 faces, if possible

@@ -36,8 +36,8 @@ public:
     // Returns the defines of shaders/accumulation/add_layers_to_cells.frag, which adds layers to the sums of the blur
     // classes.
     [[nodiscard]] const ShaderDefines& defines() const { return passes_->defines; }
-    // Binds the targets and textures for program `addLayers`. `to`: index of the texture of `blockSums` that is written
-    // together with the sums of the blur classes.
+    // Binds the targets and textures for program `addLayers`, which writes the sums of the blur classes and the block's
+    // sum. `to`: index in `blockSums` of the texture that receives the block's sum.
     void bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur, bool startsBlock,
                        int to) const;
     // Blurs each blur class of the block's sum and writes the result to `target`; the target's compensation attachment

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int dragFrames = 20;
 
-// A change of the focus distance or the f-number, as if the user dragged a slider.
+// A change in the focus distance or the f-number, as if the user dragged a slider.
 struct Drag {
     std::string name;
     double focusDistance = 1;  // focus distance in m at the end of the drag

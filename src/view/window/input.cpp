@@ -16,7 +16,7 @@ namespace {
 constexpr double clickRadius = 4;     // max mouse movement of a click, window units
 constexpr double doubleClick = 0.35;  // max time between the clicks of a double click, s
 constexpr double dividerReach = 7;    // max distance from the divider at which a drag moves it, window units
-constexpr double zoomNotch = 0.88;    // change of the pivot distance (a factor) per notch of the wheel
+constexpr double zoomNotch = 0.88;    // factor by which a notch of the wheel scales the pivot distance
 constexpr double rackTime = 0.15;     // duration of the focus pull per notch, s
 
 // Returns the focus distance divided by the depth in focus at a position of the picture: 1 unless the surface of focus

@@ -1,4 +1,4 @@
-// Compares a level's error under blur with values derived from a known change of the level.
+// Compares a level's error under blur with values derived from a known change to the level.
 
 #include "lod/pyramid/blurred_error.h"
 

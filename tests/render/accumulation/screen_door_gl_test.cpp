@@ -88,7 +88,7 @@ TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     }
 }
 
-// A small change of the level of detail λ changes few pixels, and each of them by one sample. The fraction of changed
+// A small change in the level of detail λ changes few pixels, and each of them by one sample. The fraction of changed
 // pixels equals the change in the number of coarse samples.
 TEST_F(ScreenDoor, changesLittleWithLambda) {
     const auto small = oneSphere();

@@ -115,7 +115,7 @@ TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
 TEST_F(ScheuermannImage, asPublishedReadsTheSmallImageAtItsOwnRadius) {
     View view = bokehView(192, 144);
     const Image image = bokehOf(view, 6, "scheuermann:far-blur-depth=5,blurriness-cutoff=1");
-    const double radius = 1.6 * 5;  // radius in px; the max blur is 10 px wide
+    const double radius = 1.6 * 5;  // 1.6 times the radius of the max blur, which is 10 px wide
     glm::dvec2 mean(0);
     glm::dvec2 meanSquare(0);
     const std::vector<glm::vec2> taps = poissonDisk(8);
