@@ -13,7 +13,7 @@
 
 namespace defocus::engine {
 
-// Where a bench writes its results.
+// Destinations of the results of a bench.
 struct BenchOutput {
     std::filesystem::path folder;  // folder of the results; empty: print the table only
     std::filesystem::path report;  // folder of the report, which replaces `folder`; empty: no report
