@@ -70,8 +70,7 @@ std::string copiesShow(const FramePlan& plan, double blur, const Gaps& gaps, std
             : std::string();
     return fmt::format(
         "blur of up to {:.0f} px from {} sample{}: bright points may appear as separate copies; {}--blur-scale {:g} "
-        "for "
-        "less blur",
+        "for less blur",
         blur, grouped(samples), samples == 1 ? "" : "s", more, roundNumber(scale));
 }
 

@@ -149,13 +149,10 @@ Rows developerRows() {
              {"score", LodMetric::score}},
             MEMBER(lodMetric),
             "Rule that chooses the levels of detail. measured: by the measured error of the blurred shading (most "
-            "accurate). "
-            "size: by the length of triangle edges in the image. error: by how far, in px, the simplified surface lies "
-            "from "
-            "the full mesh in the image. proportional: by the ratio of blur to the size of the object's bounding box "
-            "(Jeong et al. 2011). score: "
-            "by the ratio of blur to edge length (Tzeng et al. 2012). automatic: size if --blur-threshold or "
-            "--size-threshold is given, else measured")
+            "accurate). size: by the length of triangle edges in the image. error: by how far, in px, the simplified "
+            "surface lies from the full mesh in the image. proportional: by the ratio of blur to the size of the "
+            "object's bounding box (Jeong et al. 2011). score: by the ratio of blur to edge length (Tzeng et al. "
+            "2012). automatic: size if --blur-threshold or --size-threshold is given, else measured")
             .inShot("/lodMetric")
             .unused(withoutLevels),
         rows::choice<LevelVertices>(

@@ -135,9 +135,8 @@ Rows sampleRows() {
             "Levels of detail of blurred objects. nearest: one level per object. fractional: the "
             "lens samples are divided between two levels. continuous (the default of 'defocus capture'): as "
             "fractional, and one sample draws both levels, each in some of its pixels, for smoother transitions. off: "
-            "full detail. auto: "
-            "fractional, or off for a still image with --samples auto whose levels would take longer "
-            "to build than they save")
+            "full detail. auto: fractional, or off for a still image with --samples auto whose levels would take "
+            "longer to build than they save")
             .inShot("/lod"),
         rows::number("blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(blurThreshold),
                      "For --lod-metric size and score: permitted length of triangle edges, in px, per px of blur. For "

@@ -1,6 +1,7 @@
 #include "plan/lens_cells/lens_cells.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -22,6 +23,8 @@ constexpr double cellWidth = 0.35;
 constexpr std::uint32_t fewestSamples = 4;  // with fewer samples, the image of each sample stays unblurred
 constexpr std::uint32_t maxPointsOfCell = 16;
 constexpr std::uint32_t maxPoints = 1u << 14;  // max number of lens points, summed over all cells
+// Min number of cells into which all batches but the first divide the lens.
+constexpr std::uint32_t cellsOfBatches = maxPoints / maxPointsOfCell;
 
 // Mean and covariance of lens points, and the fraction of the unit disk that they cover. The default values describe a
 // uniform unit disk.
@@ -79,10 +82,10 @@ void rotate(std::vector<LensSample>& samples, double angle) {
     for (LensSample& sample : samples) sample.lens = rotation * sample.lens;
 }
 
-// Moves each of the frame's samples, from index 0 on, to the mean point of its lens cell, the region of the lens that
-// the sample represents. A cell is given by further points of the sequence, which are divided evenly among nearby
-// samples. The division runs along two axes, so the mean points form rows and columns. The axes are rotated, so that
-// adjacent columns interleave across a blurred vertical or horizontal edge.
+// Moves each of `samples`, which begin at index 0 of the sequence, to the mean point of its lens cell, the region of
+// the lens that the sample represents. A cell is given by further points of the sequence, which are divided evenly
+// among nearby samples. The division runs along two axes, so the mean points form rows and columns. The axes are
+// rotated, so that adjacent columns interleave across a blurred vertical or horizontal edge.
 void moveToMeans(std::vector<LensSample>& samples, const FramePlan& plan) {
     const auto count = static_cast<std::uint32_t>(samples.size());
     const std::uint32_t points = std::min(maxPointsOfCell, maxPoints / count);
@@ -165,11 +168,13 @@ LensCells lensCells(const FramePlan& plan) {
     cells.behind = classesFor(blur, behind);
     cells.blur = blur;
     cells.firstSample = plan.frameFirst;
-    // Samples that were drawn in earlier batches take part in the division. Otherwise the cells of every batch would
-    // have nearly the same centres, and many batches would show them as ghost copies.
-    std::vector<LensSample> samples =
-        lensSamples(plan.view.lens, plan.settings.sequence, 0, plan.frameSamples, plan.settings.seed);
+    // Later batches divide the lens once for all of them. With divisions of their own, their cells would have nearly
+    // the same centres, and many batches would show a light as the same few dots.
+    const std::uint32_t count =
+        plan.frameFirst == 0 ? plan.frameSamples : std::max(cellsOfBatches, std::bit_ceil(plan.frameSamples));
+    std::vector<LensSample> samples = lensSamples(plan.view.lens, plan.settings.sequence, 0, count, plan.settings.seed);
     moveToMeans(samples, plan);
+    samples.resize(plan.frameSamples);
     samples.erase(samples.begin(), samples.begin() + plan.frameFirst);
     for (const LensSample& sample : samples)
         cells.pixelShift -= glm::dvec2(sample.pixel) / static_cast<double>(samples.size());

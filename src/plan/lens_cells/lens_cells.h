@@ -48,8 +48,9 @@ struct LensCells {
 // Returns why the images of the plan's samples cannot be blurred by lens cells; empty if they can be.
 std::string reasonForNoCells(const FramePlan& plan);
 
-// Returns the lens cells of the plan's samples. In a frame whose samples are added batch by batch, all samples up to
-// the end of the batch divide the lens into cells, and the cells of the plan's own samples are returned.
+// Returns the lens cells of the plan's samples. In a frame whose samples are added batch by batch, the samples of the
+// first batch divide the lens into cells. All later batches belong to one finer division, and the blur of their cells
+// depends on the number of all samples up to the end of the batch.
 LensCells lensCells(const FramePlan& plan);
 
 // Moves each sample of the plan to the centre of its lens cell, and shifts its position in the pixel by

@@ -315,8 +315,7 @@ Method lineMethod() {
          .description =
              "Spacing of the shading points along a visible segment, in px of the blur that the segment contributes to "
              "the image; a smaller value is more accurate and slower. 0: one point in the middle of each segment, as "
-             "in "
-             "the paper (Tzeng et al. 2012)",
+             "in the paper (Tzeng et al. 2012)",
          .choices = {},
          .min = 0,
          .max = 64},

@@ -286,8 +286,7 @@ Method scheuermannMethod() {
         {.name = "bits",
          .defaultValue = "16",
          .description = "Bits per channel of the stored images: 16 for half floats, 8 for display-encoded bytes, as in "
-                        "Scheuermann's "
-                        "slides",
+                        "Scheuermann's slides",
          .choices = {"16", "8"}},
         {.name = "multisampling",
          .defaultValue = "1",
