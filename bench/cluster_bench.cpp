@@ -65,7 +65,8 @@ FramePlan withHidden(FramePlan plan) {
     return plan;
 }
 
-// Returns the plan with all clusters of its levels, including the clusters that step 1 culled.
+// Returns the plan with all clusters of its levels, including the clusters that step 1 culls because they face away or
+// lie outside the image.
 FramePlan drawnWhole(const World& world, FramePlan plan) {
     for (ObjectPlan& object : plan.objects) {
         object.visible.clear();

@@ -6,9 +6,9 @@
 //
 //   defocus_foreground_bench [--stochastic]   --stochastic: measures only method "stochastic"
 //
-// Held equal: camera, lens, size, lens samples, renderer and process. Runs alternate; the fastest of each counts. CPU
-// is the time of all threads, which depends less on other load. `work` is the heat map of --aov work: triangles that
-// touch a pixel, per lens sample.
+// Held equal: camera, lens, size, lens samples, renderer and process. Runs of all limits alternate; the fastest run for
+// each limit counts. CPU is the time of all threads, which depends less on other load. `work` is the heat map of
+// --aov work: triangles that touch a pixel, per lens sample.
 //
 // Then measures method "stochastic", with the circle of confusion C linear inside triangles as published: the time, and
 // the number of triangles tested for each ray, which is the paper's measure of work. The method tests a triangle only

@@ -147,9 +147,9 @@ void printDifferences(const Image& reference, const std::vector<Measured>& all) 
     }
 }
 
-// Repeats the comparison on the performance slide of Garcia 2018: blur at half the width with one kernel component, and
-// at a quarter of the width with two. The baseline is a gather over the square at both sizes, and at full size without
-// a limit on the blur.
+// Repeats the comparison on the performance slide of Garcia 2018: blur at half the width and height with one kernel
+// component, and at a quarter with two. The baseline is a direct gather over the kernel's square, at both of these
+// sizes, and at full size without a limit on the blur.
 void slideOfPerformance() {
     Request scene;
     scene.size.width = 512;

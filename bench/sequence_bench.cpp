@@ -151,8 +151,8 @@ std::vector<Region> boxes() {
 // points inside it, minus its area.
 struct Discrepancy {
     double all = 0;     // RMS of the area errors of all regions
-    double prefix = 0;  // max |area error| of all regions, using only the first n points, for any n ≥ 16
-    double suffix = 0;  // max |area error| of all regions, using only the last n points, for any n ≥ 16
+    double prefix = 0;  // max |area error| over all regions and all sets of the first n ≥ 16 points
+    double suffix = 0;  // max |area error| over all regions and all sets of the last n ≥ 16 points
 };
 
 double largestOfPrefixes(const std::vector<LensSample>& samples, const Region& region) {
@@ -224,7 +224,7 @@ void measurePoints() {
 // ---- rendered images ------------------------------------------------------------------------------------------------
 
 RendererOptions precise() {
-    // a wave of 8 allows reading the image after every 8 samples
+    // a batch (wave) of 8 samples allows reading the image after every 8 samples
     return {.layerFormat = LayerFormat::rgba32f, .wave = 8};
 }
 
@@ -237,7 +237,7 @@ RenderSettings fullDetailSettings(const PreparedFrame& frame, std::uint32_t coun
 }
 
 // Renders a plan once. Returns its images after each number of samples in `reads` (ascending). `samples` replaces the
-// plan's samples unless it is empty.
+// plan's samples unless `samples` is empty.
 std::vector<Image> rendered(Renderer& renderer, FramePlan plan, const std::vector<LensSample>& samples,
                             const std::vector<std::uint32_t>& reads) {
     if (!samples.empty()) plan.samples = samples;

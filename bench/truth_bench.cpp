@@ -39,7 +39,7 @@ struct Options {
     std::string size = "1024x768";
     Sequence sequence = RenderSettings{}.sequence;                     // sequence of the rasteriser's lens samples
     double foregroundLimit = std::numeric_limits<double>::infinity();  // limit on the foreground blur, px
-    std::optional<double> shadows;                                     // angular diameter of the sun, °; nullopt: none
+    std::optional<double> shadows;                                     // diameter of the sun, degrees; nullopt: no sun
     std::string output;
     std::vector<std::string> scenes;
     int width = 0;

@@ -23,8 +23,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Lens samples per call of advance(). A thread traces these samples of a tile one after another, while the tile's part
-// of the scene is in the CPU cache.
+// Lens samples per call of advance(). For each tile, a thread traces all of these samples in succession, because the
+// geometry that the tile shows then stays in the CPU cache.
 constexpr std::uint32_t samplesPerWave = 16;
 
 using Clock = std::chrono::steady_clock;

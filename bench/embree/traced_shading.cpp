@@ -155,7 +155,7 @@ Incoming incomingAt(const PlacedLight& placed, const glm::dvec3& place) {
 // faces the hit point.
 bool hidden(const PlacedLight& placed, const Incoming& incoming, const TracedGeometry& geometry, const SurfaceHit& hit,
             const ShadowRays& shadows) {
-    // Axes of the light's disk; the plan uses the same axes for its points on lights.
+    // Axes of the light's disk. The rasteriser's plan uses the same axes for its sample points on lights.
     const glm::vec3 front = incoming.toMiddle;
     const glm::vec3 up = std::abs(front.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
     const glm::vec3 right = glm::normalize(glm::cross(up, front));

@@ -19,7 +19,7 @@ struct SurfaceHit {
     glm::vec3 origin{0.0f};
 };
 
-// Shadow rays to one point on each light. The point is (r, s) ∈ [0, 1)², which is mapped to the light's disk.
+// Shadow rays to one point on each light. The point is given as (r, s) ∈ [0, 1)² and mapped to the light's disk.
 struct ShadowRays {
     const TracedScene* scene = nullptr;  // scene for shadow rays; null: no shadows
     glm::vec2 lightPoint{0.5f};

@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double edgeTurn = 0.5;   // rotation of the edge in radians, aligned with neither rows nor columns
+constexpr double edgeTurn = 0.5;   // rotation of the edge in radians; the edge is parallel to neither rows nor columns
 constexpr double edgeOffset = 10;  // distance of the edge from the image's centre, px
 constexpr std::uint32_t edgeSamples = 4096;
 
@@ -32,8 +32,8 @@ double diskShare(double distance, double diameter) {
     return 0.5 + (x * std::sqrt(1 - x * x) + std::asin(x)) / std::numbers::pi;
 }
 
-// Returns the max error of a pixel relative to the exact image. The pixel's rays cross the depth of the half plane
-// within one disk; the rays that pass the edge see the wall, so both fractions add up to 1.
+// Returns the max error of a pixel relative to the exact image. At the depth of the half plane, the rays of a pixel
+// fill one disk. Rays that miss the half plane see the wall, so the two fractions add up to 1.
 double edgeError(const Edge& edge) {
     const View& view = edge.view;
     const glm::dvec3 near(0.9, 0.5, 0.1);

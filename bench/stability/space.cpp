@@ -27,8 +27,8 @@ double scaleError(double scale) {
     return compareImages(image, rendered(boards)).rmse;
 }
 
-// Returns the shift (px) of a board's centre in the image when scene and camera move together `distance` m from the
-// origin.
+// Returns the shift (px) of a board's centre in the image when scene and camera are both moved `distance` m away from
+// the origin.
 double distanceError(double distance) {
     const View view = boardView(192, 128);
     BoardScene boards(view, {squareAt(view, 2, 9, glm::vec3(1), {31.3, 17.7})});

@@ -56,8 +56,8 @@ double plainError(float value, std::uint32_t samples, std::uint32_t wave) {
     return std::abs(static_cast<double>(sum / static_cast<float>(samples)) / value - 1);
 }
 
-// Returns the max relative error for a light of 10,000 that is blurred over a background of 0.0001. The reference is
-// the sum in double of the samples, each drawn separately.
+// Returns the max relative error for a light of radiance 10,000 that is blurred over a background of radiance 0.0001.
+// The reference is the sum in double of the samples, each drawn separately.
 double mixedError() {
     constexpr std::uint32_t samples = 300;
     View view = boardView(24, 16);

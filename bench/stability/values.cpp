@@ -116,7 +116,7 @@ void addValueCases(std::vector<StabilityCase>& cases) {
     };
     addSky("half-float", LayerFormat::rgba16f);
     addSky("32-bit", LayerFormat::rgba32f);
-    // The texel contributes 2e-4 of the irradiance and 3e-5 of the smallest mip level.
+    // The texel makes up 2e-4 of the irradiance and 3e-5 of the smallest mip level.
     add("a NaN texel in the map's light, rough metal", "radiance, relative", "the map without it", 1e-3,
         [] { return lightTexelError(1); });
     add("a NaN texel in the map's light, not metal", "radiance, relative", "the map without it", 1e-3,
