@@ -1,1 +1,1 @@
-"""Makes the tables, plots and pictures of documents and reports from results of the benches and from the program."""
+"""Makes the tables, plots and images of documents and reports from results of the benches and from the program."""

@@ -1,5 +1,5 @@
 """Renders a scene of meshes/ for each known artefact of image-space methods: with several methods and a reference. The
-report of `defocus bench convergence --report FOLDER` shows these strips of pictures.
+report of `defocus bench convergence --report FOLDER` shows these strips of images.
 
     scripts/figures artefacts -o FOLDER [--program build/release/defocus]
 
@@ -41,7 +41,7 @@ ARTEFACTS = [
 
 
 def strip(program, folder, name, title, text):
-    """Renders the pictures of one artefact and returns their entry for strips.json."""
+    """Renders the images of one artefact and returns their entry for strips.json."""
     images, frames = [], Frames(program, folder, f"meshes/artefact-{name}.gltf", "--size", SIZE)
     for index, (label, options) in enumerate(METHODS):
         file = f"{name}-{index}"

@@ -45,7 +45,7 @@ def gain(gains):
 
 
 def distance(rows):
-    """Returns a sentence on the distance of levels from the mesh, from the rows of all meshes and the row "all"."""
+    """Returns a sentence on how far levels are from the mesh. rows: a row for each mesh, and the row "all"."""
     rows = dict(rows)
     every = rows.pop("all")
     worst = max(rows, key=lambda name: rows[name][3])
@@ -191,7 +191,7 @@ METHOD_ROW = re.compile(r"[*+f ]{3}(\S.*?)\s+(\d+)\s+([\d.]+)\s+[\d.]+ to [\d.]+
 
 
 def method_rows(name):
-    """Returns {scene: {(method and setting, samples): (milliseconds, PSNR, FLIP)}} from a text of `bench convergence`.
+    """Returns {scene: {(method and setting, samples): (milliseconds, PSNR, FLIP)}} from a text result.
 
     Only the first table of each scene is read.
     """
@@ -206,7 +206,7 @@ def method_rows(name):
 
 
 def command_in(name, scene):
-    """Returns the first command in a text of `bench convergence` whose line contains `scene`."""
+    """Returns the first command that contains `scene` in a text result of `bench convergence`."""
     return next(line[2:] for line in lines_of(name) if line.startswith("$ ") and scene in line)
 
 

@@ -2,8 +2,8 @@
 
     scripts/figures blending SCENE … [--options "--fstop 2"] [--program build/release/defocus]
 
-SCENE is a .gltf or .glb file. For each scene the table has the RMSE of 16, 64 and 256 lens samples against a reference of
-another seed.
+SCENE is a .gltf or .glb file. For each scene the table has the RMSE of 16, 64 and 256 lens samples against a reference
+with another seed.
 """
 
 import pathlib

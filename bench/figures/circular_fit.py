@@ -17,7 +17,7 @@ import numpy
 from figures.command import ROOT, parser_of
 
 CORNER_GUARD = 0.2  # weight of the penalty on the square's corners (circularKernel)
-ROUGH, FINE = 1e-4, 1e-10  # smallest relative gains of a step, for the choice of a start and for the result
+ROUGH, FINE = 1e-4, 1e-10  # min relative gain of a step that counts as progress: in rough fits, and in the final fit
 DIFFERENCE = 1e-6  # step of numerical derivatives
 MAX_DAMPING = 1e12
 X, WEIGHTS = numpy.polynomial.legendre.leggauss(64)
@@ -29,7 +29,8 @@ def nodes_of(extent, edge):
     middle, corner = min(disk, square), min(max(disk - square, 0) ** 0.5, extent)
     circles, arcs = ([((begin + end + (end - begin) * X) / 2, (end - begin) / 2 * WEIGHTS) for begin, end in pieces if begin < end]
                      for pieces in (((0, middle), (middle, square)), ((0, corner), (corner, extent))))
-    # Beyond the square's sides, u = extent² + t². Each side cuts off an arc of the angle 2·arctan(t / extent).
+    # Where u > extent², u = extent² + t². Each side of the square then cuts an arc of the angle 2·arctan(t / extent)
+    # off the circle of radius √u.
     return (numpy.concatenate([u for u, _ in circles] + [square + t * t for t, _ in arcs]),
             numpy.concatenate([numpy.pi * du for _, du in circles]
                               + [(numpy.pi - 4 * numpy.arctan(t / extent)) * 2 * t * dt for t, dt in arcs]))
@@ -43,7 +44,7 @@ def profile(kernel, u):
 
 
 def error_of(kernel, extent, radius):
-    """Returns the RMS distance of the kernel, scaled to the disk's integral, from the disk, relative to the disk."""
+    """Returns the RMS difference of kernel and disk, relative to the disk. Scales the kernel to the disk's integral."""
     u, area = nodes_of(extent, radius)
     values, disk = profile(kernel, u), u < radius**2
     total = numpy.pi * radius**2
@@ -59,7 +60,7 @@ def fitted(count):
     target = root * (u < 1)
 
     def weights_of(shape):
-        """Returns the best weights, first all cosines, and the residual. shape: decays and frequencies, alternating."""
+        """Returns the best weights (cosines, then sines) and the residual. shape: alternating decays, frequencies."""
         factors = numpy.exp(numpy.outer(u, -shape[::2] + 1j * shape[1::2]))
         basis = numpy.hstack([factors.real, factors.imag])
         q, r = numpy.linalg.qr(root[:, None] * basis)
@@ -69,7 +70,7 @@ def fitted(count):
         return numpy.linalg.solve(r, best), q @ best - target
 
     def fit(shape, tolerance):
-        """Returns the squared error and the shape when three steps in a row gain less than the fraction `tolerance`."""
+        """Returns the squared error and the shape once three steps in a row gain less than the fraction `tolerance`."""
         residual, damping, idle = weights_of(shape)[1], 1e-3, 0
         while idle < 3 and damping < MAX_DAMPING:
             before = residual @ residual
@@ -94,7 +95,7 @@ def fitted(count):
 
 
 def best_radius(kernel):
-    """Returns the disk radius near 1.15 that fits the kernel best together with an extent in [1, 2], to within 0.001."""
+    """Returns the best disk radius near 1.15, to within 0.001. Also optimises the kernel's extent in [1, 2]."""
     extent, radius = 1.5, 1.15
     for step in (0.025, 0.005, 0.001):
         tried = [(min(max(extent + i * step, 1), 2), radius + j * step) for i in range(-20, 21) for j in range(-20, 21)]

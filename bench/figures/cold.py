@@ -1,4 +1,4 @@
-"""Measures the time to the first picture of a scene, with empty caches.
+"""Measures the time to the first image of a scene, with empty caches.
 
     scripts/figures cold [SCENE …] [--runs 3] [--program build/release/defocus] [--output bench/results/llvmpipe-cold.txt]
 
@@ -21,7 +21,7 @@ def medians(runs):
 
 
 def row_of(name, times):
-    """Returns a line of the table. times: {form of the command: Times}."""
+    """Returns a line of the table. times: {name in FORMS: Times}."""
     return f"{name:32}" + "".join(f"{of.wall:16.2f} s{of.processor:10.2f} s" for of in times.values())
 
 

@@ -170,7 +170,7 @@ def draw_pyramid(program):
 
 
 def draw_sample_split():
-    """Draws which of 16 samples use which level, for nine values of λ between two levels."""
+    """Shows which of 16 lens samples draw which level, for nine fractional levels λ from 1 to 2."""
     drawing = Drawing(720, 290, "Levels that 16 samples draw while λ goes from 1 to 2")
     count, side = 16, 22
     drawing.text((60, 22), "lens sample 0 … 15")
@@ -194,7 +194,7 @@ def draw_sample_split():
 
 
 def halved(points, count):
-    """Divides points into equal groups by repeated halving across the longer side. count: how many groups, 2^n."""
+    """Divides points into equal groups by repeated halving across the longer side. count: number of groups, 2^n."""
     if count == 1:
         return [points]
     spans = [max(point[axis] for point in points) - min(point[axis] for point in points) for axis in (0, 1)]

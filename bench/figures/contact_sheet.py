@@ -1,4 +1,4 @@
-"""Draws contact sheets: for each scene its name and several pictures side by side. Needs Pillow and fonts-dejavu-core."""
+"""Draws contact sheets: for each scene its name and several images side by side. Needs Pillow and fonts-dejavu-core."""
 
 import pathlib
 import tempfile
@@ -13,7 +13,7 @@ PAPER = (250, 250, 250)
 
 
 def contact_sheet(titles, names, pictures_of, columns=2):
-    """Returns the contact sheet. titles: one per picture of a scene; pictures_of(index): pictures of the scene
+    """Returns the contact sheet. titles: one per image of a scene; pictures_of(index): images of the scene
     names[index]; columns: number of scenes side by side."""
     rows = -(-len(names) // columns)
     block = (WIDTH + GAP) * len(titles) + 3 * GAP
@@ -32,10 +32,10 @@ def contact_sheet(titles, names, pictures_of, columns=2):
 
 
 def draw_models(words, name, text, file, titles, names, pictures_of, quality):
-    """Runs `scripts/figures NAME MODELS`, which draws a contact sheet of models to a file of docs.
+    """Runs `scripts/figures NAME MODELS`, which draws a contact sheet of models to a file in docs.
 
-    text: the parser's description. pictures_of(program, models, index, folder): the pictures of names[index]. It may write
-    to the folder.
+    text: the parser's description. pictures_of(program, models, index, folder): returns the images of names[index], and
+    may write to the folder.
     """
     parser = parser_of(name, text)
     parser.add_argument("models", type=path)

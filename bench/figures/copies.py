@@ -5,7 +5,7 @@
 The copies share the scene's meshes and files, whose paths are relative to the new file. The binary part of a .glb file goes to
 a .bin file beside the new file. The copies' depths increase from 2 to 12 times the scene's size; sideways they fill the view of
 the camera (50 mm f/0.95). The focal plane is at the fourth copy.
-Animations and cameras of the scene are left out.
+Animations, skins and cameras of the scene are left out.
 """
 
 import json
@@ -31,8 +31,8 @@ def copied(document, index):
 
 
 def add_copies(document, count, low, high, wanted=None):
-    """Replaces the scene's root nodes by copies and a camera. low, high: corners of the scene's bounding box; wanted: size of each
-    copy in m, or None."""
+    """Replaces the scene's root nodes by `count` copies of them and a camera. low, high: corners of the scene's
+    bounding box. wanted: size of each copy in m; None: the scene's size."""
     scene = document["scenes"][document.get("scene", 0)]
     roots, scene["nodes"] = scene["nodes"], []
     size = max(high[axis] - low[axis] for axis in range(3))

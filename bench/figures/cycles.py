@@ -35,7 +35,7 @@ def blender():
 def start_blender(program, script, settings, under=()):
     """Starts a script of this folder in Blender's Python. settings: its last argument, as JSON.
 
-    under: words of a command that runs Blender, such as xvfb-run.
+    under: words before the command, such as xvfb-run.
     """
     # Debian's Blender uses the first Python in PATH, so put Blender's folder first.
     environment = os.environ | {"PATH": f"{pathlib.Path(program).parent}:{os.environ['PATH']}"}

@@ -50,7 +50,7 @@ def normals(waves, slope, seed, size=256):
 
 
 def finished(surface, repeat=1.0, smooth=False):
-    """Gives the object that was added last its material, and repeats the texture."""
+    """Assigns a material to the object that was added last, and repeats its texture."""
     thing = bpy.context.object
     thing.data.materials.append(surface)
     thing.cycles.shadow_terminator_geometry_offset = 0

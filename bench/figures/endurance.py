@@ -1,11 +1,11 @@
-"""Measures how defocus endures long runs, kills, fuzzing and files of many parts, and writes bench/results/endurance.md.
+"""Measures how defocus endures long runs, kills, fuzzing and files of many parts (nodes, meshes or materials).
 
     scripts/fuzz --minutes 10 >fuzz.txt
     scripts/figures endurance --fuzz fuzz.txt [--program build/release/defocus] [--frames 2500] [--kills 20]
                               [--output bench/results/endurance.md]
     scripts/figures endurance --only "A long film"
 
-Takes about half an hour on two cores. Exits with 1 if a measurement fails.
+Writes bench/results/endurance.md. Takes about half an hour on two cores. Exits with 1 if a measurement fails.
 """
 
 import datetime
@@ -28,8 +28,9 @@ from figures.markdown import table
 from figures.results import run_of
 from figures.timed import timed
 
-RUNS = 3  # number of runs of each file with many parts
-MANY = [("roots", 300_000), ("nodes in a chain", 100_000), ("materials", 65_000), ("meshes", 65_000)]  # name and number of the parts
+RUNS = 3  # number of runs of each file in MANY
+# (kind of part, number of parts of a file)
+MANY = [("roots", 300_000), ("nodes in a chain", 100_000), ("materials", 65_000), ("meshes", 65_000)]
 TRIANGLE = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
 
 
@@ -40,7 +41,7 @@ def place(number, count):
 
 
 def many(kind, count):
-    """Returns a .glb file with `count` parts of this kind, such as meshes."""
+    """Returns a .glb file with `count` parts of a kind in MANY, such as meshes."""
     data = TRIANGLE
     accessor = {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}
     document = {"asset": {"version": "2.0"}, "scene": 0, "accessors": [accessor]}
@@ -76,7 +77,7 @@ def cost(program, scene, picture):
 
 
 def costs(program, folder, _):
-    """Renders each file of many parts. Returns the lines of the page, and True, because no time is a failure."""
+    """Renders each file in MANY. Returns the lines of the page, and True, because the times have no limit."""
     rows = []
     for kind, count in MANY:
         scene = folder / "many.glb"

@@ -24,11 +24,11 @@ COMMON = ["--fstop", "1.4", "--size", "512x384", "--quiet"]
 
 
 def pictures(program, models, index, folder):
-    """Returns the pictures of a scene, in the order of FORMS."""
+    """Returns the images of a scene, in the order of FORMS."""
     named = [models / SCENES[index]] if SCENES[index] else []
     result = []
     for _, options in FORMS:
-        options = options if named or options != ["--ground"] else []  # the school of fish swims
+        options = options if named or options != ["--ground"] else []  # the school swims under water, without a ground
         run(program, "render", *named, "-o", folder / "picture.png", *COMMON, *options)
         with Image.open(folder / "picture.png") as image:
             result.append(image.convert("RGB").resize((WIDTH, HEIGHT), Image.LANCZOS))

@@ -1,10 +1,11 @@
-"""Measures how fast `defocus view` reacts to the mouse: drags the school of fish on its own X server (Xvfb, xdotool).
+"""Measures how fast `defocus view` reacts to the mouse: drags the school of fish on a separate X server.
 
     scripts/figures latency [--program build/release/defocus] [--size 1024x768] [--seconds 15] [-- options of view …]
 
 Prints the milliseconds from an event to the end of the frame that shows its effect, as the window measures them. They
 are upper bounds, because the arrival of an event during a frame is unknown. Held equal: scene, window size, mouse path
 (30 steps a second).
+Needs Xvfb and xdotool.
 """
 
 import json
@@ -28,7 +29,7 @@ def state_of(path):
 
 
 def wait_for_scene(program, path):
-    """Waits until the pyramids are built and the picture has more than 64 samples."""
+    """Waits until the pyramids are built and the image has more than 64 samples."""
     while program.poll() is None:
         state = state_of(path)
         if state.get("samples", 0) > 64 and not state["draft"]:

@@ -1,12 +1,12 @@
-"""Measures the processor time that data layers in .exr files (`--exr-layers`) add to a picture.
+"""Measures the processor time that data layers in .exr files (`--exr-layers`) add to an image.
 
     scripts/figures layers [SCENE …] [--runs 5] [--program build/release/defocus] [--output bench/results/llvmpipe-layers.txt]
 
 SCENE is a .gltf or .glb file, or school, the built-in scene (default: school and the chess set). Each scene is rendered
 by `--method accumulation`: without layers, with each layer, and with depth, normal and albedo together. The processor
-time is the time of the whole program on all cores. Runs alternate between the layers. A first run of
-each fills the caches and is not counted. Each time is divided by the time of the picture alone in the same round; the
-table has the medians of these ratios.
+time is the time of the whole program on all cores. Runs with different layers alternate. The
+first run with each layer fills the caches and is not counted. Each time is divided by the time without layers in the
+same round; the table has the medians of these ratios.
 """
 
 import statistics
@@ -25,7 +25,7 @@ def render(command, folder, layers):
 
 
 def ratios_of(rounds):
-    """Returns the median ratio of each layer's time to that of the picture. rounds: [{layers: seconds}]; "" is the picture."""
+    """Returns the median over the rounds of each time divided by the time without layers. rounds: [{layers: s}]."""
     return {layers: statistics.median(times[layers] / times[""] for times in rounds) for layers in rounds[0] if layers}
 
 

@@ -1,8 +1,8 @@
-"""Renders the pictures in bench/results/lens with the commands on its README.md, and draws the curves of the same page.
+"""Renders the images in bench/results/lens with the commands on its README.md, and draws the curves of the same page.
 
     scripts/figures lens [--only NAME] [--program build/release/defocus]
 
-Each section lists commands such as "- closed: `--fstop 11`", in the order of its pictures. The full command is the one
+Each section lists commands such as "- closed: `--fstop 11`", in the order of its images. The full command is the one
 at the top of the page with these options added; a sentence "With `…`" replaces the scene or the number of samples.
 Updates the PSNR under Figure 9. Figure 9 needs the bench of the ray tracer (defocus_truth_bench), the curves need
 matplotlib.
@@ -30,7 +30,7 @@ MADE = {"meshes/hairball.py": hairball.hairball, "meshes/radial_blur.py": radial
 
 
 def commands_of(page):
-    """Returns {picture: (scene, options)} for the pictures on the page that `defocus render` makes."""
+    """Returns {image: (scene, options)} for the images on the page that `defocus render` makes."""
     scene, *common, samples = shlex.split(re.search(r"^    defocus render (.*)$", page, re.M)[1])
     commands = {}
     for section in page.split("\n## ")[1:]:

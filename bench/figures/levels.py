@@ -4,8 +4,9 @@
 
 Each scene has copies of one object, 1 m in size, as `scripts/figures copies` places them: one in focus, the others blurred.
 OBJECT is a .gltf or .glb file, or an object of meshes/thin_parts.py: wires, leaves, relief, lattice (default: these four).
-FILE:COPIES sets another number of copies. The table has the errors with levels over the errors at full detail with the same samples,
-both against a converged reference of full detail, and the time at full detail over the time with levels.
+FILE:COPIES sets another number of copies. The table has the errors with levels divided by the errors at full
+detail with the same samples, both against a converged reference at full detail. It also has the time at full detail
+divided by the time with levels.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""Measures the processor time that lighting and its textures add to a picture.
+"""Measures the processor time that lighting and its textures add to an image.
 
     scripts/figures lighting SCENE … [--runs 5] [--samples 64] [--program build/release/defocus] [--output FILE]
 

@@ -1,4 +1,4 @@
-"""Defines the runs of line samples and points on meshes/teapots.py, and makes the tables of line-samples.md."""
+"""Defines the runs that compare line samples with points on meshes/teapots.py; makes the tables of line-samples.md."""
 
 import math
 
@@ -20,7 +20,7 @@ DETAILS = [(EXACT, 4), (EXACT, 16), (PUBLISHED, 16), (POINTS, 64), (POINTS, 256)
 
 
 def runs():
-    """Returns {name: options of bench convergence}: for each view a run of lines and a run of points."""
+    """Returns {name: options of bench convergence}, with a run of line samples and a run of points for each view."""
     options = {}
     for blur, name in VIEWS.items():
         for run, method, form in ((name, "line", EXACT), (f"{name}-points", "stochastic:shading=surfaces", POINTS)):
@@ -34,7 +34,7 @@ def run_name(blur, method):
 
 
 def row_of(blur, method, samples):
-    """Returns the row of a method with this number of lines or points, at a scale of the blur."""
+    """Returns the row of a method with this number of lines or points, at a blur scale."""
     (row,) = [row for row in run_of(run_name(blur, method))["rows"]
               if (row["method"], row["form"]) == method and row["samples"] == samples]
     return row
@@ -70,7 +70,7 @@ def commands(blurs):
 
 
 def qualities():
-    """Returns the table of time and error over the number of lines or points."""
+    """Returns the table of time and error by number of lines or points."""
     return table(HEADER, [cells(1, method, count) for method in NAMES for count in COUNTS[method]]) + commands([1])
 
 
@@ -81,7 +81,7 @@ def details():
 
 
 def blurs():
-    """Returns the table of time and error over the blur."""
+    """Returns the table of time and error by blur scale."""
     rows = [[f"{blur:g}", *cells(blur, method, count)] for blur in VIEWS
             for method, count in ((EXACT, 16), (PUBLISHED, 16), (POINTS, 64), (POINTS, 256))]
     return table(["blur", *HEADER], rows) + commands(VIEWS)

@@ -1,4 +1,4 @@
-"""Compares line samples with points on meshes/teapots.py: runs, pictures and tables of bench/results/line-samples.md.
+"""Compares line samples with points on meshes/teapots.py: runs, images and tables of bench/results/line-samples.md.
 
     scripts/figures lines [--program build/release/defocus] [--runs FOLDER]
 
@@ -73,14 +73,14 @@ def save(sheet, name):
 
 
 def draw_views(pictures, columns, texts, file):
-    """Draws a row for each view. columns: methods and numbers of samples, beside the reference; texts: by blur scale."""
+    """Draws a row of images for each view. columns: (method, samples). texts: {blur scale: title of the row}."""
     blurs = list(texts)
     save(contact_sheet(("reference", *(text_of(*column) for column in columns)), list(texts.values()), lambda index: [
         pictures.reference(blurs[index]), *(pictures.drawn(blurs[index], *column) for column in columns)], columns=1), file)
 
 
 def draw_details(pictures):
-    """Draws enlarged details of the pictures, and writes the errors of these details."""
+    """Draws enlarged details of the images, and writes the errors of these details."""
     texts, errors = [text_of(*column) for column in DETAILS], {}
 
     def row(index):

@@ -1,9 +1,10 @@
-"""Draws docs/materials.jpg: Khronos' feature models, beside the pictures by their authors.
+"""Draws docs/materials.jpg: Khronos' feature models, beside the images by their authors.
 
     scripts/figures materials MODELS [--program build/release/defocus]
 
-MODELS is a folder with the models in SCENES (NAME.glb) and the picture of each (NAME.jpg or NAME.png). All models are drawn with the
-defaults and without blur. Needs Pillow (Debian: python3-pil) and the font of fonts-dejavu-core.
+MODELS is a folder with the models in SCENES (NAME.glb) and an image of each model by its authors (NAME.jpg or
+NAME.png). All models are drawn with the defaults and without blur. Needs Pillow (Debian: python3-pil) and the font of
+fonts-dejavu-core.
 """
 
 from PIL import Image, ImageOps
@@ -18,7 +19,7 @@ OPTIONS = ["--no-dof", "--samples", "64", "--size", "512x384", "--environment", 
 
 
 def pictures(program, models, index, folder):
-    """Returns the picture that the program renders, and the picture by the model's authors."""
+    """Returns the image that the program renders, and the image by the model's authors."""
     scene = models / f"{SCENES[index]}.glb"
     run(program, "render", scene, "-o", folder / "picture.png", *OPTIONS)
     theirs = next(file for file in (scene.with_suffix(".jpg"), scene.with_suffix(".png")) if file.exists())

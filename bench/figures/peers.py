@@ -12,7 +12,7 @@ with four pixel positions per lens sample (`--positions 4`).
 
 Errors are RMSE and FLIP of sRGB-encoded values in [0, 1]. Each renderer is compared with its own image of many samples
 and another seed, at full detail; EEVEE with that of Cycles. The differences between these references show that all draw
-the same picture. Times are CPU seconds of all threads to draw an image, and in brackets wall-clock seconds. They
+the same image. Times are CPU seconds of all threads to draw an image, and in brackets wall-clock seconds. They
 exclude start-up, loading, pyramids and ray-tracing hierarchies. Up to 32 samples, each time is the minimum over three
 images, except for EEVEE. Times between two numbers of samples are interpolated, logarithm over logarithm. The row
 "first" names the renderer with the lowest CPU time, and the ratio of the CPU time of embree-shared to this time. The
@@ -76,8 +76,10 @@ def time_to(points, metric, target):
 
 
 def without_overhead(images):
-    """Subtracts from Blender's times the part that does not grow with the samples. images: [{samples, seconds, cpuSeconds}], the first
-    with one sample. Returns all others."""
+    """Subtracts from Blender's times the part that does not grow with the samples. Returns all images but the first.
+
+    images: [{samples, seconds, cpuSeconds}]; the first has one sample.
+    """
     first, last = images[0], images[-1]
     result = [dict(image) for image in images[1:]]
     for name in ("seconds", "cpuSeconds"):

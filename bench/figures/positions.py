@@ -5,7 +5,7 @@
 SCENE is a .gltf or .glb file. Each scene is rendered by `--method accumulation` at full detail, with the same total
 number of pixel positions: by samples with one position each, and by a quarter as many samples with four. The table has
 the processor time of drawing the samples, over all cores (median over the runs, which alternate), and RMSE and FLIP
-against a reference of another seed.
+against a reference with another seed.
 """
 
 import statistics
@@ -21,7 +21,7 @@ def name_of(drawn):
 
 
 def rows(arguments, scene, folder):
-    """Returns the largest blur of a scene, and a line for each pair of DRAWN."""
+    """Returns a line with the scene's largest blur, and a line of the table for each pair in DRAWN."""
     frames = Frames(arguments.program, folder, scene, "--size", arguments.size, "--method", "accumulation", "--lod", "off",
                     *arguments.options.split())
     frames.render("reference.exr", "--samples", arguments.reference_samples, "--seed", 9)

@@ -5,7 +5,7 @@
 SCENE is a .gltf or .glb file, or school, the built-in scene (default: school and five scenes of meshes/). For each scene the
 table has the method and the number of samples that `--quality` chose, the time, and FLIP against a reference of full detail
 from another seed. The last column is the smallest of 16, 32, 64 … samples with which the same method meets the FLIP
-limit of the quality; "more" if no such number up to the chosen one does.
+limit of the quality; "more" if none of these numbers up to the chosen number meets it.
 """
 
 import pathlib

@@ -1,14 +1,15 @@
-"""Compares refocused with rendered pictures of the built-in school of fish and the chess board.
+"""Compares refocused with rendered images of the built-in school of fish and the chess board.
 
     scripts/figures refocus [--program build/release/defocus]
 
-For each scene, focus distance and number of lens samples, the first table has the PSNR of a picture rendered at that focus, of
-one refocused from lens images with another focus (--no-fill-gaps), and of one whose gaps are filled. All have full detail. The reference has 1,024
-samples and another seed.
+For each scene, focus distance and number of lens samples, the first table has the PSNR of three images: rendered at
+that focus distance, refocused from lens images with another focus (--no-fill-gaps), and refocused with filled gaps. All
+have full detail. The reference has 1,024 samples and another seed.
 
-The second table has the seconds of a film of 96 frames in which only the focus moves, with 64 lens samples per frame, program
-start included: `capture`, `capture --refocus`, and their ratio. For `capture`, only 1 and 4 frames are timed, and the
-film's time is extrapolated. The last columns are the seconds of a rendered and of a refocused picture in these films.
+The second table has the seconds of a video of 96 frames in which only the focus changes, with 64 lens samples per
+frame, program start included: `capture`, `capture --refocus`, and their ratio. For `capture`, only 1 and 4 frames are
+timed, and the video's time is extrapolated. The last columns are the seconds of one rendered and of one refocused image
+in these videos.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""Makes the HTML of parts of the report: pictures, tables, facts about a run."""
+"""Makes the HTML of parts of the report: images, tables, facts about a run."""
 
 import base64
 import io
@@ -22,7 +22,7 @@ def data_uri(image, kind="png", **options):
 
 
 def crop_image(path, crop, alternative):
-    """Returns a crop of a picture as an HTML element, or a note that the file is missing."""
+    """Returns a crop of an image as an HTML element, or a note that the file is missing."""
     try:
         with Image.open(path) as image:
             x, y = crop["x"], crop["y"]
@@ -50,7 +50,7 @@ def crop_strip(results, rows, folder, crop):
 
 
 def overview(results, folder):
-    """Returns the reference picture as HTML, with a frame around each crop."""
+    """Returns the reference image as HTML, with a frame around each crop."""
     try:
         with Image.open(folder / results["reference"]["image"]) as image:
             uri = data_uri(image.convert("RGB"), "jpeg", quality=88)
@@ -69,7 +69,7 @@ def overview(results, folder):
 
 
 def artefact_strips(folder):
-    """Returns the HTML of the pictures in strips.json, which `scripts/figures artefacts` writes."""
+    """Returns the HTML of the images in strips.json, which `scripts/figures artefacts` writes."""
     if not (folder / "strips.json").exists():
         return ""
     parts = ["<h2>Known artefacts</h2>"]

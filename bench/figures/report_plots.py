@@ -167,7 +167,7 @@ def speedup_plot(rows):
 
 
 def draw_modes(axes, points_of, size):
-    """Draws a line for each level mode with points. Returns [(label, points, argument for label_beside)]."""
+    """Draws a line for each level mode that has points. Returns [(label, points, argument for label_beside)]."""
     drawn = []
     for index, (mode, (label, colour)) in enumerate(MODES.items()):
         if points := points_of(mode):
@@ -179,7 +179,7 @@ def draw_modes(axes, points_of, size):
 
 
 def popping_plot(rows, samples):
-    """Plots pops, changes and the speed of levels for each frame, with one column of plots per movement."""
+    """Plots pops, image changes and level changes of each frame, with one column of plots per movement."""
     kinds = [("stepRmse", "pop, RMSE"), ("changeRmse", "change, RMSE"), ("speed", "levels a frame")]
     movements = list(dict.fromkeys(row["movement"] for row in rows))
     figure, plots = new_plots(len(movements), 0.8, 7.5, len(kinds))

@@ -14,7 +14,7 @@ from figures.rows import seeds_text, speedup_headline, spread_text, time_text, t
 
 
 def note_text(row):
-    """Returns a row's fault. For a valid row, returns its Pareto fronts, and its errors below the reference's own."""
+    """Returns a row's fault, or else its Pareto fronts and the errors that are below the reference's own error."""
     if row["fault"]:
         return f"<b>{escape(row['fault'])}</b>"
     fronts = ["all" if row["front"] else "method" if row["frontOfMethod"] else "", "FLIP" if row["frontByFlip"] else ""]

@@ -10,8 +10,8 @@ matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 
-# Palette of Okabe and Ito, darkened on white and lightened on black: (on white, on black). It is distinguishable with
-# all kinds of colour blindness; markers and labels also differ.
+# Palette of Okabe and Ito, darkened on white and lightened on black: (on white, on black). Its colours are
+# distinguishable with all kinds of colour blindness; markers and labels also differ.
 PALETTE = [("#0063a8", "#5db1f0"), ("#c24e00", "#ff8a4c"), ("#00805c", "#35cfa1"), ("#a8447f", "#ee9cc8"),
            ("#8a6000", "#f0c040"), ("#007e8a", "#5fd3df"), ("#5a5a5a", "#b8b8b8")]
 MARKERS = "osD^vPX*<>h"
@@ -22,7 +22,7 @@ LABEL_LENGTH = 42  # number of characters of a label that fit beside a plot at f
 
 
 def add_tooltips(line, texts):
-    """Adds a text to each point of a line, which the page shows under the mouse pointer."""
+    """Adds to each point of a line a text that the page shows when the mouse pointer is over the point."""
     tooltips = line.figure.__dict__.setdefault("tooltips", [])
     line.set_gid(f"told{len(tooltips)}")
     tooltips.append(list(texts))

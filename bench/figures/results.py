@@ -51,7 +51,7 @@ def accumulation_rows(name, preset=""):
 
 
 def samples_sweep(name, preset=""):
-    """Returns [(samples, {level mode: row})] for the rows with the view's own lens."""
+    """Returns [(samples, {level mode: row})] of the sweep over the number of lens samples."""
     rows = [row for row in accumulation_rows(name, preset) if row["sweep"] == "samples"]
     counts = sorted({row["samples"] for row in rows})
     return [(count, {row["lod"]: row for row in rows if row["samples"] == count}) for count in counts]

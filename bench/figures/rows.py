@@ -25,7 +25,7 @@ def label_of(row):
 
 
 def drawn_text(row, part=""):
-    """Returns the label of a `bench speedup` row, or of a part of the row, such as "jeong2011, fractional levels"."""
+    """Returns a label of a `bench speedup` row, such as "jeong2011, nearest level". part: replaces the mode's name."""
     drawn = part or (MODES[row["lod"]][0] if row["method"] == "accumulation" else row["method"])
     return f"{row['preset']}, {drawn}" if row["preset"] else drawn
 
@@ -83,7 +83,7 @@ def flip(row):
 
 
 def common_time(series):
-    """Returns a frame time (ms) that is close to a row of each series: the middle of the time range that they share.
+    """Returns a frame time (ms) that is close to a row of each series: the middle of the range that all series share.
 
     Series with a single row are ignored. Without a shared range, returns the median of all times.
     """

@@ -27,13 +27,13 @@ def lines_with(name, beginning):
 
 
 def speeds(preset):
-    """Returns the speed-ups over the numbers of samples, and the errors relative to full detail, as ranges."""
+    """Returns the ranges of the speed-up and of the error relative to full detail, over the numbers of lens samples."""
     modes = [modes for _, modes in samples_sweep(OWN, preset)]
     return (span([mode["fractional"]["speedUp"] for mode in modes], 1), span([error_ratio(mode) for mode in modes], 2))
 
 
 def layers_win():
-    """Returns the smallest number of lens samples at which `layered` takes less time than accumulation with levels."""
+    """Returns as text the min number of lens samples at which `layered` is faster than accumulation with levels."""
     layered = {row["samples"]: row["milliseconds"]["median"] for row in run_of(OWN)["rows"] if row.get("method", "").startswith("layered")}
     levels = {row["samples"]: row["milliseconds"]["median"] for row in accumulation_rows(OWN, "jeong2011") if row["lod"] == "fractional"}
     wins = [count for count in sorted(levels) if layered.get(count, float("inf")) < levels[count]]
@@ -81,7 +81,7 @@ def jeong():
 
 
 def limited_work():
-    """Returns (scene, limit, speed-up, ratio of tests) by row of Figure 7, for `stochastic`."""
+    """Returns (scene, limit, speed-up, ratio of ray-triangle tests) of method `stochastic` for each row of Figure 7."""
     rows = []
     for line in (ROOT / "bench/results/lens/figure-7.md").read_text().splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
@@ -91,7 +91,7 @@ def limited_work():
 
 
 def times_longer():
-    """Returns how much longer stochastic points take than accumulation, as a range over the errors that both reach."""
+    """Returns the range of time ratios of stochastic points to accumulation, over errors that both methods reach."""
     by_name = {method["name"]: [time["milliseconds"] for time in method["times"]]
                for method in run_of("llvmpipe-methods-lens-space")["timesToErrors"]}
     pairs = zip(by_name["stochastic at full detail"], by_name["accumulation at full detail"])
@@ -151,7 +151,7 @@ def munkberg():
 
 
 def flips(scene, *rows):
-    """Returns FLIP as text for rows of the run of methods with few images. rows: the beginning of each row."""
+    """Returns the FLIP of rows of the result "llvmpipe-circular" as texts. rows: beginnings of the rows' names."""
     found = method_rows("llvmpipe-circular")[scene]
     return [next(f"{values[2]:.4f}" for (name, _), values in found.items() if name.startswith(row)) for row in rows]
 

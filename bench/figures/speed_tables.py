@@ -10,7 +10,7 @@ from figures.results import (accumulation_rows, command_of, error_ratio, lines_o
 FISH, OWN, H200 = "llvmpipe-speedup-fish", "llvmpipe-speedup-jeong2011", "h200-speedup"
 MODES = {"nearest": "nearest level", "fractional": "split samples", "continuous": "split pixels", "multirate": "multirate"}
 MAX_ERROR_RATIO = 1.2  # max error with levels of detail, relative to the error at full detail
-# Max pop, the change in the image where an object switches its level, relative to mode nearest.
+# Max pop, relative to the pop of mode nearest. A pop is the change in the image when an object switches its level.
 MAX_POP_RATIO = {"fractional": 0.25, "continuous": 0.05, "multirate": 0.25}
 
 
@@ -53,7 +53,7 @@ BOTH = (*SPEED, *ERRORS, "PSNR between the two", "FLIP between the two")
 
 
 def levels():
-    """Returns the table of times and errors, on two machines, of levels chosen by measured error from size and blur."""
+    """Returns the table of times and errors with levels and at full detail, on two machines."""
     card = speed_rows(H200, SPEED)
     return run_table(OWN, ["lens samples", *SPEED, *RATIOS, "H200: full detail", "levels", "times as fast"],
                      [[count, *row, *card[count]] for count, row in speed_rows(OWN, (*SPEED, *RATIOS)).items()])
@@ -68,7 +68,7 @@ def published_ratios():
 
 
 def published():
-    """Returns the table of frame times over lens samples, as published and by default, like Figure 2 of the paper."""
+    """Returns the table of frame times over lens samples, as published and by default, like Figure 2 of Jeong et al."""
     columns = (*SPEED, *PARTS, *ERRORS)
     own = speed_rows(OWN, columns)
     rows = [[count, *row] for count, theirs in speed_rows(OWN, columns, "jeong2011").items()
@@ -115,7 +115,7 @@ def demo():
 
 
 def seeds():
-    """Returns the table of differences that other lens samples cause, beside the differences that levels cause."""
+    """Returns the table that compares the effect of other lens samples with the effect of levels of detail."""
     names = {"seed": "full detail, other lens samples (`--seed 1`)", "levels": "levels, same lens samples"}
     rows = []
     for line in lines_of("llvmpipe-seeds"):

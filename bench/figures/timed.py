@@ -51,7 +51,7 @@ def processor():
 
 
 def alternating(runs, forms, measure):
-    """Returns {form: results of measure(form) in each run}. The runs alternate between the forms."""
+    """Returns {form: results of measure(form) in each run}. forms: variants of a command; their runs alternate."""
     return dict(zip(forms, zip(*[[measure(form) for form in forms] for _ in range(runs)])))
 
 
