@@ -12,7 +12,7 @@ from .failure import Failure
 
 @dataclasses.dataclass
 class View:
-    """Sizes in px of the canvas, the image that `defocus` draws, and of its part that Blender shows; y points up."""
+    """Sizes in px of the canvas (the image that `defocus` draws) and of the part that Blender shows; y points up."""
 
     width: int  # size of the canvas, the image that `defocus` draws
     height: int
@@ -51,7 +51,7 @@ def fit_is_horizontal(camera, width, height):
 
 
 def margin(shift):
-    """Returns how many pixels a camera shift adds to the canvas, and how many of these precede the frame.
+    """Returns how many pixels a camera shift adds to the canvas, and how many of these lie left of or below the frame.
 
     The shift, in pixels, may be negative; it is rounded to the nearest half pixel.
     """

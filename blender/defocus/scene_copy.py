@@ -1,6 +1,6 @@
-"""Copies the evaluated scene, so that Blender's glTF exporter writes it as a render shows it.
+"""Copies the evaluated scene, so that Blender's glTF exporter writes the scene as a render shows it.
 
-The exporter itself would use the viewport's modifiers, instances and visibility. The copy has those of the render.
+Without a copy, the exporter would use the modifiers, instances and visibility of the viewport instead of the render.
 """
 
 import contextlib
