@@ -34,7 +34,8 @@ function(defocus_library TARGET KIND)
     target_link_libraries(${TARGET} PRIVATE "$<BUILD_INTERFACE:defocus_options>" ${LIBRARIES} ${FLAGS})
 endfunction()
 
-# Adds the install rules of one kind of library. If IN_ALL is false, `cmake --install` without --component omits it.
+# Adds the install rules of the static or of the shared library. If IN_ALL is false, `cmake --install` without
+# --component omits the library.
 function(defocus_install_library TARGET KIND IN_ALL)
     string(TOLOWER ${KIND} COMPONENT)
     set(RULE COMPONENT ${COMPONENT})
@@ -44,14 +45,13 @@ function(defocus_install_library TARGET KIND IN_ALL)
     set(PACKAGE_FOLDER "${CMAKE_INSTALL_LIBDIR}/cmake/defocus")
     set(GENERATED "${PROJECT_BINARY_DIR}/package/${COMPONENT}")
 
-    # Install the library and its headers.
     install(TARGETS ${TARGET} EXPORT ${TARGET}Targets
             LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" ${RULE} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" ${RULE})
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/defocus" "${PROJECT_BINARY_DIR}/include/defocus"
             DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${RULE} FILES_MATCHING PATTERN "*.h")
 
-    # Install the CMake package. The targets of each kind are in a separate file, because CMake generates one file per
-    # export name.
+    # Install the CMake package. The targets of the static and of the shared library are in separate files, because
+    # CMake generates one file per export name.
     install(EXPORT ${TARGET}Targets FILE defocusTargets-${COMPONENT}.cmake NAMESPACE defocus:: DESTINATION "${PACKAGE_FOLDER}" ${RULE})
     configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/defocusConfig-${COMPONENT}.cmake.in"
                                   "${GENERATED}/defocusConfig.cmake" INSTALL_DESTINATION "${PACKAGE_FOLDER}"
@@ -60,7 +60,7 @@ function(defocus_install_library TARGET KIND IN_ALL)
     install(FILES "${GENERATED}/defocusConfig.cmake" "${GENERATED}/defocusConfigVersion.cmake"
             DESTINATION "${PACKAGE_FOLDER}" ${RULE})
 
-    # Install defocus.pc for pkg-config, in which the prefix is relative to the location of the file.
+    # Install defocus.pc for pkg-config. The prefix in this file is relative to the file's location.
     file(RELATIVE_PATH PREFIX_FROM_PC "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/prefix")
     set(PRIVATE_LIBRARIES "")
     if(KIND STREQUAL "STATIC")
@@ -84,6 +84,6 @@ if(DEFOCUS_TESTS AND NOT DEFOCUS_SANITIZE)
     defocus_library(defocus_other ${OTHER_KIND})
     defocus_install_library(defocus_other ${OTHER_KIND} FALSE)
 endif()
-# `cmake --install` needs the library, too, after a build of the program alone, as in scripts/demo and scripts/test.
+# `cmake --install` also needs the library after a build of only the program, as in scripts/demo and scripts/test.
 add_dependencies(defocus_program defocus)
 install(TARGETS defocus_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program)

@@ -1,5 +1,5 @@
 # Installs desktop files, and sets up the Debian package that `cpack` makes (scripts/debian-package): the program with
-# its pages and desktop files, and the Python package if it is built.
+# its manual page, shell completions and desktop files, and the Python package if it is built.
 
 set(DESKTOP "${PROJECT_SOURCE_DIR}/packaging")
 configure_file("${DESKTOP}/defocus.metainfo.xml.in" "${PROJECT_BINARY_DIR}/pages/defocus.metainfo.xml" @ONLY)
