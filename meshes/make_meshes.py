@@ -174,7 +174,8 @@ def thicket():
 # ---- artefacts ------------------------------------------------------------------------------------------------------
 
 # One scene for each artefact of image-space methods. The scenes are unlit, so that only the blur matters. The lens has
-# 50 mm on a 36 mm sensor at 3:2, so the field of view at depth d is 0.72 d wide and 0.48 d high.
+# a focal length of 50 mm, and the sensor is 36 mm wide with an aspect ratio of 3:2, so the field of view at depth d is
+# 0.72 d wide and 0.48 d high.
 
 
 def unlit(document, name, color, strength=None):
@@ -278,7 +279,7 @@ def panes():
 def resolution_loss():
     """Returns a scene of a fine chart that slants out of focus.
 
-    Its blur is a few pixels wide, so that images of reduced resolution show their pixels.
+    The blur is only a few pixels wide, so images rendered at a reduced resolution look pixelated.
     """
     document = Document()
     white = unlit(document, "Paper", [1.0, 1.0, 1.0])

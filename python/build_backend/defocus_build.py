@@ -1,4 +1,4 @@
-"""Build backend of pyproject.toml: scikit-build-core. If that is missing, says what the build needs."""
+"""Build backend of pyproject.toml: scikit-build-core. If that package is missing, lists what the build needs."""
 
 try:
     from scikit_build_core.build import *  # noqa: F403

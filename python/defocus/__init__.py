@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._defocus import Array, Keywords, Path, Progress, RefocusKeywords
-else:  # less exact types for typing.get_type_hints; importing numpy.typing would take longer than all else
+else:  # less exact types for typing.get_type_hints; importing numpy.typing would take longer than all other imports
     Array = numpy.ndarray
     ArrayLike = Any
     Keywords = RefocusKeywords = Any
@@ -60,7 +60,8 @@ __all__ = [
 ]
 
 for _part in (Camera, Instance, Light, Material, Mesh, Texture, look_at):
-    # Type hints are texts whose names are looked up in the module, so they are resolved before the module changes.
+    # Type hints are strings whose names are resolved in the module of the class, so they are resolved before __module__
+    # changes.
     _part.__annotations__ = _typing.get_type_hints(_part)
     _part.__module__ = __name__
 Scene.create = staticmethod(_create_scene)  # type: ignore[assignment]
@@ -306,14 +307,14 @@ class LightField:
     @_takes_refocus_settings
     def refocus(self, *, fill_gaps: bool = True, progress: Optional[Progress] = None,
                 **settings: Unpack[RefocusKeywords]) -> Array:
-        """Returns a picture: H×W×4, linear. Keywords that are not given keep their values from rendering. `fill_gaps`
+        """Returns an image: H×W×4, linear. Keywords that are not given keep their values from rendering. `fill_gaps`
         blurs each lens image, so that blur does not show as separate copies of a surface."""
         return self._native.refocus(_refocus_request_of(settings), fill_gaps, _listener(progress))
 
     @_takes_refocus_settings
     def stack(self, count: int, *, fill_gaps: bool = True, progress: Optional[Progress] = None,
               **settings: Unpack[RefocusKeywords]) -> FocalStack:
-        """Returns `count` pictures that are focused at different distances (a focal stack)."""
+        """Returns `count` images that are focused at different distances (a focal stack)."""
         return FocalStack(*self._native.stack(count, _refocus_request_of(settings), fill_gaps, _listener(progress)))
 
     def all_in_focus(self, *, progress: Optional[Progress] = None) -> Array:

@@ -16,7 +16,7 @@ from ._settings import request_of as _request_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
-else:  # less exact types for typing.get_type_hints; importing numpy.typing would take longer than all else
+else:  # less exact types for typing.get_type_hints; importing numpy.typing would take longer than all other imports
     ArrayLike = Any
     NDArray = Iterable
 
