@@ -19,7 +19,7 @@ namespace tinygltf = gltf::tinygltf;
 
 void addMesh(tinygltf::Model& model, const Mesh& mesh) {
     if (!mesh.morphTargets.empty()) fail("mesh \"{}\" has morph targets, which are not written", mesh.name);
-    // Write normals, although unlit materials don't need them, because importers give each triangle vertices of its own
+    // Write normals, although unlit materials don't need them, because importers give each triangle separate vertices
     // if there are no normals.
     const std::map<std::string, int> attributes = {{"POSITION", gltf::appendPositions(model, mesh.vertices.positions)},
                                                    {"NORMAL", gltf::appendVectors(model, mesh.vertices.normals)},

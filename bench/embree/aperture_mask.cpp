@@ -66,7 +66,7 @@ double ApertureMask::at(const glm::dvec2& point) const {
     const double area = glm::dot(point, point) / (edge * edge);
     const double hidden = lens_.obstruction * lens_.obstruction;
     if (area > 1 || area < hidden) return 0;
-    const double nearer = (area - hidden) / (1 - hidden);  // fraction of the open area within the radius of `point`
+    const double nearer = (area - hidden) / (1 - hidden);  // fraction of the open area nearer the centre than `point`
     return (1 + lens_.sphericalAberration * (2 * nearer - 1)) / (1 + std::abs(lens_.sphericalAberration));
 }
 

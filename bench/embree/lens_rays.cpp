@@ -37,7 +37,8 @@ LensCamera lensCamera(const View& view) {
     LensCamera camera;
     camera.tanHalfHorizontal = lens.horizontalAperture / (2 * lens.focalLength);
     camera.reciprocalFocus = 1 / lens.focusDistance;
-    // With focus breathing, the sensor is at the thin lens's image distance s·f/(s − f) instead of at f.
+    // With focus breathing, the sensor is at the image distance s·f/(s − f) of a thin lens with focal length f and
+    // focus distance s, instead of at f.
     if (lens.focusBreathing) camera.tanHalfHorizontal *= 1 - focal * camera.reciprocalFocus;
     camera.tanHalfVertical = camera.tanHalfHorizontal * view.height / view.width;
     if (lens.dofEnabled) camera.lensRadius = 0.5 * lens.blurScale * focal / lens.fStop;

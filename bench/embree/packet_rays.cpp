@@ -6,8 +6,8 @@ namespace {
 
 // How a ray changes when the point in the pixel moves by 1 px, or the lens point by the lens radius.
 struct RaySteps {
-    float pixelX, pixelY;  // change in slope
-    float radius;          // shift of the origin, m (the lens radius)
+    float pixelX, pixelY;  // change in slope per px
+    float radius;          // shift of the ray's origin in m, equal to the lens radius
     float focus;           // change in slope that keeps the ray aimed at its point on the plane of focus
 };
 

@@ -12,8 +12,8 @@ inline constexpr int tileSide = 16;  // width and height of a tile, px
 inline constexpr int packetsPerTileRow = tileSide / packetSide;
 inline constexpr int packetsPerTile = packetsPerTileRow * packetsPerTileRow;
 
-// Origin and slopes of the rays of a tile whose pixels share a lens sample. They are computed in double and rounded
-// once, so that no accuracy is lost.
+// Origin and slopes of the rays of a tile whose pixels share a lens sample. The values are computed in double and
+// rounded once, so that no accuracy is lost.
 struct TileRays {
     std::array<float, tileSide> slopeX{};  // slopes by pixel column
     std::array<float, tileSide> slopeY{};  // slopes by pixel row

@@ -67,7 +67,8 @@ private:
     std::deque<TracedGeometry> geometries_;         // keyed by Embree geometry id; a deque, so addresses stay valid
     std::deque<std::vector<glm::vec4>> positions_;  // in camera space, one array per object; Embree doesn't copy them
     std::deque<std::vector<glm::vec3>> normals_;    // in world space, one array per deformed object
-    // Keyed by Embree geometry id, with an additional entry for a miss: `facing` for single-sided surfaces, else 0.
+    // TracedGeometry::facing of single-sided surfaces, else 0. Keyed by Embree geometry id, with an additional entry
+    // for a miss.
     std::vector<float> culledFacing_;
     std::uint64_t triangleCount_ = 0;
     std::atomic<std::int64_t> bytes_ = 0;
