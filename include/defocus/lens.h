@@ -29,7 +29,7 @@ struct LensSettings {
     std::optional<double> catEye;                    // fraction of the aperture radius clipped at image corners, [0, 1]
     std::optional<double> axialChromaticAberration;  // focus shift in dioptres; > 0: red focuses farther away than blue
     std::optional<double> astigmatism;               // radial streak length in mm on the sensor at the edges
-    std::optional<double> coma;                      // comet tail length in mm on the sensor at edges; > 0: outwards
+    std::optional<double> coma;                      // comet tail length at the edges, mm on the sensor; > 0: outwards
     std::filesystem::path apertureImage;             // replaces blades, obstruction, spherical aberration; empty: none
 
     // Artistic blur controls (Munkberg, Toth and Akenine-Möller 2012).
@@ -43,7 +43,7 @@ struct LensSettings {
     // κ of the curved focus surface with depth s/(1 + κr²), where s is the focus distance. r is the distance from the
     // image's centre; r = 1 at the left and right edges.
     std::optional<double> fieldCurvature;
-    std::optional<double> radialBlurGain;  // g of the blur factor 1 + g·r²; r = 1 at the left and right edges
+    std::optional<double> radialBlurGain;  // g of the blur factor 1 + g·r², with r as for fieldCurvature
 
     bool operator==(const LensSettings&) const = default;
 };
