@@ -7,7 +7,7 @@
 layout(binding = 6) uniform sampler2DArray layerDepths;
 // Previous sums of the first drawnClasses blur classes; the new sums are written to colour attachments.
 layout(binding = 7) uniform sampler2DArray drawnSums;
-// Sums of the other blur classes, which are read and written as an image; layers below drawnClasses are unused.
+// Sums of the blur classes from drawnClasses on, read and written as an image; layers below drawnClasses are unused.
 layout(rgba32f, binding = 0) uniform image2DArray cellSums;
 // Per tile, a bit mask of the blur classes with samples in the tile.
 layout(r32ui, binding = 1) uniform uimage2D heldClasses;
@@ -33,8 +33,8 @@ void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel) {
     for (int k = 0; k < cellsBehind; ++k) sums[cellsInFront + k] += reachOfClass(behind, k) * value;
 }
 
-// Returns a bit mask of the blur classes that are not empty. A class is not empty if the number of samples in its sum
-// differs from the number in the next class's sum. `samples` is the number of all samples in the pixel.
+// Returns a bit mask of the blur classes that are not empty. The sums are cumulative, so a class is not empty if its
+// sum and the next class's sum have different numbers of samples. `samples` is the number of all samples in the pixel.
 uint heldBy(vec4 sums[cellClasses], float samples) {
     uint held = 0u;
     for (int k = 0; k < cellsInFront; ++k) held |= sums[k].a != (k + 1 < cellsInFront ? sums[k + 1].a : samples) ? 1u << k : 0u;
