@@ -57,7 +57,7 @@ const uint maxKept = 64u;
 const uint maxScans = 1024u;
 shared vec4 keptCorners[maxKept * 3u];
 shared uvec2 kept[maxKept];    // triangles that the tile's lines may see; x: index, y: 1 if double-sided, else 0
-shared uint keptHere[2];        // one bit per thread: set if its candidate is added to `kept`
+shared uint keptHere[2];        // one bit per thread: set if the thread's triangle is added to `kept`
 shared uint keptCount;
 shared uint nextBase;
 shared uint open;               // 1 if some line may still see later triangles of the list, else 0

@@ -88,7 +88,7 @@ float peaking(vec2 uv) {
 void main() {
     vec2 uv = gl_FragCoord.xy / size.xy;
     vec3 colour = shown(uv);
-    if (compares && uv.x >= divider && (choices.z & FLAG_DIFFERENCE) != 0) {  // no overlays over the difference
+    if (compares && uv.x >= divider && (choices.z & FLAG_DIFFERENCE) != 0) {  // no overlays over the difference image
         display = vec4(colour, 1.0);
         return;
     }
