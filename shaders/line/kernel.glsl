@@ -38,8 +38,8 @@ layout(std140, binding = 7) uniform BoundBlock { Bounds lensBounds[maxRays]; };
 
 layout(location = 2) uniform uint firstTile;       // first tile whose list is in `entries`
 layout(location = 3) uniform uint recordCapacity;
-// One shading point is used for each shadingStep px that a surface moves in the image along a segment; 0: one shading
-// point per segment.
+// A segment has one shading point for each shadingStep px that its surface moves in the image between the segment's
+// ends; 0: one shading point per segment.
 layout(location = 5) uniform float shadingStep;
 // A job is the work of a workgroup: one tile, and one line sample of each of its pixels. Mesa's software driver ends
 // the loops of a thread after a total of 65,535 iterations (rounds). Jobs that need more continue in later dispatches.

@@ -75,8 +75,7 @@ vec3 withOverlay(vec3 colour, vec2 uv) {
     return colour;
 }
 
-// Returns the strength in [0, 1] of high-contrast edges whose blur is below about one pixel, like a camera's focus
-// peaking.
+// Returns the strength in [0, 1] of focus peaking, which marks high-contrast edges whose blur is below about one pixel.
 float peaking(vec2 uv) {
     vec2 step = 1.0 / size.xy;
     float right = dot(shown(uv + vec2(step.x, 0.0)), luma) - dot(shown(uv - vec2(step.x, 0.0)), luma);
