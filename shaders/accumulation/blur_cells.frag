@@ -1,9 +1,9 @@
-// Computes the sum of a block of samples, with the image of each sample blurred as the part of the lens that it
-// represents (its lens cell, include/cells.glsl) would blur it. The samples are sorted by blur into classes. The
-// blurred classes are composited from farthest to nearest; a class is blurred by linear interpolation of its means over
-// squares of pixels. Unblurred samples are composited between the classes behind the focus plane and the classes in
-// front of the focus plane. In pixels where all samples show the blurred foreground, the foreground also replaces the
-// unknown background.
+// Sums the images of a block of lens samples. Each sample represents a part of the lens, its lens cell
+// (include/cells.glsl), and the sample's image is blurred as this part of the lens would blur it. The samples are
+// sorted by blur into classes. The blurred classes are composited from farthest to nearest; a class is blurred by
+// linear interpolation of its means over squares of pixels. Unblurred samples are composited between the classes behind
+// the focus plane and the classes in front of the focus plane. In pixels where all samples show the blurred foreground,
+// the foreground also replaces the unknown background.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;

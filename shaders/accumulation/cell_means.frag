@@ -1,8 +1,9 @@
 // Reduces one blur class of lens cells (include/cells.glsl) to one tent-weighted mean per square of side × side px. The
 // tent extends to the centres of the neighbouring squares. Squares of one pixel are centred at pixel corners. meanOut
-// is the mean per pixel of the class's lens samples: their summed radiance and their number. openOut is the mean number
-// of samples that no nearer class hides. The quotient meanOut / openOut is the colour and coverage of the class where
-// it is not hidden. A blurred surface therefore keeps its colour and coverage up to the edges of its occluders.
+// is the radiance and the number of the class's lens samples, summed per pixel and averaged over the square. openOut is
+// the mean number of samples per pixel that no nearer class hides. The quotient meanOut / openOut is the colour and
+// coverage of the class where it is not hidden. A blurred surface therefore keeps its colour and coverage up to the
+// edges of its occluders.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;

@@ -14,8 +14,8 @@ layout(std140, binding = 3) uniform ShiftBlock {
 };
 layout(location = 0) uniform int layerCount;
 layout(location = 1) uniform int firstInBlock;
-// Pixel of the layers at pixel (0, 0) of the sum image. A pixel of the sum image covers positionsPerAxis pixels of the
-// layers along each axis, one per pixel position.
+// First layer pixel that pixel (0, 0) of the sum image covers. Each pixel of the sum image covers positionsPerAxis ×
+// positionsPerAxis layer pixels, one per subpixel position.
 layout(location = 2) uniform ivec2 firstPixel;
 const int positions = positionsPerAxis * positionsPerAxis;
 
@@ -34,8 +34,8 @@ vec4 bandOf(int layer) { return vec4(1.0, 1.0, 1.0, 0.0); }
 vec2 lensPointOf(int layer) { return vec2(0.0); }
 #endif
 
-// Returns a texel of a layer. A pixel of the sum image has one texel for each pixel position; `position`: 0 to
-// positions − 1.
+// Returns the coordinates of the layer texel that belongs to this pixel of the sum image and to the subpixel position
+// with index `position`, 0 to positions − 1.
 ivec3 texelOf(int position, int layer) {
     ivec2 cell = ivec2(position % positionsPerAxis, position / positionsPerAxis);
     return ivec3(ivec2(gl_FragCoord.xy) * positionsPerAxis + firstPixel + cell, layer);
@@ -51,9 +51,9 @@ vec2 pixelOnImagePlane() {
     return onImagePlane(gl_FragCoord.xy * float(positionsPerAxis) + vec2(firstPixel));
 }
 
-// Returns the vector r (in lens radii) of the cat-eye vignetting of a pixel. The lens barrel's rim, a circle as large
-// as the aperture, passes light through lens point l if |l + r| ≤ 1. r is proportional to the pixel's distance from the
-// image's centre; |r| = catEye at the image's corners.
+// Returns the offset r (in lens radii) that causes the cat-eye vignetting of a pixel. The lens barrel's rim is a circle
+// as large as the aperture, and light through lens point l passes it if |l + r| ≤ 1. r is proportional to the pixel's
+// distance from the image's centre; |r| = catEye at the image's corners.
 vec2 barrelRim(vec2 imagePlane) {
     float aspect = frame.window.z / frame.window.w;
     return catEye * imagePlane * frame.projection.xy * vec2(1.0, 1.0 / aspect) * inversesqrt(1.0 + 1.0 / (aspect * aspect));

@@ -1,6 +1,7 @@
 // Shades a surface for one lens sample. Writes its radiance to the sample's layer, and its data (depth, normal, …) to
-// the data layers. …_SLOT is the index of a data layer's colour attachment; a layer without this define is not drawn.
-// Data are premultiplied by the surface's alpha, like radiance, so that blending treats all layers alike.
+// the data layers. A define such as DEPTH_SLOT is the index of a data layer's colour attachment; a data layer without a
+// define is not drawn. Data are premultiplied by the surface's alpha, like radiance, so that blending treats all layers
+// alike.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"

@@ -5,7 +5,7 @@
 #include "include/surface_light.glsl"
 
 layout(location = 0) out vec4 layerOut;
-layout(location = 1) out vec4 ownBlurOut;   // factor on the blur, and added blur; written only with passesOwnBlur
+layout(location = 1) out vec4 ownBlurOut;   // surface's blur factor and added blur; written only with passesOwnBlur
 
 void main() {
     readSurface();

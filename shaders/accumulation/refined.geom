@@ -1,8 +1,8 @@
 // Cuts a triangle at the near plane and along the kinks of the circle of confusion C (abrupt changes of its slope),
 // then shears the pieces. Inside each piece C is linear (Munkberg, Toth and Akenine-Möller 2012, Figures 2 and 10), and
-// |C/w| never exceeds its values at the piece's vertices. From front to back, the pieces are separated by the kinks
-// where
-//   F·factor + added = −R₁ | F = 0 | B = 0 | B·factor + added = R₂        (src/lens/circle_of_confusion.h)
+// |C/w| never exceeds its values at the piece's vertices. From front to back, the kinks lie where (symbols as in
+// src/lens/circle_of_confusion.h)
+//   F·factor + added = −R₁ | F = 0 | B = 0 | B·factor + added = R₂
 // Each cut position on a triangle's edge depends only on the edge's two ends, and not on their order. Neighbouring
 // triangles therefore cut their shared edge at the same position, and no gap opens.
 

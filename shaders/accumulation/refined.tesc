@@ -23,7 +23,7 @@ out Unsheared {
 #define SURFACE_OUT passedOn[gl_InvocationID]
 #include "include/surface_write.glsl"
 
-// Returns the two smooth functions of which the circle of confusion C consists: in front of and behind the focus plane.
+// Returns the two smooth functions that the circle of confusion C follows in front of the focus plane and behind it.
 vec2 smoothPieces(vec3 pinhole, vec2 own) {
     CocPieces pieces = cocPieces(pinhole, own);
     return pieces.factor * vec2(pieces.front, pieces.behind) + pieces.added;

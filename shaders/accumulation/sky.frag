@@ -11,7 +11,7 @@ in Sky {
 
 layout(location = 0) out vec4 layerOut;
 
-// Returns the view-space direction of the sky that the lens sample sees in this pixel, not normalised. A fixed-point
+// Returns the view-space direction, not normalised, in which the lens sample sees the sky in this pixel. A fixed-point
 // iteration finds the direction, because the circle of confusion at infinity may depend on the position in the pinhole
 // image.
 vec3 directionOfSky() {

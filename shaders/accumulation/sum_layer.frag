@@ -5,7 +5,7 @@
 
 layout(rgba32f, binding = 0) uniform restrict image2D sumImage;
 layout(rgba32f, binding = 1) uniform restrict image2D compensationImage;
-layout(LAYER_FORMAT, binding = 2) uniform restrict readonly image2DArray drawn;   // data, one array layer per sample
+layout(LAYER_FORMAT, binding = 2) uniform restrict readonly image2DArray drawn;   // one array layer per sample
 layout(location = 3) uniform bool startsFrame;
 
 void main() {

@@ -1,5 +1,5 @@
 // Composites the blurred far field over the sharp image, and the blurred near field over both. The far field covers
-// only pixels behind the focus plane. A field px is a pixel of the near or far field, often coarser than an image px.
+// only pixels behind the focus plane. Pixels of a field are often coarser than pixels of the image.
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"
@@ -7,7 +7,7 @@
 
 layout(binding = 2) uniform sampler2D farBlurred;
 layout(binding = 3) uniform sampler2D nearBlurred;
-layout(binding = 4) uniform sampler2D nearRadii;     // radii in field px within which the near field was gathered
+layout(binding = 4) uniform sampler2D nearRadii;     // radius within which the near field was gathered, px of the field
 layout(location = 2) uniform float perNearDiameter;  // 1 / (largest CoC diameter in px in front of the focus plane)
 // 0: there is no near field. ≥ 1: factor by which the near field's coverage is multiplied.
 layout(location = 0) uniform float blendBias;
@@ -51,7 +51,8 @@ void main() {
     vec2 place = gl_FragCoord.xy / (float(reduction) * vec2(textureSize(farBlurred, 0)));
     vec4 behind = textureLod(farBlurred, place, 0.0);
     float own = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
-    float farShare = clamp(diameter / float(reduction) - 1.0, 0.0, 1.0);  // fades in at diameters of 1 to 2 field px
+    // The far field fades in at diameters from 1 to 2 px of the field.
+    float farShare = clamp(diameter / float(reduction) - 1.0, 0.0, 1.0);
     vec3 color = mix(sharp, radianceOf(behind, own, sharp), farShare);
     vec4 before = textureLod(nearBlurred, place, 0.0);
     float coverage = coverageOf(before.a, place);

@@ -4,7 +4,7 @@
 
 layout(binding = 0) uniform sampler2D field;
 layout(binding = 1) uniform sampler2D radii;
-layout(binding = 2) uniform sampler2D brightest;       // x: max radiance of the field, y: max weight; used if bracketed
+layout(binding = 2) uniform sampler2D brightest;       // x: max radiance, y: max weight; read only if bracketed
 // per component: offset and scale (Bracket) of the real part, then of the imaginary part
 layout(location = 16) uniform vec4 brackets[components];
 layout(location = 15) uniform int firstComponent;

@@ -2,7 +2,7 @@
 // 2010; Garcia 2018). src/render/circular/circular_kernel.h documents the mathematics. With exactTaps, there is one tap
 // per pixel; otherwise eight taps on each side of the centre are spread over the radius.
 
-layout(location = 0) uniform vec4 kernel[kernelSize];   // per component: a, b of F; weights A, B
+layout(location = 0) uniform vec4 kernel[kernelSize];   // per component: a and b of F; weights A of Re F and B of Im F
 
 struct Taps {
     int count;      // number of taps on each side of the centre

@@ -2,7 +2,7 @@
 // frame_uniforms.cpp, GpuObject in surface_draws.h and GpuMaterial in material_blocks.h, all in src/render/gpu_scene/.
 
 layout(std140, binding = 0) uniform FrameBlock {
-    vec4 projection;      // 1/tan(θx/2), 1/tan(θy/2), near plane (m), unused
+    vec4 projection;      // 1/tan(θx/2), 1/tan(θy/2) for angles of view θ; near plane (m); unused
     vec4 coc;             // xy: a, b₁ of the CoC C (lens/circle_of_confusion.h); z: image width (px); w: b₂
     vec4 cocField;        // xy: tilt t of the focus plane; z: field curvature κ; w: radial blur gain g
     vec4 cocLimits;       // xy: blur limits R₁, R₂; z: 1/k² (k: aspect ratio); w: max error of C in a triangle (px)
@@ -34,7 +34,7 @@ layout(std140, binding = 2) uniform MaterialBlock {
     vec4 baseColor;
     vec4 emissiveCutoff;  // rgb: emissive radiance; w: alpha cutoff
     vec4 surface;         // metallic, roughness, normal scale, occlusion strength
-    vec4 reflectance;     // rgb: dielectric reflectance at normal incidence, before the factor in w (specularFactor)
+    vec4 reflectance;     // rgb: dielectric reflectance at normal incidence, without specularFactor; w: specularFactor
     vec4 transmission;    // fraction, thickness (object units), 1/ior, blur of the background per roughness
     vec4 absorption;      // rgb: absorption coefficient (1/m); w: dispersion, 20 / Abbe number
     vec4 coat;            // coated fraction, roughness, normal scale

@@ -37,7 +37,7 @@ vec3 filmReflectance(float cosine, vec3 base, float filmIor, float thickness) {
     if (inside2 < 0.0) return vec3(1.0);
     float inside = sqrt(inside2);
     float front = schlick(reflectanceBetween(vec3(ior), 1.0).x, cosine);
-    float through = 1.0 - front;                       // transmission amplitudes into and out of the film, multiplied
+    float through = 1.0 - front;                       // product of the amplitudes transmitted into and out of the film
     vec3 root = sqrt(clamp(base, 0.0, 0.9999));
     vec3 baseIor = (1.0 + root) / (1.0 - root);
     vec3 back0 = reflectanceBetween(baseIor, ior);

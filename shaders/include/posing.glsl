@@ -3,7 +3,7 @@
 // and morphTangents: whether they also change normals and tangents. morphAttributes: number of these attributes, 1 … 3.
 //
 // A pose in the buffer `poses` begins with the three rows of the view-from-vertex matrix of each joint; without a skin,
-// the object is the only joint. Then follow (weight, index) of each active morph target. With cameraMoves, the pose
+// the object is the only joint. The weight and the index of each active morph target follow. With cameraMoves, the pose
 // ends with a matrix from the view space at this shutter time to the view space in the middle of the exposure, in which
 // lights and sky are defined.
 

@@ -155,12 +155,12 @@ float meanSpread(Spread spread) { return 0.5 * (spread.along + spread.across); }
 // weights use the mean of 2σ² over both directions.
 //
 // Masking: normals that only add to σ belong to other positions in the pixel, or to level 0, and don't mask each other
-// like microfacets. Masking therefore uses α. Beckmann's part is reflected by the normals at the half vector h, so both
-// of its cosines are v·h. GGX's part has the cosines n·l and n·v.
+// like microfacets. Masking therefore uses α. Beckmann's part is reflected by the normals at the half vector h, so its
+// masking term uses the cosine v·h for both the light and the eye. The masking term of GGX's part uses n·l and n·v.
 //
-// Coarse levels: normals that face the eye cover more pixels, so each is weighted by v·h divided by the mean of v·h.
-// Beckmann's cosine to the eye is therefore this mean, as n·v is for microfacets. Where the microfacets themselves are
-// rough, a fraction α of them reflects from the underlying normal, masked as usual.
+// Coarse levels: normals that face the eye cover more pixels, so each is weighted by v·h divided by the mean of v·h. In
+// the masking term of Beckmann's part, the cosine to the eye is therefore this mean. Where the microfacets themselves
+// are rough, a fraction α of them reflects from the underlying normal, masked as usual.
 struct Lobe {
     float width;          // width α of the GGX distribution
     float alpha2;         // α² + 2σ², with the mean of 2σ²
@@ -295,8 +295,8 @@ vec3 remaining(vec3 reflected) {
 
 #include "include/sheen.glsl"
 
-// Returns the environment's light that the surface reflects towards the eye, scaled by `occlusion`. The diffuse part
-// receives only light that the specular part doesn't reflect.
+// Returns the radiance that the surface reflects from the environment towards the eye, scaled by `occlusion`. The
+// diffuse part receives only light that the specular part doesn't reflect.
 vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusion) {
     if (environmentType == 0) return vec3(0.0);
     vec3 diffuse;

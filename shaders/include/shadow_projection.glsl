@@ -1,5 +1,6 @@
 // Projects directions and positions into shadow maps, for drawing and reading the maps; see src/plan/visible/shadows.h.
-// shadowMapCount: number of maps for one point on each light; shadowPoints: number of points on each light.
+// shadowPoints: number of points on each light; shadowMapCount: number of maps that are needed if each light has one
+// point.
 
 layout(binding = 30) uniform samplerBuffer shadowProjections;
 layout(location = 2) uniform int firstShadowSample;   // index of layer 0's lens sample

@@ -30,7 +30,7 @@ struct Facet {
 // Returns the change of depth along the facet's plane from the position `clip` to the centre of its shadow map texel,
 // at offset `toMiddle` (NDC). `width` is the size of a texel at this depth, in m.
 float depthAlongFacet(int texel, vec4 clip, vec3 normal, float width, vec2 toMiddle) {
-    const float farthest = 4.0;   // max distance along the facet over which depth is extrapolated, texels
+    const float farthest = 4.0;   // max distance along the facet over which depth is extrapolated, in texels
     vec3 across = normalize(cross(normal, abs(normal.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
     vec4 stepA = shadowDirection(texel, across * width);
     vec4 stepB = shadowDirection(texel, cross(normal, across) * width);

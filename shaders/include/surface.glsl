@@ -3,8 +3,8 @@
 
 struct Surface {
     vec4 color;
-    vec4 minColor;        // min and max vertex colour of all triangles at the vertex
-    vec4 maxColor;
+    vec4 minColor;        // min of the vertex colours of all triangles that share the vertex
+    vec4 maxColor;        // max of the vertex colours of all triangles that share the vertex
     vec3 normal;          // in world axes, like all directions in this struct
     float agreement;      // coarse levels: length of the mean of the unit normals that `normal` represents
     vec3 toEye;           // vector from the surface to this sample's lens point (m)

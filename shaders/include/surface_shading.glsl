@@ -126,7 +126,7 @@ vec3 shaded(vec3 baseColor) {
     if (emissive) point.emission = material.emissiveCutoff.rgb * materialTexel(emissiveTexture).rgb;
     if (emissive) shownEmission = point.emission;
     if (coarseLevel) {
-        point.agreement = clamp(surface.agreement, 0.05, 1.0);   // narrow triangles extrapolate beyond corner values
+        point.agreement = clamp(surface.agreement, 0.05, 1.0);   // interpolation in narrow triangles may leave (0, 1]
         point.spread = normalSpread(point.agreement);
         point.seen = seenNormal(point.normal, point.toEye, point.agreement, point.spread);
     }

@@ -9,7 +9,8 @@ layout(location = 6) in vec4 lensAndJitterIn;   // per instance: lens point (u, 
 layout(location = 7) in vec4 eyeAndSampleIn;    // per instance: lens point (m), index in the frame, layer
 layout(location = 13) in vec3 momentIn;         // per instance: shutter time, `moment` of vertexAt()
 layout(location = 14) in float bandShiftIn;     // per instance: CoC change that the wavelength causes, as in lens.glsl
-// Min and max vertex colour of all triangles at the vertex. Each channel is 256 · max + min, in units of 1/255.
+// Min and max of the vertex colours of all triangles that share the vertex. Each channel is 256 · max + min, in units
+// of 1/255.
 layout(location = 15) in vec4 colorRangeIn;
 
 Vertex instanceVertex() { return vertexAt(momentIn, vec3(eyeAndSampleIn.xy, 0.0)); }

@@ -1,5 +1,5 @@
-// Maps linear HDR colours to display values, like src/image/tone_map.cpp. Implements sRGB (IEC 61966-2-1), the ACES fit
-// by Stephen Hill, AgX and Khronos PBR Neutral. AgX has Troy Sobotka's base look in Benjamin Wrensch's fit.
+// Maps linear HDR colours to display values, like src/image/tone_map.cpp. Implements sRGB (IEC 61966-2-1), Stephen
+// Hill's fit of ACES, Benjamin Wrensch's fit of Troy Sobotka's AgX with its base look, and Khronos PBR Neutral.
 
 vec3 finiteColour(vec3 value) {
     const float brightest = 1e6;

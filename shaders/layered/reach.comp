@@ -1,6 +1,7 @@
 // Computes, for each pixel and layer, the min and max signed blur (px) of all surfaces that the pixel's lens rays may
 // meet. A ray meets a surface at most half the surface's blur away from the pixel. The shader bounds the blur by the
-// surfaces in a square around the pixel. The bound may permit a smaller square, so the shader repeats both steps.
+// surfaces in a square around the pixel. A smaller bound permits a smaller square, which may give a smaller bound, so
+// the computation is repeated.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform sampler2DArray extents;   // pyramid of min and max blur from layered/extent.comp

@@ -1,5 +1,5 @@
-// Computes each triangle's min depth w over time, as float bits, which sort like the values. The result is 0 if the
-// triangle extends in front of the near plane.
+// Computes each triangle's min depth w over time. The bits of the depth are stored as an integer, because they sort
+// like the depth. The result is 0 if the triangle extends in front of the near plane.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"

@@ -22,7 +22,7 @@ layout(std430, binding = 5) buffer CountBlock { uint goOn; };   // number of ray
 
 layout(location = 2) uniform uint group;
 layout(location = 3) uniform uint recordCount;
-layout(location = 4) uniform bool first;   // true: first hit of each ray; false: only records with negative weight
+layout(location = 4) uniform bool first;   // true: process all records; false: only records with negative weight
 
 // Owen-scrambles a number whose bits are reversed (Laine and Karras 2011, Stratified Sampling for Stochastic
 // Transparency; constants of Burley 2020, Practical Hash-based Owen Scrambling).
@@ -35,9 +35,9 @@ uint scrambled(uint reversed, uint seed) {
     return reversed;
 }
 
-// Returns a threshold in [0, 1) for the ray at the triangle. Over the rays of a pixel at one triangle, thresholds are
-// evenly spread. Thresholds at different triangles are independent, as in a shuffled and scrambled van der Corput
-// sequence.
+// Returns a threshold in [0, 1) for the ray at the triangle. At one triangle, the thresholds of a pixel's rays form a
+// shuffled and scrambled van der Corput sequence, so they are evenly spread. Thresholds at different triangles are
+// independent.
 float thresholdOf(uint number, uvec2 pixel, uint triangle) {
     uint seed = mixedBits(triangle + mixedBits(pixel.x + mixedBits(pixel.y)));
     uint shuffled = bitfieldReverse(scrambled(bitfieldReverse(number), seed));

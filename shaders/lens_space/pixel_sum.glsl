@@ -5,7 +5,7 @@
 
 layout(local_size_x = 256) in;
 
-layout(std430, binding = 3) buffer SumBlock { vec4 sums[]; };   // per pixel: radiance, and its rounding error
+layout(std430, binding = 3) buffer SumBlock { vec4 sums[]; };   // per pixel: sum of radiance, then its rounding error
 
 layout(location = 0) uniform uint pixelCount;
 layout(location = 1) uniform uint rayCount;

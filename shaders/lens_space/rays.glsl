@@ -16,7 +16,7 @@ struct Ray {
 layout(std430, binding = 6) readonly buffer RayBlock { Ray rays[]; };   // index of a ray: ray · rayVariants + variant
 
 layout(location = 0) uniform ivec2 imageSize;
-layout(location = 1) uniform uint firstRay;   // index of the first of the rays that are traced together (the wave)
+layout(location = 1) uniform uint firstRay;   // index of the first ray of the current batch (wave)
 
 uint mixedBits(uint x) {   // finaliser of MurmurHash3 (Appleby)
     x = (x ^ (x >> 16)) * 0x85ebca6bu;

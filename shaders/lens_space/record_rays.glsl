@@ -5,7 +5,7 @@ uvec2 pixelOf(Record record) {
     return uvec2(inImage % uint(imageSize.x), inImage / uint(imageSize.x));
 }
 
-// Returns the number of the record's ray among the rays of a pixel that are traced together.
+// Returns the index of the record's ray among its pixel's rays in the current batch (wave).
 uint numberOf(Record record) { return record.ray / uint(imageSize.x * imageSize.y); }
 
 // Returns the lens point (u, k·v), with the aspect ratio k, through which the record's surface is seen. `ray`: the

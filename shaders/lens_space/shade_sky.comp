@@ -1,5 +1,5 @@
-// Shades the records (ray hits) of rays that hit no surface with the radiance of the sky. The sky lies at infinite
-// depth w, where C/w = (a + b·w)/w equals b (circle of confusion C).
+// Shades the records of rays that hit no surface with the radiance of the sky. The sky lies at infinite depth w, where
+// the relative circle of confusion C/w = (a + b·w)/w equals b.
 
 #include "lens_space/shade.glsl"
 

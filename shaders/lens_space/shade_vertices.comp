@@ -1,7 +1,7 @@
 // Third part of kernel 1 of the lens-space methods: shades the front and the back of vertices as seen from the lens
 // centre, for surfaces with the same material and features. The radiance is interpolated between vertices. Texture
 // lookups and highlights are therefore filtered over half the distance to the two neighbouring vertices in the frame's
-// first triangle with this vertex.
+// first triangle that contains the vertex.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"

@@ -38,8 +38,8 @@ vec4 clipAt(uint vertex, float fraction) {
     return moving ? mix(clips[vertex], clipAtEnd(vertex), fraction) : clips[vertex];
 }
 
-// Returns q, the vertex relative to the image position `place` as seen from lens point `lens`. For a plain lens,
-// where C = a + b·w, the compiler reduces the lens to one multiplication and one addition per coordinate.
+// Returns q, the vertex relative to the image position `place` as seen from lens point `lens`. For a plain lens, where
+// C = a + b·w, the compiler reduces the terms of the lens to one multiplication and one addition per coordinate.
 vec2 relativeTo(vec4 clip, vec2 lens, vec2 place) {
     precise vec2 q;
     if (cocControls)

@@ -38,8 +38,8 @@ layout(std140, binding = 7) uniform BoundBlock { Bounds lensBounds[maxRays]; };
 
 layout(location = 2) uniform uint firstTile;       // first tile whose list is in `entries`
 layout(location = 3) uniform uint recordCapacity;
-// One shading point is used for each shadingStep px that a surface moves in the image along a segment; 0: one shading
-// point per segment.
+// A segment has one shading point for each shadingStep px that its surface moves in the image between the segment's
+// ends; 0: one shading point per segment.
 layout(location = 5) uniform float shadingStep;
 // A job is the work of a workgroup: one tile, and one line sample of each of its pixels. Mesa's software driver ends
 // the loops of a thread after a total of 65,535 iterations (rounds). Jobs that need more continue in later dispatches.
@@ -57,7 +57,7 @@ const uint maxKept = 64u;
 const uint maxScans = 1024u;
 shared vec4 keptCorners[maxKept * 3u];
 shared uvec2 kept[maxKept];    // triangles that the tile's lines may see; x: index, y: 1 if double-sided, else 0
-shared uint keptHere[2];        // one bit per thread: set if its candidate is added to `kept`
+shared uint keptHere[2];        // one bit per thread: set if the thread's triangle is added to `kept`
 shared uint keptCount;
 shared uint nextBase;
 shared uint open;               // 1 if some line may still see later triangles of the list, else 0

@@ -1,5 +1,6 @@
-// Kernel 3 of the method "line": finds the surfaces that each line of a tile's pixels sees along the line's path over
-// the lens. The including file (exact.comp, published.comp) chooses how the segments of a line are stored.
+// Kernel 3 of the method "line": finds the surfaces that are visible along each line over the lens, for the line
+// samples of a tile's pixels. The including file (exact.comp, published.comp) chooses how the segments of a line are
+// stored.
 
 bool mayCover(vec4 corners[3], Bounds bounds, vec2 tileMin, vec2 tileMax) {
     vec2 minimum = vec2(1e30);

@@ -75,8 +75,7 @@ vec3 withOverlay(vec3 colour, vec2 uv) {
     return colour;
 }
 
-// Returns the strength in [0, 1] of high-contrast edges whose blur is below about one pixel, like a camera's focus
-// peaking.
+// Returns the strength in [0, 1] of focus peaking, which marks high-contrast edges whose blur is below about one pixel.
 float peaking(vec2 uv) {
     vec2 step = 1.0 / size.xy;
     float right = dot(shown(uv + vec2(step.x, 0.0)), luma) - dot(shown(uv - vec2(step.x, 0.0)), luma);
@@ -88,7 +87,7 @@ float peaking(vec2 uv) {
 void main() {
     vec2 uv = gl_FragCoord.xy / size.xy;
     vec3 colour = shown(uv);
-    if (compares && uv.x >= divider && (choices.z & FLAG_DIFFERENCE) != 0) {  // no overlays over the difference
+    if (compares && uv.x >= divider && (choices.z & FLAG_DIFFERENCE) != 0) {  // no overlays over the difference image
         display = vec4(colour, 1.0);
         return;
     }

@@ -26,13 +26,13 @@ struct FilmFrame {
     std::vector<std::filesystem::path> files;  // image files, one per file name pattern
     WriteOptions write;                        // encoding of PNG, JPEG and video
     bool finished = false;                     // whether all files exist with the requested settings
-    std::filesystem::path other;               // first file with other settings; empty if none, or if not resuming
+    std::filesystem::path other;               // first existing file with other settings; set only with resume
 };
 
 struct FilmOptions {
     std::vector<std::string> outputs;        // file name patterns, see capture/frame_files.h
     std::optional<SampleRange> sampleRange;  // write only partial sums, to FRAME.partFIRST-END.exr; one EXR output only
-    FilmSettings settings;                   // `encoding` is unset; a frame's time limit is ignored
+    FilmSettings settings;                   // `encoding` is set later, per file; a frame's time limit is ignored
     bool metered = false;                    // true: FilmFrame::write gets a metered exposure later
     std::filesystem::path timings;           // path of the sidecar file
     bool resume = false;                     // true: keep the frames that are already finished

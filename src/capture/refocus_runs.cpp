@@ -22,7 +22,7 @@ bool isShapeField(const LensField& field) {
     return field.feature == LensFeature::shape || field.name == std::string_view("anamorphicRatio");
 }
 
-// Returns the lens with a disk, the default, as its aperture shape. An aperture image stays unchanged.
+// Returns the lens with its aperture shape set to the default, a disk. An aperture image stays unchanged.
 Lens withDisk(Lens lens) {
     const Lens standard;
     for (const LensField& field : lensFields())

@@ -47,12 +47,12 @@ class RefocusedPictures {
 public:
     struct Picture {
         Image image;
-        std::uint32_t samples = 0;  // number of lens images that the picture combines
-        FramePlan plan;             // plan of the lens images, with the picture's view
-        bool rendered = false;      // whether the lens images were rendered for this picture
+        std::uint32_t samples = 0;  // number of lens images from which `image` is computed
+        FramePlan plan;             // plan of the lens images, with the view of `image`
+        bool rendered = false;      // true: the lens images were rendered for this frame
     };
-    // Returns the picture of a frame of `run`. Renders the run's lens images if the previous picture was of another
-    // run. `driver` draws the world of the frame. `step` receives the finished fraction.
+    // Computes a frame of `run`. Renders the run's lens images if the previous call was for another run. `driver` draws
+    // the world of the frame. `step` receives the finished fraction.
     Picture picture(const RefocusRun& run, const FrameMoment& moment, FrameDriver& driver,
                     const std::function<void(double)>& step);
 

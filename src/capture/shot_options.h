@@ -23,7 +23,7 @@ struct GivenOptions {
 
 // Merges shot and request after the command line is parsed. Removes overridden values from the shot: the lens fields
 // and the focus that `request` sets, and the movement if an option sets a camera or its position. Sets the lens values
-// of `request` to those of the shot's first keyframes, so that the scene can be placed.
+// of `request` to those of the shot's first keyframes, so that a frame can be prepared from `request`.
 void settleShot(Shot& shot, Request& request, const GivenOptions& given);
 
 SequenceBase sequenceBase(const PreparedFrame& frame, const Request& request);

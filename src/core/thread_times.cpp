@@ -11,8 +11,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the CPU time of each thread of this process in ms, from the first number of Linux's
-// /proc/self/task/ID/schedstat, in ns. Empty on other systems.
+// Returns the CPU time of each thread of this process in ms, from /proc/self/task/ID/schedstat, which begins with the
+// time in ns. Empty on systems other than Linux.
 std::map<int, double> timesOfThreads() {
     std::map<int, double> times;
     std::error_code none;

@@ -17,7 +17,7 @@ namespace defocus::engine {
 struct BenchOutput {
     std::filesystem::path folder;  // folder of the results; empty: print the table only
     std::filesystem::path report;  // folder of the report, which replaces `folder`; empty: no report
-    bool allowChanged = false;     // true: the program may have been built from changed sources
+    bool allowChanged = false;     // true: accept a program built from changed sources
 };
 
 // Adds the options --output, --report and --allow-changed. `results` names the files, such as "the result view.json".

@@ -234,7 +234,6 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     const std::uint32_t fewest = *std::ranges::min_element(options.sampleCounts);
     subject.crops = tellingCrops(frame.world, frame.view, reference, fewest, options.renderer);
 
-    // Measure the frames.
     ResultsFolder results(folder, reference, subject, hash, options.seeds);
     if (arguments.resume) results.resume(done);
     fmt::print("{}, {} x {} px, {} runs each, on {}\n\n", subject.bench.scene, subject.bench.width,
@@ -249,7 +248,6 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     measureConvergence(frame.world, frame.view, reference, options, frame.pyramidMilliseconds, done, visitor, progress);
     progress = {};
 
-    // Write the results and print the summary.
     results.writeResults(folder);
     const std::vector<ConvergenceRow> rows = results.rows();
     fmt::print("{}", convergenceHeader());

@@ -39,8 +39,8 @@ std::vector<StabilityRow> printedCases(const Progress& progress) {
     return rows;
 }
 
-// Compares the blur that each method draws, with default settings, with the blur of a real lens. Prints a row per
-// method and a summary.
+// Compares the blur that each method draws at default settings with the blur of a real lens. Prints a row per method
+// and a summary.
 std::vector<HonestyRow> printedHonesty(const Progress& progress) {
     fmt::print(
         "\n"

@@ -298,7 +298,6 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     if (arguments.resume && !arguments.overwrite && !arguments.dryRun) refuseToReplace(film);
     const bool allThere = std::ranges::all_of(film, &FilmFrame::finished);
 
-    // Render the frames.
     std::unique_ptr<GlContext> context;
     const bool meters = options.metered && (!allThere || !shot.video.empty());
     if (((!allThere && use.method->needsGl) || meters) && !arguments.dryRun) context = createHeadlessContext();
@@ -329,7 +328,6 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
         fail("stopped before frame {}: {} of {} frames are finished; repeat the command with --resume to continue",
              *figures.stoppedBefore, figures.rendered + figures.finishedBefore, film.size());
 
-    // Encode the video.
     std::vector<VideoFrame> pictures;
     for (const FilmFrame& frame : film) pictures.push_back({frame.files.front(), frame.write});
     if (!shot.video.empty()) writeVideo(shot.video, pictures, shot.frameRate, progress);

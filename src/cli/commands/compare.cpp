@@ -57,7 +57,7 @@ struct Limit {
     double value = 0;
 };
 
-// Parses METRIC=VALUE. Returns a limit whose metric is null for any other text.
+// Parses METRIC=VALUE. For any other text, returns a limit whose metric is null.
 Limit limitOf(const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) return {};
@@ -141,7 +141,6 @@ void runCompare(const CompareArguments& arguments) {
         checkImageOutputs({arguments.errorMap}, {}, {arguments.reference, arguments.test});
     }
 
-    // Read and compare the images.
     StripReader reference(arguments.reference);
     StripReader test(arguments.test);
     const int width = reference.width(), height = reference.height();
@@ -160,7 +159,6 @@ void runCompare(const CompareArguments& arguments) {
     };
     const Difference difference = compareStrips(strips(reference), strips(test), options);
 
-    // Complete the file of the error map and print the result.
     if (map) map->finish();
     if (arguments.json)
         printJson(difference);

@@ -41,7 +41,7 @@ struct RefocusArguments {
     std::optional<double> exposure;  // exposure in EV; nullopt: as rendered
     std::filesystem::path page;      // if not empty, write a web page to this file instead of outputs
     FocusPullFilm pull;              // video of a focus pull; written if pull.video isn't empty
-    bool fillGaps = true;            // true: fill the gaps between the lens images
+    bool fillGaps = true;            // true: blur each lens image to fill gaps between copies of blurred points
     int stack = 0;                   // number of pictures in a focal stack; 0: write one picture
 };
 

@@ -198,7 +198,7 @@ std::string writePartial(const std::vector<std::filesystem::path>& outputs, cons
 }
 
 // Keeps a copy of the image of the samples drawn so far. If a signal arrives within a long draw, this copy is written.
-// It is renewed at most twice a second, because reading an image takes time. Between short draws, the main thread
+// The copy is renewed at most twice a second, because reading an image takes time. Between short draws, the main thread
 // handles the signal itself.
 class PartialCopies {
 public:

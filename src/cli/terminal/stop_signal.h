@@ -8,7 +8,7 @@
 
 namespace defocus::engine {
 
-// Installs the signal handlers and starts the second thread.
+// Installs the signal handlers and starts the second thread, which ends the process 0.5 s after the first signal.
 void stopWhenAsked();
 // Returns whether a signal has requested a stop.
 bool stopAsked();

@@ -199,7 +199,6 @@ Frame frameOf(const World& world, const View& view, const ConvergenceCase& wante
     frame.run.setupMilliseconds = millisecondsSince(begin);
     renderer->advance();
 
-    // Draw the timed frame.
     drawAllSamples(*renderer, plan);
     frame.image = renderer->image();
     const RenderStats stats = renderer->stats();

@@ -27,9 +27,9 @@ struct Competitor {
 };
 
 // Returns each competitor's times to reach `errors`, which must be > 0. Times are interpolated on the competitor's
-// Pareto front. Between neighbouring rows, the error is assumed to be a power of the time. This is exact for sampling
-// noise of any order of convergence. Accumulation with levels comes first, the others in order of appearance. Rows with
-// faults are ignored.
+// Pareto front. Between neighbouring rows, the error is assumed to be a power of the time. This assumption is exact for
+// sampling noise of any order of convergence. Accumulation with levels comes first, the others in order of appearance.
+// Rows with faults are ignored.
 std::vector<Competitor> timesToErrors(std::span<const ConvergenceRow> rows, std::span<const double> errors);
 
 // Returns a text table of seconds and of ratios to the first competitor's time; empty for fewer than two competitors.

@@ -1,6 +1,6 @@
 #pragma once
 // Summarises the runs of each case as one row: medians, their spread, and whether the row is on a Pareto front. Also
-// computes the error of each level setting against full detail, which more lens samples cannot reduce.
+// computes the error that each level setting has against full detail; more lens samples cannot reduce this error.
 
 #include <optional>
 #include <span>

@@ -1,8 +1,8 @@
 #pragma once
 // Measures the popping of levels of detail: the change from frame to frame that levels add while camera, focus or scene
 // move. Compares four modes. nearest: one level per object. fractional: samples divided between two levels. continuous:
-// also one sample that draws the finer level in some pixels and the coarser level in the others. multirate: fractional
-// levels, drawn by method multirate instead of accumulation.
+// like fractional, but one sample draws the finer level in some pixels and the coarser level in the others. multirate:
+// fractional levels, drawn by method multirate instead of accumulation.
 //
 // The reference is full detail with the same lens samples. For multirate, the reference is drawn by multirate, too.
 // Sampling noise therefore cancels, and full detail itself measures 0. Let I be a frame of the mode and R the same
@@ -51,7 +51,7 @@ struct PoppingOptions {
     std::vector<std::uint32_t> sampleCounts = {8, 16, 32};
     int clip = 0;          // index of the scene's clip, for Movement::clip
     int pathFrames = 240;  // number of frames of a complete movement; determines its speed
-    int frames = 48;       // number of measured frames per movement: the consecutive ones with the most level changes
+    int frames = 48;       // number of measured frames per movement: the stretch with the most level changes
     RenderSettings plan;   // settings that the bench keeps constant: seed, metric, keepAll …
     RendererOptions renderer;
 };
