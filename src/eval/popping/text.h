@@ -15,7 +15,7 @@ struct PopSummary {
     double worst = 0;
     int worstFrame = 0;
     double percentile99 = 0;  // 99th percentile of the frames' errors, interpolated linearly
-    double ofNearest = 0;     // `worst`, divided by that of LodMode::nearest; NaN if the latter is 0 or missing
+    double ofNearest = 0;     // `worst` divided by the `worst` of LodMode::nearest; NaN if the divisor is 0 or missing
 };
 
 struct PoppingRow {
@@ -24,7 +24,7 @@ struct PoppingRow {
     PoppingMode mode = PoppingMode::nearest;
     int frames = 0;  // number of pairs of consecutive frames: number of views − 1
     double speed = 0;
-    PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // errors over the pixels of objects
+    PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // errors over the pixels that show objects
     PopSummary changeRmseImage, changeFlipImage, stepRmseImage, stepFlipImage;
 };
 
@@ -35,7 +35,7 @@ std::vector<PoppingRow> poppingRows(std::span<const PoppingFrame> frames);
 std::string firstFramesLine(std::span<const PoppingFrame> frames);
 std::string poppingHeader();                         // returns the table's header, two lines
 std::string poppingLine(const PoppingRow& row);      // returns the table's line for a row
-std::string sampleStepLine(const SampleStep& step);  // returns one line with labels
+std::string sampleStepLine(const SampleStep& step);  // returns a sample step as one line with labels
 // Returns a sentence: the largest pop of each mode relative to LodMode::nearest, at the largest number of samples.
 std::string poppingSummary(std::span<const PoppingRow> rows);
 

@@ -18,8 +18,8 @@ std::string scalingLine(const ScalingRow& row);  // returns the table's line for
 // time.
 std::string scalingSummary(std::span<const ScalingRow> rows);
 
-// Describes, for each range of values on an axis, which part of the work takes most of the frame time. `rows` have one
-// axis and one level mode. Example: "fill up to 300 k, vertex work and fill alike from 1 M".
+// Describes, for each range of values on an axis, which part of the work takes most of the frame time. All `rows`
+// have the same axis and level mode. Example: "fill up to 300 k, vertex work and fill alike from 1 M".
 std::string boundsAlong(std::span<const ScalingRow> rows);
 
 struct ScalingLeftOut {

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::array modes = {LodMode::off, LodMode::nearest, LodMode::fractional};
 constexpr std::uint32_t warmUpSamples = 2;
-constexpr std::uint32_t referenceFactor = 8;  // default number of reference samples / max measured number
+// Default number of reference samples divided by the largest measured number of samples.
+constexpr std::uint32_t referenceFactor = 8;
 
 struct Setting {
     const char* sweep;
