@@ -49,7 +49,7 @@ struct FrameOrder {
     StopSettings stop = {};
     std::optional<SampleRange> samples = {};         // draw only the partial sum of these samples; nullopt: all samples
     std::optional<std::vector<RowRange>> rows = {};  // draw only these rows, in tiles; nullopt: all rows
-    RowSink takeRows = {};                           // receives the rows of finished tiles; empty: image() has them
+    RowSink takeRows = {};                           // receives the rows of finished tiles; empty: image() returns them
     SampleSink takeSample = {};                      // receives each lens sample's image; if set, no mean is computed
     std::string untiledReason = {};                  // reason why tiles are forbidden; empty: tiles are allowed
     bool shortDraws = false;                         // advance() draws few samples per call; implied by a time limit
