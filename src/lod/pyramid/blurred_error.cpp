@@ -119,8 +119,8 @@ struct Change {
     const glm::vec3* after;
 };
 
-// Multiplies the differences (after − before) of two pairs of rows with each other, and returns the sum of these
-// products over `count` cells and all channels. Values are clamped to `brightest` before the subtraction.
+// Returns the sum, over `count` cells and all channels, of the products of the differences (after − before) of `first`
+// and of `second`. Values are clamped to `brightest` before the subtraction.
 double sumOfProducts(const Change& first, const Change& second, int count, float brightest) {
     const auto end = 3 * static_cast<std::size_t>(count);
     const auto at = [&](const Change& change, std::size_t i, auto bounded) {

@@ -38,8 +38,8 @@ struct ClusterGrowth {
 
     const Numbered<TriangleCorner, LocalNumber>& corners;
     Buckets<LocalNumber, TriangleCorner> around;
-    // For each vertex with more than maxNeighbours corners: number of its first entries in `around` that are known to
-    // belong to assigned triangles.
+    // For each vertex with more than maxNeighbours corners, the number of leading entries in its list `around` whose
+    // triangles are known to be assigned.
     std::unordered_map<LocalNumber, std::size_t> firstOpen;
     Numbered<TriangleNumber, Facet> facets;
     float radius = 0;  // radius of a full cluster on a flat mesh with equal triangles
