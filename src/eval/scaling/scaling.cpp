@@ -123,7 +123,7 @@ std::string tooLarge(const ScalingPoint& point, const Machine& machine) {
     return fmt::format("about {:.0f} GB of main memory needed", needed / 1e9);
 }
 
-// The point measured last, and its world. The next point reuses the world if it needs the same one.
+// The scaling point that was measured last, and its world. The next point reuses the world if it needs the same one.
 struct Subject {
     Machine machine;
     ScalingPoint point;

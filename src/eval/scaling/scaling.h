@@ -100,7 +100,7 @@ void setTimes(ScalingRow& row, const ScalingTimes& times);
 
 struct ScalingVisitor {
     std::function<void(const ScalingRow&)> row;
-    // Called with each point that does not fit into memory, and the reason.
+    // Called with each scaling point that is skipped because its frame does not fit into memory, and with the reason.
     std::function<void(const ScalingPoint&, const std::string& reason)> leftOut;
 };
 

@@ -213,7 +213,7 @@ SpeedupRow rowOf(const Setting& setting, const SpeedupSubject& subject, const Re
 }
 
 // Calls `visit` with the row of each variant. Variants whose levels depend on size alone or on blur alone have no row:
-// their results are added to the preceding row.
+// the preceding row contains their results.
 void visitRows(const std::deque<SpeedupSubject>& subjects, const Setting& setting, const ReferenceImage* reference,
                const std::function<void(const SpeedupRow&)>& visit) {
     for (std::size_t i = 0; i < subjects.size();) {
