@@ -75,7 +75,7 @@ struct ScalingRow {
     int runs = 0;
     Spread milliseconds;             // time of the complete frame
     Spread layers;                   // time of the empty frame, in which layers are only cleared and added, ms
-    Spread vertices;                 // time of the frame drawn into a small image, which is mainly work per vertex, ms
+    Spread vertices;                 // time of the frame drawn into a small image, mainly work per vertex, ms
     Spread fill;                     // rest of the complete frame's time: work per pixel of a surface, ms, ≥ 0
     std::uint64_t triangles = 0;     // drawn triangles, sum over all samples
     std::uint64_t gpuBytes = 0;      // peak size of the renderer's resources
