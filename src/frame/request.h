@@ -37,8 +37,8 @@ GivenThresholds givenThresholds(const Request& request);
 ShutterSettings shutterSettings(const Request& request);
 
 // Returns the conditions that end a frame. The number of samples is automatic if the request gives neither a number,
-// nor a target error, nor a time limit. With exact motion, and with methods that cannot add blocks of samples, it is 64
-// instead.
+// nor a target error, nor a time limit. With exact motion, and with methods that cannot add blocks of samples, the
+// number is 64 instead.
 StopSettings stopSettings(const Request& request);
 
 // Returns the lens values that the request sets, including the focus distance. Each value is in the unit of its

@@ -40,8 +40,8 @@ public:
     // Enables attribute `location`, which reads `components` values of GL type `type` from binding point `location`.
     // `normalized` maps integers to [0, 1] or [−1, 1]. With `perInstance`, the attribute advances once per instance.
     void attribute(GLuint location, GLint components, GLenum type, bool normalized, bool perInstance = false);
-    // Attaches `buffer` to binding point `location`. `offset`: byte at which the data start; `stride`: bytes from one
-    // vertex or instance to the next.
+    // Attaches `buffer` to binding point `location`. `offset`: position of the first byte of the data; `stride`: bytes
+    // from one vertex or instance to the next.
     void bind(GLuint location, const Buffer& buffer, std::size_t offset, std::size_t stride);
     void indices(const Buffer& buffer);
     // Binds the vertex array for later draws. Call it before Program::use: in the reverse order, NVIDIA driver 580

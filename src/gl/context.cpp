@@ -181,8 +181,8 @@ private:
         context_ = eglCreateContext(display_, config, shared, attributes);
     }
 
-    // Reads the device and driver names from the current context. In share(), this is another context, which uses the
-    // same driver.
+    // Reads the device and driver names from the current context. When share() calls this function, the current context
+    // is another context with the same driver.
     void readDriver() {
         device_ = currentDevice();
         driver_ = currentDriver();

@@ -6,7 +6,7 @@
 
 namespace defocus::engine {
 
-// Path of the vertex shader with which Fullscreen's programs are linked.
+// Path of the vertex shader for all programs that draw a full-screen triangle.
 inline constexpr const char* fullscreenShader = "include/fullscreen.vert";
 
 class Fullscreen {

@@ -12,7 +12,7 @@ Image readBack(const GlTexture& texture, int channels);
 // Returns layer 0 of an RGBA float texture as half floats, with row 0 at the bottom as in OpenGL.
 HalfImage readHalves(const GlTexture& texture);
 
-// Uploads an image into a texture with one mip level, the same size and the same channels.
+// Uploads an image into a texture that has one mip level and the image's size and channels.
 void upload(GlTexture& texture, const Image& image);
 
 }  // namespace defocus::engine

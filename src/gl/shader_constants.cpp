@@ -38,7 +38,7 @@ constexpr ShaderConstant constants[] = {
     {"float", "layerLargest", "0.0"},  // colours in a layer are clamped to this value; 0: no clamping
     {"bool", "startsBlock", "false"},
     {"bool", "keepsNearest", "false"},  // true for the depth layer, which also stores the nearest depth
-    {"bool", "sumsAlpha", "false"},     // without a depth layer, the first data layer also sums alpha, the coverage
+    {"bool", "sumsAlpha", "false"},     // true: no depth layer, so the first data layer also sums alpha, the coverage
     {"int", "waveSamples", "1"},        // samples that a pass adds up; a constant, so that drivers unroll the loop
     {"int", "tableEntries", "1"},       // max number of objects or materials counted separately in a pixel
 
@@ -112,7 +112,7 @@ constexpr ShaderConstant constants[] = {
     {"bool", "lineSamples", "false"},
     {"int", "segmentCapacity", "1"},
     {"bool", "shortIntervals", "false"},  // true: the interval of a line segment is stored in 16 bits
-    {"bool", "areaWeights", "true"},  // parts of lines are weighted by κ (weights.glsl) if true, by length if false
+    {"bool", "areaWeights", "true"},      // true: parts of lines are weighted by κ (weights.glsl); false: by length
     {"bool", "lightsVertices", "false", "LIGHTS_VERTICES"},
     {"int", "maxShadingPoints", "1"},
 

@@ -1,8 +1,8 @@
 #pragma once
-// Prepares two images for image metrics: they become RGB and finite, and must have equal sizes. Grey is copied to all
-// three channels. Alpha is dropped, so premultiplied colours appear over black. A pixel with NaN or infinity is marked
-// and replaced by the corresponding pixel of the other image, or by black if both are non-finite. Filters therefore do
-// not spread NaN and infinity.
+// Prepares two images of equal size for image metrics by converting them to finite RGB. Grey is copied to all three
+// channels. Alpha is dropped, so premultiplied colours appear over black. A pixel with NaN or infinity is marked and
+// replaced by the corresponding pixel of the other image, or by black if both are non-finite. Filters therefore do not
+// spread NaN and infinity.
 
 #include <cstdint>
 #include <vector>

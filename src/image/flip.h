@@ -18,7 +18,7 @@ namespace defocus::engine {
 struct HdrFlipOptions {
     double startExposure = -4;  // first exposure in EV
     double stopExposure = 2;    // last exposure in EV, ≥ startExposure
-    int exposures = 4;          // evenly spaced from start to stop; 1 (start only) to 64
+    int exposures = 4;          // number of exposures, evenly spaced; 1 (startExposure only) to 64
 };
 
 // Default of the FLIP papers: a monitor of 3840 px and 0.7 m width, seen from a distance of 0.7 m.

@@ -25,7 +25,7 @@ namespace defocus::engine {
 // prefix "defocus:". EXR requires floats under standard names, so a double is stored as float under a standard name,
 // and as double under a prefixed name. A glm matrix is stored unchanged: EXR's row-major matrices for row vectors equal
 // glm's column-major matrices for column vectors. EXR's camera space is left-handed and looks along +z.
-struct Rational {  // a fraction; EXR's framesPerSecond
+struct Rational {  // fraction, as in EXR's framesPerSecond
     int numerator = 0;
     int denominator = 1;
     bool operator==(const Rational&) const = default;
@@ -96,8 +96,8 @@ std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* 
 // Throws Error if writeImage does not support the extension of `path`.
 void checkImageExtension(const std::filesystem::path& path);
 
-// Decodes a PNG, JPEG or WebP in memory; 16-bit values are reduced to 8 bits. `name` identifies the image in error
-// messages. `take` is called with the pixel count before memory is allocated; it may throw.
+// Decodes a PNG, JPEG or WebP file in memory; 16-bit values are reduced to 8 bits. `name` identifies the image in error
+// messages. `take` is called with the pixel count before memory is allocated, and may throw.
 TextureImage decodeTexture(std::span<const std::byte> encoded, const std::string& name,
                            const std::function<void(std::uint64_t pixels)>& take = {});
 

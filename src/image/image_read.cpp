@@ -32,8 +32,8 @@ namespace {
 
 // Maximum pixels of an image: 268 million, a 16384 × 16384 texture. A header with a larger size is probably damaged.
 constexpr std::uint64_t maximumPixels = 1ull << 28;
-// Maximum pixels per byte of a JPEG file: each 8 × 8 block takes at least one bit. For shorter files, libjpeg would
-// spend a long time filling the missing pixels.
+// Maximum pixels per byte of a JPEG file. Each block of 8 × 8 px takes at least one bit, so a complete file has at most
+// 512; the limit is twice as high. For shorter files, libjpeg would spend a long time filling the missing pixels.
 constexpr std::uint64_t maxJpegPixels = 2 * 8 * 8 * 8;
 
 struct Format {

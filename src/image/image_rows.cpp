@@ -64,7 +64,7 @@ public:
         return done;
     }
     [[nodiscard]] size_t size() const override { return size_; }
-    // Returns errno of the latest failed write; 0 without failure.
+    // Returns errno of the latest failed write; 0 if no write failed.
     [[nodiscard]] int failure() const { return failure_; }
 
 private:

@@ -21,7 +21,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int stripRows = 64;  // rows of an EXR file with layers that are interleaved together
+constexpr int stripRows = 64;  // number of rows that are interleaved at once, for EXR files with layers
 
 void checkImage(const ImageView& image, const std::string& name) {
     const std::size_t values = std::size_t(std::max(image.width, 0)) * std::size_t(std::max(image.height, 0)) *

@@ -14,7 +14,7 @@ namespace defocus::engine {
 struct Moments {             // moments of an image's first channel
     double energy = 0;       // sum of the channel over all pixels
     glm::dvec2 mean{0};      // centroid in px from the top left corner; NaN if energy is 0
-    glm::dvec2 variance{0};  // px²
+    glm::dvec2 variance{0};  // variance along x and y, px²
 };
 
 Moments momentsOf(const Image& image);

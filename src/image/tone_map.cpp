@@ -3,8 +3,8 @@
 // ACES: Stephen Hill's fit of the RRT and the Rec.709 ODT, published in MJP's BakingLab. The input matrix converts sRGB
 // to the RRT's saturated AP1; the output matrix converts the ODT's space to sRGB.
 //
-// AgX: Troy Sobotka's picture formation. Matrices and polynomial of the base look are from Benjamin Wrensch, "Minimal
-// AgX Implementation", 2023. Its output is encoded for a display with gamma 2.2.
+// AgX: Troy Sobotka's view transform. Matrices and polynomial of the base look are from Benjamin Wrensch, "Minimal AgX
+// Implementation", 2023. AgX's output is encoded for a display with gamma 2.2.
 //
 // Neutral: Khronos PBR Neutral Tone Mapper, specification 1.0, 2024. It subtracts the 4 % specular reflection of
 // dielectrics, so that a surface under grey light shows its base colour, and compresses values above 0.8.

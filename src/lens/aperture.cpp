@@ -79,7 +79,7 @@ double aberratedShare(double k, double share) {
     return divisor > 0 ? std::min(2 * share / divisor, 1.0) : 0;
 }
 
-// Moves a disk point along its radius. Uniformly distributed points then follow the light density of a lens with a
+// Moves a disk point along its radius, so that uniformly distributed points follow the light density of a lens with a
 // central obstruction and spherical aberration.
 glm::dvec2 spreadOverRadius(const Aperture& aperture, const glm::dvec2& disk) {
     const double share = glm::dot(disk, disk);

@@ -1,7 +1,7 @@
 #pragma once
 // Maps the unit square to points on the lens according to the aperture's shape and light distribution. The map is
-// continuous except at the seams of a ring or an image. Well-distributed points on the square are therefore well
-// distributed on the lens.
+// continuous except at the seams of a ring or an aperture image. Well-distributed points on the square are therefore
+// well distributed on the lens.
 //
 // Lens samples have equal weight, so the shape changes neither the energy of a blurred point nor the exposure of the
 // image. Let t ∈ [0, 1] be the fraction of the area that lies nearer to the centre than a point. The light density over

@@ -1,8 +1,9 @@
 #pragma once
 // Derives a lens's focal length and sensor width from a camera in a glTF file.
 //
-// glTF gives a camera's vertical field of view. The image's aspect k gives the horizontal one: tan(θx/2) =
-// k·tan(yfov/2). The image always shows this field of view. Only the camera's physical scale remains to be chosen:
+// glTF gives a camera's vertical field of view yfov. For the image's aspect ratio k, the horizontal field of view θx
+// follows from tan(θx/2) = k·tan(yfov/2). The image always shows this field of view. Only the camera's physical scale
+// remains to be chosen:
 //   - a file with the draft extension EXT_camera_physical gives the focal length f. The image uses the sensor width
 //   2·f·tan(θx/2), which may be less than the sensor's full width;
 //   - otherwise the sensor's width is horizontalAperture, and f = horizontalAperture / (2 tan(θx/2)).

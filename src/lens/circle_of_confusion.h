@@ -30,18 +30,18 @@ namespace defocus::engine {
 
 struct ClipCircleOfConfusion {
     double a = 0;
-    double aBehind = 0;                                                // a₂ of B = a₂/w + b₂·q, ≤ a
-    double front = 0;                                                  // b₁ of F = a/w + b₁·q
-    double behind = 0;                                                 // b₂ of B = a₂/w + b₂·q, ≤ b₁
-    glm::dvec2 tilt{0};                                                // t of q = 1 + κ·r² + t·n
-    double curvature = 0;                                              // κ of q = 1 + κ·r² + t·n
-    double gain = 0;                                                   // g of the radial blur gain 1 + g·r²
+    double aBehind = 0;    // coefficient a₂ ≤ a of the blur B = a₂/w + b₂·q behind the focus plane
+    double front = 0;      // coefficient b₁ of the blur F = a/w + b₁·q in front of the focus plane
+    double behind = 0;     // coefficient b₂ ≤ b₁ of the blur B = a₂/w + b₂·q behind the focus plane
+    glm::dvec2 tilt{0};    // coefficient t of the focus term q = 1 + κ·r² + t·n
+    double curvature = 0;  // coefficient κ of the focus term q = 1 + κ·r² + t·n
+    double gain = 0;       // g of the radial blur gain 1 + g·r²
     double foregroundLimit = std::numeric_limits<double>::infinity();  // max blur R₁ / image width
     double backgroundLimit = std::numeric_limits<double>::infinity();  // max blur R₂ / image width
     double aspect = 1;                                                 // k, image width / height
     double shareOfMillimetre = 0;  // fraction of the image's width per mm on the sensor; scales added vertex blur
-    double astigmatism = 0;        // coefficient A of W(l) in aberrations.h
-    double coma = 0;               // coefficient B of W(l) in aberrations.h
+    double astigmatism = 0;        // coefficient A of the wavefront error W(l) in aberrations.h
+    double coma = 0;               // coefficient B of the wavefront error W(l) in aberrations.h
     double chromatic = 0;          // max change of b₁ and b₂ over all wavelengths
 
     // Returns true if the lens has a range of sharp depths, so that the terms F in front and B behind differ.
@@ -101,7 +101,7 @@ struct CocBox {
 // conservative otherwise. They change continuously with the box.
 CocRange circleOfConfusionRange(const ClipCircleOfConfusion& coc, const CocBox& box, int width);
 
-// Returns the coefficients of a thin lens `coc` that is focused at another distance (m; infinity is allowed).
+// Returns the coefficients of the thin lens `coc` after it is focused at `focusDistance` (m; infinity is allowed).
 ClipCircleOfConfusion refocused(const ClipCircleOfConfusion& coc, double focusDistance);
 
 // Returns the largest |CoC| in px at infinite depth, over all positions in the image.
@@ -110,7 +110,7 @@ double largestCocAtInfinity(const ClipCircleOfConfusion& coc, int width);
 // Upper bounds, in px, on the CoC error if C is interpolated linearly inside a triangle.
 struct CocDeviation {
     double kinks = 0;   // error at kinks, where the slope of C jumps; splitting triangles there removes the error
-    double curved = 0;  // error where C is curved, also because of per-vertex blur; only smaller triangles reduce it
+    double curved = 0;  // error where C curves, also by per-vertex blur; only smaller triangles reduce this error
 };
 
 CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, double longestEdge,

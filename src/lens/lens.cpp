@@ -15,7 +15,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double maxTilt = 89.95 * std::numbers::pi / 180;  // at 90° the focus plane passes through the camera
+constexpr double maxTilt = 89.95 * std::numbers::pi / 180;  // at 90°, the focus plane passes through the camera
 constexpr double maxAberration = 100;                       // max length of aberration streaks in mm
 
 void requireWithin(double value, double min, double max, const char* name) {

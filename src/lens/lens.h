@@ -32,13 +32,13 @@ struct Lens {
     double bladeRotation = 0;             // rotation in radians; also rotates aperture images
     double bladeCurvature = 0;            // curvature of the blades; 0: straight, 1: a circle
     double anamorphicRatio = 1;           // values > 1 narrow the aperture horizontally (tall ovals)
-    double obstruction = 0;               // mirror lens: inner over outer diameter, [0, 1)
+    double obstruction = 0;               // inner over outer diameter of a mirror lens's aperture, [0, 1)
     double sphericalAberration = 0;       // [−1, 1]; > 0: blur disks with a bright rim, < 0: with a bright centre
     double catEye = 0;                    // fraction of the aperture's radius clipped at image corners, [0, 1]
-    double axialChromaticAberration = 0;  // dioptres between red and blue focus planes; > 0: red's is farther
+    double axialChromaticAberration = 0;  // dioptres between red and blue focus planes; > 0: the red plane is farther
     double astigmatism = 0;               // radial streak length in mm on the sensor at the edges; see aberrations.h
     double coma = 0;                      // comet tail length in mm on the sensor at the edges; > 0: outwards
-    std::shared_ptr<const Image> apertureImage = {};  // grey values: transmission; null: shape from the fields above
+    std::shared_ptr<const Image> apertureImage = {};  // grey values are transmission; null: shape from the fields above
 
     // Artistic controls of the blur; see circle_of_confusion.h.
     double foregroundLimit = std::numeric_limits<double>::infinity();  // max CoC in front of the focus plane, px

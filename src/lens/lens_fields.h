@@ -40,7 +40,7 @@ struct LensField {
     std::variant<double Lens::*, int Lens::*, bool Lens::*> member;
     std::variant<std::monostate, std::optional<double> LensSettings::*, std::optional<int> LensSettings::*,
                  std::optional<bool> LensSettings::*>
-        given;                // same value in a request, in `unit`; monostate: Request::focus sets the value
+        given;                // value in a request, in `unit`; monostate: Request::focus sets the value
     const char* description;  // help text of the option
     const char* example;      // typical value as text
     LensFeature feature = LensFeature::blur;

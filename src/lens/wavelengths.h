@@ -19,8 +19,8 @@ namespace defocus::engine {
 // is the constant term of C(w).
 double chromaticShift(double a, double dioptres, double t);
 
-// Returns each sample's weight in red, green and blue: 2(1 − t), 3/2·(1 − (2t − 1)²) and 2t. The weights are divided by
-// their means over the samples, so that grey stays grey.
+// Returns each sample's weight in red, green and blue: 2(1 − t), 3/2·(1 − (2t − 1)²) and 2t for band position t. The
+// weights are divided by their means over the samples, so that grey stays grey.
 std::vector<glm::vec3> bandWeights(std::span<const LensSample> samples);
 
 }  // namespace defocus::engine

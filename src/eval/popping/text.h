@@ -15,7 +15,7 @@ struct PopSummary {
     double worst = 0;
     int worstFrame = 0;
     double percentile99 = 0;  // 99th percentile of the frames' errors, interpolated linearly
-    double ofNearest = 0;     // `worst`, divided by that of LodMode::nearest; NaN if the latter is 0 or missing
+    double ofNearest = 0;     // `worst` divided by the `worst` of LodMode::nearest; NaN if the divisor is 0 or missing
 };
 
 struct PoppingRow {
@@ -24,23 +24,24 @@ struct PoppingRow {
     PoppingMode mode = PoppingMode::nearest;
     int frames = 0;  // number of pairs of consecutive frames: number of views − 1
     double speed = 0;
-    PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // errors over the pixels of objects
+    PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // errors over the pixels that show objects
     PopSummary changeRmseImage, changeFlipImage, stepRmseImage, stepFlipImage;
 };
 
-// Returns a row for each movement, number of samples and mode, ordered by first appearance.
+// Returns a row for each combination of movement, number of samples and mode, ordered by first appearance.
 std::vector<PoppingRow> poppingRows(std::span<const PoppingFrame> frames);
 
-// Returns one line: the largest pop of each mode in the first frames of a movement.
+// Returns a line of text with the largest pop of each mode in the first frames of a movement.
 std::string firstFramesLine(std::span<const PoppingFrame> frames);
 std::string poppingHeader();                         // returns the table's header, two lines
 std::string poppingLine(const PoppingRow& row);      // returns the table's line for a row
-std::string sampleStepLine(const SampleStep& step);  // returns one line with labels
-// Returns a sentence: the largest pop of each mode relative to LodMode::nearest, at the largest number of samples.
+std::string sampleStepLine(const SampleStep& step);  // returns a sample step as one line with labels
+// Returns a sentence with the largest pop of each mode relative to LodMode::nearest, at the largest number of samples.
 std::string poppingSummary(std::span<const PoppingRow> rows);
 
 std::string poppingCsv(std::span<const PoppingFrame> frames);  // returns CSV with a line for each frame
-// Returns JSON with the worst frame and the 99th percentile of each movement, number of samples and mode.
+// Returns JSON with the worst frame and the 99th percentile for each combination of movement, number of samples and
+// mode.
 std::string poppingJson(std::span<const PoppingFrame> frames, std::span<const SampleStep> steps,
                         const BenchSubject& subject, const PoppingOptions& options);
 

@@ -19,7 +19,8 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint32_t fewSamples = 64;
-constexpr std::uint32_t enoughSamples = 1024;  // per image; noise cancels in the product of two images' errors
+// Lens samples per image. Their noise cancels in the product of two images' errors.
+constexpr std::uint32_t enoughSamples = 1024;
 
 // Scene for the measurement: a single static mesh without background, under the default lights, with the focal plane
 // far away.
@@ -84,7 +85,7 @@ Stand standFor(const PreparedFrame& frame, const PredictionOptions& options) {
     return stand;
 }
 
-// Sets the f-number for which the mesh's centre has a circle of confusion of `coc` px.
+// Sets the f-number that gives the mesh's centre a circle of confusion of `coc` px.
 void blurBy(Stand& stand, double coc) {
     Lens& lens = stand.view.lens;
     const double aperture = coc * stand.depth * 2 * tanHalfHorizontalFov(lens) / stand.view.width;
@@ -115,7 +116,7 @@ Views viewsOf(Stand& stand, std::uint32_t samples, std::uint32_t level, std::uin
     return views;
 }
 
-// Images for each of two independent sets of lens samples, whose noise is uncorrelated.
+// Images from two independent sets of lens samples. The noise of the two sets is uncorrelated.
 using TwoSets = std::array<Views, 2>;
 
 TwoSets twoSetsOf(Stand& stand, std::uint32_t level, const RendererOptions& options) {

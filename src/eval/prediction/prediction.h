@@ -33,8 +33,8 @@ struct PredictionRow {
     std::uint32_t triangles = 0;
     double predicted = 0;
     double rendered = 0;
-    // True if LodMetric::measured draws the level at this blur for some number of samples from 16 to 512. If the
-    // selected real-valued level lies between two levels, both are drawn.
+    // True if LodMetric::measured selects the level at this blur for at least one number of samples from 16 to 512. If
+    // the selected real-valued level lies between two levels, both count as selected.
     bool used = false;
 
     [[nodiscard]] bool withinTwo() const { return predicted <= 2 * rendered && rendered <= 2 * predicted; }

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Returns the ratio of the larger to the smaller of the predicted and the rendered error, ≥ 1.
+// Returns the larger of the predicted and the rendered error divided by the smaller one, ≥ 1.
 double factorOff(const PredictionRow& row) {
     return std::max(row.predicted / row.rendered, row.rendered / row.predicted);
 }

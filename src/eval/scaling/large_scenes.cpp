@@ -41,7 +41,7 @@ LargeSceneRow measureLargeScene(const LargeScene& scene, const LargeSceneOptions
     }
     row.planMilliseconds = spreadOf(times);
 
-    // Time the first image, then a second frame for which all resources are ready.
+    // Time the first image, then a second frame, when all resources are ready.
     const Clock::time_point start = Clock::now();
     const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(world.world, options.renderer);
     renderer->start(plan);

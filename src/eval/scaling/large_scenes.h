@@ -44,8 +44,8 @@ struct LargeSceneOptions {
     RendererOptions renderer;
 };
 
-// Measures a scene with 8 samples at 640 × 480 px, the lens of the built-in school and the default levels. Needs a
-// current GL context.
+// Measures a scene with 8 samples at 640 × 480 px, the lens of the built-in school of fish and the default levels.
+// Needs a current GL context.
 LargeSceneRow measureLargeScene(const LargeScene& scene, const LargeSceneOptions& options,
                                 const Progress& progress = {});
 

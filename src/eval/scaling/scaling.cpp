@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array comparedModes = {LodMode::off, LodMode::fractional};
 constexpr int gridTriangles = 500;        // triangles of each fish in the grid at full detail
-constexpr int smallFactor = 40;           // divides the small image's width and height; mainly vertex work remains
+constexpr int smallFactor = 40;           // divides the image's width and height, so that mainly vertex work remains
 constexpr double bytesPerTriangle = 600;  // main memory for the mesh, the build of its pyramid and the driver's copy
 constexpr double memoryShareMax = 0.8;
 constexpr double minMargin = 0.05;  // times that differ by less than this fraction of the frame time count as equal
@@ -115,7 +115,7 @@ bool sameWorld(const ScalingPoint& a, const ScalingPoint& b) {
     return a.triangles == b.triangles && a.instances == b.instances;
 }
 
-// Returns why the point doesn't fit into this machine's memory; empty if it does.
+// Returns the reason why the frame of `point` doesn't fit into this machine's memory; empty if it fits.
 std::string tooLarge(const ScalingPoint& point, const Machine& machine) {
     const double needed = bytesPerTriangle * static_cast<double>(point.triangles);
     const double max = memoryShareMax * static_cast<double>(machine.memoryBytes);
@@ -123,7 +123,7 @@ std::string tooLarge(const ScalingPoint& point, const Machine& machine) {
     return fmt::format("about {:.0f} GB of main memory needed", needed / 1e9);
 }
 
-// The point measured last, and its world, which the next point can reuse if it needs the same world.
+// The scaling point that was measured last, and its world. The next point reuses the world if it needs the same one.
 struct Subject {
     Machine machine;
     ScalingPoint point;

@@ -56,7 +56,7 @@ struct ScalingPoint {
     ScalingAxis axis = ScalingAxis::triangles;
     double value = 0;  // number of triangles, instances, samples or pixels, or the f-number
     std::uint64_t triangles = 300'000;
-    int instances = 0;  // number of fish in the grid; 0: the built-in school is drawn instead
+    int instances = 0;  // number of fish in the grid; 0: draws the built-in school of fish instead
     std::uint32_t samples = 8;
     int width = 640;
     int height = 480;
@@ -75,15 +75,15 @@ struct ScalingRow {
     int runs = 0;
     Spread milliseconds;             // time of the complete frame
     Spread layers;                   // time of the empty frame, in which layers are only cleared and added, ms
-    Spread vertices;                 // time of the frame drawn into a small image, which is mainly work per vertex, ms
+    Spread vertices;                 // time of the frame drawn into a small image, mainly work per vertex, ms
     Spread fill;                     // rest of the complete frame's time: work per pixel of a surface, ms, ≥ 0
     std::uint64_t triangles = 0;     // drawn triangles, sum over all samples
     std::uint64_t gpuBytes = 0;      // peak size of the renderer's resources
     std::uint64_t pyramidBytes = 0;  // main memory of all levels of all meshes
 
-    // Returns the part of the frame with the largest median time, and all parts that are about as slow: their spreads
-    // overlap its spread, or their medians differ from its median by less than a twentieth of the frame time. The parts
-    // are in the order of ScalingPart.
+    // Returns the slowest part of the frame (by median) and each part that is about as slow, in the order of
+    // ScalingPart. A part is about as slow if its spread overlaps the spread of the slowest part, or if its median is
+    // lower by less than a twentieth of the frame time.
     [[nodiscard]] std::vector<ScalingPart> largestParts() const;
 };
 
@@ -100,7 +100,7 @@ void setTimes(ScalingRow& row, const ScalingTimes& times);
 
 struct ScalingVisitor {
     std::function<void(const ScalingRow&)> row;
-    // Called with each point that does not fit into memory, and the reason.
+    // Called with each scaling point that is skipped because its frame does not fit into memory, and with the reason.
     std::function<void(const ScalingPoint&, const std::string& reason)> leftOut;
 };
 

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::array modes = {LodMode::off, LodMode::nearest, LodMode::fractional};
 constexpr std::uint32_t warmUpSamples = 2;
-constexpr std::uint32_t referenceFactor = 8;  // default number of reference samples / max measured number
+// Default number of reference samples divided by the largest measured number of samples.
+constexpr std::uint32_t referenceFactor = 8;
 
 struct Setting {
     const char* sweep;
@@ -212,7 +213,7 @@ SpeedupRow rowOf(const Setting& setting, const SpeedupSubject& subject, const Re
 }
 
 // Calls `visit` with the row of each variant. Variants whose levels depend on size alone or on blur alone have no row:
-// their results are added to the preceding row.
+// the preceding row contains their results.
 void visitRows(const std::deque<SpeedupSubject>& subjects, const Setting& setting, const ReferenceImage* reference,
                const std::function<void(const SpeedupRow&)>& visit) {
     for (std::size_t i = 0; i < subjects.size();) {

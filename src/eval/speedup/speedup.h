@@ -22,7 +22,7 @@
 
 namespace defocus::engine {
 
-// Settings of levels and lens samples, and a world whose pyramids are built with them.
+// Settings of levels and lens samples, and a world whose pyramids are built with these settings.
 struct SpeedupForm {
     std::string preset;              // name of the preset (settings of a publication); empty: none
     const World* world = nullptr;    // the worlds of all forms differ only in their pyramids
@@ -31,21 +31,21 @@ struct SpeedupForm {
 };
 
 struct SpeedupOptions {
-    std::vector<std::uint32_t> sampleCounts = {16, 32, 64, 128, 256, 512};  // measured with the view's own lens
+    std::vector<std::uint32_t> sampleCounts = {16, 32, 64, 128, 256, 512};  // to measure with the view's own lens
     std::vector<double> fStops;                                             // f-numbers to measure with `sweepSamples`
     std::vector<double> focusDistances;  // focus distances (m) to measure with `sweepSamples`
     std::uint32_t sweepSamples = 64;
-    std::vector<MethodUse> methods;  // methods to measure after accumulation, with the settings of the first form
+    std::vector<MethodUse> methods;  // methods to measure after accumulation, with the first SpeedupForm
     int runs = 5;                    // number of runs of each frame, ≥ 1
     int seeds = 5;                   // number of seeds, ≥ 1; run r uses the plan's seed + r % seeds
     // Lens samples of the converged reference for each lens (reference_image.h); 0: no reference. Default: eight times
-    // the largest number of samples measured with that lens, which takes about two thirds of the time of three runs of
-    // all modes.
+    // the largest number of samples measured with that lens. With this default, rendering the reference takes about two
+    // thirds of the time of three runs of all modes.
     std::optional<std::uint32_t> referenceSamples;
     RendererOptions renderer;
 };
 
-// Result with levels chosen for one cause alone, size or blur (LodCause).
+// Result with levels that depend on one cause alone: size or blur (LodCause).
 struct SpeedupPart {
     double milliseconds = 0;  // median wall-clock time of a frame
     double speedUp = 1;       // median time at full detail divided by `milliseconds`
@@ -63,11 +63,11 @@ struct SpeedupRow {
     LodMode mode = LodMode::off;
     int runs = 0;
     Spread milliseconds;             // wall-clock time of a frame
-    Spread gpuMilliseconds;          // time by timer queries, which miss the vertex work on software drivers
+    Spread gpuMilliseconds;          // GPU time from timer queries; with software drivers, excludes vertex work
     double setupMilliseconds = 0;    // set-up time of the renderer; not part of `milliseconds`
     double pyramidMilliseconds = 0;  // build time of the pyramids, if levels are used; not part of `milliseconds`
-    double speedUp = 1;              // median time of the settings at full detail divided by this row's median time
-    std::optional<SpeedupPart> sizeOnly, blurOnly;  // only set for accumulation with fractional levels
+    double speedUp = 1;  // median time of the same settings at full detail, divided by this row's median time
+    std::optional<SpeedupPart> sizeOnly, blurOnly;  // set only for accumulation with fractional levels
     std::uint64_t triangles = 0;
     std::uint64_t gpuBytes = 0;  // peak size of the renderer's resources
     Difference fromFullDetail;   // difference from full detail with the same lens samples, for the first seed

@@ -49,10 +49,10 @@ struct FrameOrder {
     StopSettings stop = {};
     std::optional<SampleRange> samples = {};         // draw only the partial sum of these samples; nullopt: all samples
     std::optional<std::vector<RowRange>> rows = {};  // draw only these rows, in tiles; nullopt: all rows
-    RowSink takeRows = {};                           // receives the rows of finished tiles; empty: image() has them
+    RowSink takeRows = {};                           // receives the rows of finished tiles; empty: image() returns them
     SampleSink takeSample = {};                      // receives each lens sample's image; if set, no mean is computed
     std::string untiledReason = {};                  // reason why tiles are forbidden; empty: tiles are allowed
-    bool shortDraws = false;                         // advance() draws few samples per call; implied by a time limit
+    bool shortDraws = false;  // true: advance() draws few samples per call; implied by a time limit
 };
 
 class FrameDriver {
@@ -129,7 +129,7 @@ private:
     DriverOptions options_;
     std::uint64_t limit_ = 0;  // maximum memory of the process, bytes
     bool crowded_ = false;
-    std::optional<Fit> fitted_;               // inputs for which bands_ and the number of samples per batch were chosen
+    std::optional<Fit> fitted_;               // inputs from which bands_ and the samples per batch were chosen
     std::optional<std::vector<Band>> bands_;  // each band is a row of tiles; nullopt: frames are drawn untiled
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<Drawing> drawing_;

@@ -40,8 +40,8 @@ struct ReferenceImage {
     bool reused = false;      // whether the image was read from a file
 };
 
-// Returns a remark for a row of an error table; empty if no remark is needed. `psnr`, `flip`: whether the error of the
-// row's image, by that measure, is below the error of the reference itself.
+// Returns a remark for a row of an error table; empty if no remark is needed. `psnr` and `flip` state whether the row's
+// error, measured by PSNR or FLIP, is below the error of the reference itself.
 std::string belowReferenceText(bool psnr, bool flip);
 
 // Renders a reference without storing it. Needs a current GL context. Throws Error if the number of samples is outside

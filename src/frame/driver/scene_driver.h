@@ -23,7 +23,7 @@ namespace defocus::engine {
 // Requests a separate image for each lens sample, from which images with another focus are computed later
 // (src/refocus).
 struct LensImageOrder {
-    FocusRange range;  // focus distances of the later pictures; see RenderSettings::refocus
+    FocusRange range;  // focus distances of the images computed later; see RenderSettings::refocus
     int margin = 0;    // width in px by which the images extend beyond the request's size on each side
     SampleSink take;
 };
@@ -72,7 +72,7 @@ public:
     // All functions below require a started frame.
     [[nodiscard]] FrameDriver& driver();
     [[nodiscard]] const FrameDriver& driver() const;
-    [[nodiscard]] Image image();  // throws Error before the first sample is drawn
+    [[nodiscard]] Image image();  // throws Error if no sample has been drawn
     [[nodiscard]] AovImages aovs();
     [[nodiscard]] std::optional<LayerImages> layerImages();  // nullopt without Request::layers
     [[nodiscard]] Image work();
@@ -91,12 +91,12 @@ private:
         explicit InContext(GlContext& context) { context.makeCurrent(); }
         CurrentContextKeeper callers;
     };
-    static constexpr std::size_t pyramidKinds = 4;  // kind 0: full detail only; others: 1 + LevelVertices
+    static constexpr std::size_t pyramidKinds = 4;  // kind 0: full detail only; kind 1 + n: LevelVertices n
 
     [[nodiscard]] std::shared_ptr<Scene> scaledScene(const Request& request) const;
     void handOnPyramids(PreparedFrame& next, std::size_t kind);
 
-    bool named_;  // true: the scene was loaded from the request; false: the caller passed the scene
+    bool named_;  // true: the request names the scene; false: the caller passed the scene
     std::filesystem::path shaderFolder_;
     Request first_, request_;
     std::shared_ptr<Scene> scene_;                                  // may be shared with other owners; never modified

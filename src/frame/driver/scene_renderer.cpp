@@ -58,7 +58,7 @@ Image SceneRenderer::render(const Progress& progress, std::stop_token stop) {
     return render(state_->firstRequest(), progress, std::move(stop));
 }
 
-// Draws at least one sample even after a stop request, because it must return an image.
+// Draws at least one sample even after a stop request, because the function must return an image.
 Image SceneRenderer::render(const Request& request, const Progress& progress, std::stop_token stop) {
     state_->start(request, {}, progress);
     engine::report(progress, "samples", 0, sampleTotal());

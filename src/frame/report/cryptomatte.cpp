@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t ranksPerPixel = 6;  // customary number of (id, coverage) pairs; an RGBA image holds two
+constexpr std::size_t ranksPerPixel = 6;  // customary number of (id, coverage) pairs; an RGBA image holds two pairs
 
 // Returns the hashed names (ids) of a pixel and their sample counts, sorted by count, then by id. Equal ids are merged.
 void ranksOf(const std::uint32_t* entries, int count, const std::vector<float>& ids,

@@ -16,7 +16,7 @@ namespace defocus::engine {
 float cryptomatteId(std::string_view name);
 
 struct Cryptomatte {
-    std::vector<Image> ranks;  // RGBA: id and coverage of two ranks per image
+    std::vector<Image> ranks;  // RGBA images, each with id and coverage of two ranks
     std::string manifest;      // JSON: name → id in hexadecimal digits
 };
 

@@ -12,15 +12,15 @@
 
 namespace defocus::engine {
 
-// Returns the channels of the picture and of its layers, named in the style `names` (of Nuke or Blender). Adds the
+// Returns the channels of the image `picture` and of its layers, named in the style `names` (Nuke or Blender). Adds the
 // metadata of Cryptomattes. Object indices refer to `pose`, material indices to `scene`.
 std::vector<NamedChannels> layerChannels(const ImageView& picture, const LayerImages& layers, const Scene& scene,
                                          const Pose& pose, ExrNames names, Metadata& metadata);
 
-// Returns whether a file with this name, by its extension, can hold layers.
+// Returns whether files with the extension of `path` can hold layers.
 bool holdsLayers(const std::filesystem::path& path);
 
-// Writes a picture like writeImage, with its layers if holdsLayers(path) is true and `layers` isn't null.
+// Writes an image as writeImage does, with its layers if holdsLayers(path) is true and `layers` isn't null.
 void writePicture(const std::filesystem::path& path, const ImageView& picture, const LayerImages* layers,
                   const Scene& scene, const Pose& pose, ExrNames names, Metadata metadata, const WriteOptions& options);
 

@@ -8,7 +8,7 @@
 
 namespace defocus::engine {
 
-// Returns a warning with a suggested exposure if an 8-bit picture of `image` (linear) would be mostly white or black:
+// Returns a warning with a suggested exposure if `image` (linear), converted to 8 bits, would be mostly white or black:
 // over 50 % of the covered pixels white, or over 95 % black although a longer exposure helps. Pixels with alpha 0 are
 // ignored.
 std::vector<std::string> clippingWarnings(const ImageView& image, const WriteOptions& write);

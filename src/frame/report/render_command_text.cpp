@@ -48,7 +48,8 @@ void placeCameraOf(const RenderCommandText& text, Request& request) {
     const glm::dvec3 position(camera[3]);
     request.cameraPosition = asArray(position);
     request.cameraTarget = asArray(position - text.pivotDistance * glm::dvec3(camera[2]));
-    const bool rolled = std::abs(camera[0].y) > 1e-9 || camera[1].y < 1e-6;  // rolled, or looking straight up or down
+    // The camera is rolled, or it looks straight up or down.
+    const bool rolled = std::abs(camera[0].y) > 1e-9 || camera[1].y < 1e-6;
     request.cameraUp.reset();
     if (rolled) request.cameraUp = asArray(camera[1]);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Writes `defocus` commands, to paste into a shell, that render a view or a recorded shot.
+// Writes `defocus` commands that render a view or a recorded shot, for pasting into a shell.
 
 #include <string>
 
@@ -9,8 +9,8 @@
 namespace defocus::engine {
 
 struct RenderCommandText {
-    const Request& options;      // scene, method, levels of detail and samples
-    const PreparedFrame& frame;  // frame placed with the camera that options.camera names
+    const Request& options;      // request that sets scene, method, levels of detail and samples
+    const PreparedFrame& frame;  // prepared frame with the camera that options.camera names
     const View& view;            // view to render
     double pivotDistance = 1;    // distance in m from the camera to its target, > 0
     WriteOptions write;
@@ -23,7 +23,7 @@ std::string renderCommand(const RenderCommandText& text);
 // Returns the `defocus capture` command for a recorded shot, with the options that shot files don't store.
 std::string captureCommand(const std::filesystem::path& shot, const Request& options);
 
-// Quotes a word for the shell: returned unchanged if it needs no quotes, else in single quotes.
+// Quotes a word for the shell. Returns the word unchanged if it needs no quotes, else in single quotes.
 std::string shellWord(const std::string& word);
 
 }  // namespace defocus::engine

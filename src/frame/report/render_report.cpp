@@ -67,7 +67,7 @@ void addSettings(Metadata& metadata, const Request& request) {
     }
 }
 
-// Returns the date for files in UTC, such as "2026-01-31T12:00:00Z": the current time, or SOURCE_DATE_EPOCH.
+// Returns the date to store in files, in UTC, such as "2026-01-31T12:00:00Z": the current time, or SOURCE_DATE_EPOCH.
 std::string dateNow() {
     return utcText(sourceDate().value_or(std::time(nullptr)), "%Y-%m-%dT%H:%M:%SZ");
 }

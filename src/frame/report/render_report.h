@@ -30,8 +30,8 @@ struct RenderReport {
 // with "defocus:".
 Metadata renderMetadata(const RenderReport& report);
 
-// Returns a JSON object. Key names state milliseconds and bytes; memoryLimit is also in bytes. largestBlur is a
-// diameter in pixels, null if unbounded. date is in UTC. peakBytes is the peak memory of the process.
+// Returns a JSON object. Key names contain the unit, milliseconds or bytes; memoryLimit is also in bytes. largestBlur
+// is a diameter in pixels, null if unbounded. date is in UTC. peakBytes is the peak memory of the process.
 std::string statsJson(const RenderReport& report);
 
 // Returns a text such as "error about 0.0047", or "error not estimated".

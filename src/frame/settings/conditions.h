@@ -13,9 +13,9 @@ using Condition = std::string (*)(const SettingContext&);
 
 // A comment beside a function states when it returns a reason; functions without a comment have names that say so.
 std::string methodWithoutSamples(const SettingContext& context);     // if the method draws no lens samples
-std::string methodWithoutPositions(const SettingContext& context);   // if a sample has at most one position
+std::string methodWithoutPositions(const SettingContext& context);   // if a sample has at most one pixel position
 std::string methodWithoutShapes(const SettingContext& context);      // if only round and oval apertures are supported
-std::string methodWithoutLensPoints(const SettingContext& context);  // if all colours and pixels share one lens
+std::string methodWithoutLensPoints(const SettingContext& context);  // if the lens can't vary by pixel or by colour
 std::string methodWithoutThreads(const SettingContext& context);     // if the method draws in one thread
 std::string methodWithoutMotion(const SettingContext& context);
 std::string withoutLayers(const SettingContext& context);

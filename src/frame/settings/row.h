@@ -119,7 +119,7 @@ struct IsOptional : std::false_type {};
 template <typename Value>
 struct IsOptional<std::optional<Value>> : std::true_type {};
 
-// Returns the value of a member as an optional; nullopt for an empty optional.
+// Returns a member's value as an optional. If the member itself is an optional, returns the member unchanged.
 template <typename Member>
 auto valueOf(const Request& request, Member member) {
     const auto& value = member(request);

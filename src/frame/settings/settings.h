@@ -50,13 +50,13 @@ struct Setting {
     double max = 0;
     std::vector<std::string> choices;  // allowed words; a number setting also accepts numbers
     std::string help;
-    bool everyday = false;              // shown by --help; --help-all shows all settings
+    bool everyday = false;              // true: listed by --help; false: only by --help-all
     std::string example;                // example value, for settings that have neither default nor choices
     std::vector<std::string> excludes;  // names of settings that cannot be given together with this one
     SettingEffect effect = SettingEffect::pixels;
     bool recorded = true;     // true: the setting is written to image metadata
-    bool repeated = false;    // the option may be given several times; all values are kept
-    bool lensField = false;   // field of lens/lens_fields.h, which a file's camera may also set
+    bool repeated = false;    // true: the option may be given several times; all values are kept
+    bool lensField = false;   // true: a field of lens/lens_fields.h, which a file's camera may also set
     std::string shotPlace;    // JSON pointer in a shot, "/animation/clip"; empty: not in shots
     bool keyed = false;       // true: a shot may animate the setting with keyframes
     std::string schema;       // JSON schema of the value; empty: derived from the kind
@@ -90,8 +90,8 @@ bool dependsOnScene(const Setting& setting);
 // UsageError for a bad value or an unknown name; the message suggests the nearest known name.
 void setByName(Request& request, std::string_view name, const std::string& text);
 
-// Returns the message of an error in a setting's value, with the setting's name in front unless the message begins with
-// it ("method circular has no settings …").
+// Returns the message of an error in a setting's value, with the setting's name in front, unless the message already
+// begins with the name ("method circular has no settings …").
 std::string namedError(std::string_view setting, std::string_view error);
 
 // Returns the text of the setting's value in a request; nullopt if the value is unset or the default.

@@ -57,8 +57,8 @@ void planeThrough(std::span<const glm::dvec3, 3> points, Lens& lens, const std::
 }
 
 // Fits a curved surface of focus to points (X, Y, −w) in view space by least squares: 1/w = 1/s + mx/s·X/w + my/s·Y/w +
-// κ/s·r². r is the distance from the image's centre in units of half the image width, κ the field curvature. A small
-// term on the diagonal of the normal equations sets undetermined unknowns to 0.
+// κ/s·r², with s, mx and my as in planeThrough. r is the distance from the image's centre in units of half the image
+// width, κ the field curvature. A small term on the diagonal of the normal equations sets undetermined unknowns to 0.
 void surfaceNear(std::span<const glm::dvec3> points, Lens& lens, const std::string& what) {
     constexpr double raised = 1e-12;  // added to the diagonal of the normal equations for each point
     const double tanX = tanHalfHorizontalFov(lens);

@@ -235,7 +235,7 @@ void setStrokes(const Request& request, Scene& scene) {
     const View& view = frame.view;
     const double pixel = 2 * tanHalfHorizontalFov(view.lens) / view.width;
     Request shown = request;
-    shown.hide.clear();  // a later request may show the nodes
+    shown.hide.clear();  // include hidden nodes, because a later request may show them
     scene = withStrokes(scene, exposedPose(shown, scene), {view.worldFromCamera, pixel, view.nearPlane});
 }
 

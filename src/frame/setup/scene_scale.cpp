@@ -24,9 +24,9 @@ bool physical(const Camera& camera) {
     return camera.physical || camera.lensValue("focusDistance") || camera.lensValue("focalLength");
 }
 
-// Returns the longer side of the rectangle, parallel to the image plane, that the image shows at the depth of the
-// surfaces near its centre, in scene units. The default camera shows the complete scene; for this camera, returns the
-// longest side of the scene's bounding box.
+// Returns, in scene units, the longer side of the area that the image shows at the depth of the surfaces near the
+// image's centre. For the default camera, which shows the complete scene, returns the longest side of the scene's
+// bounding box.
 double framedExtent(const Request& request, const Scene& scene, const Pose& pose, const PlacedCamera& placed) {
     if (placed.node < 0) {
         const glm::dvec3 size = pose.bounds.empty() ? glm::dvec3(0) : pose.bounds.size();

@@ -15,7 +15,7 @@ namespace defocus::engine {
 // Settings that are the same for all frames of a shot, or for all parts of a frame.
 struct FilmSettings {
     std::uint64_t world = 0;      // worldHash of meshes, materials, environment and shaders
-    Request request;              // provides the method, the layer format and other settings that affect pixels
+    Request request;              // request with the method, the layer format and other settings that affect pixels
     std::string encoding;         // how pixels are encoded, such as tone map and exposure; empty: linear EXR
     std::string lensImages = {};  // RefocusRun::text() of frames computed from lens images; else empty
 };

@@ -27,9 +27,9 @@ constexpr double minError = 1e-6;         // min blurred error of level 1
 // error of a smooth surface in focus by more than a fifth.
 constexpr double greyShare = 0.9;
 constexpr double minGreyContrast = 0.004;  // min contrast V on a grey background, relative to the mean radiance
-// Max ratio of the errors of consecutive levels. Halving the triangles of a smooth surface doubles its error, because
-// the error grows with the squared edge length. This limit is twice that ratio. It gives a lower bound on the error of
-// levels whose triangles are smaller than the cells of the measured image.
+// Max ratio of the errors of consecutive levels, twice the ratio for a smooth surface: halving its triangles doubles
+// its error, because the error grows with the squared edge length. A coarser level's error divided by this limit is a
+// lower bound for the error of a level whose triangles are smaller than the cells of the measured image.
 constexpr float maxUnseenGrowth = 4;
 
 // ---- averages over patches of an image ---------------------------------------------------------
@@ -119,8 +119,8 @@ struct Change {
     const glm::vec3* after;
 };
 
-// Multiplies the differences (after − before) of two pairs of rows with each other, and returns the sum of these
-// products over `count` cells and all channels. Values are clamped to `brightest` before the subtraction.
+// Returns the sum, over `count` cells and all channels, of the products of the differences (after − before) of `first`
+// and of `second`. Values are clamped to `brightest` before the subtraction.
 double sumOfProducts(const Change& first, const Change& second, int count, float brightest) {
     const auto end = 3 * static_cast<std::size_t>(count);
     const auto at = [&](const Change& change, std::size_t i, auto bounded) {

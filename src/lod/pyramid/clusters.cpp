@@ -21,7 +21,8 @@ namespace {
 constexpr float coneWeight = 0.75f;     // weight of orientation relative to distance in the cost of a triangle, 0 to 1
 constexpr float minTurn = 1e-3f;        // min cost factor for a difference in orientation
 constexpr std::size_t seedsAhead = 64;  // max unassigned triangles kept as candidates for a cluster's first triangle
-// Max number of triangles at one vertex that a cluster considers. Files may have millions of triangles at one vertex.
+// Max number of triangles per vertex that are considered when a cluster grows. Files may have millions of triangles at
+// one vertex.
 constexpr std::size_t maxNeighbours = 1024;
 
 struct Facet {
@@ -38,14 +39,14 @@ struct ClusterGrowth {
 
     const Numbered<TriangleCorner, LocalNumber>& corners;
     Buckets<LocalNumber, TriangleCorner> around;
-    // For each vertex with more than maxNeighbours corners: number of its first entries in `around` that are known to
-    // belong to assigned triangles.
+    // For each vertex with more than maxNeighbours corners, the number of leading entries in its list `around` whose
+    // triangles are known to be assigned.
     std::unordered_map<LocalNumber, std::size_t> firstOpen;
     Numbered<TriangleNumber, Facet> facets;
     float radius = 0;  // radius of a full cluster on a flat mesh with equal triangles
 
     Numbered<LocalNumber, std::uint32_t> open;         // per position, number of corners of unassigned triangles
-    Numbered<LocalNumber, ClusterNumber> lastCluster;  // per position, the last cluster that contains it
+    Numbered<LocalNumber, ClusterNumber> lastCluster;  // per position, the last cluster that contains the position
     Numbered<TriangleNumber, std::uint8_t> taken;
 
     // Number of triangles, sum of centres and sum of normals of the growing cluster.

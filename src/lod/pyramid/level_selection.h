@@ -46,8 +46,8 @@ LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, s
 double expectedSampleError(std::uint32_t sampleCount);
 
 // Level of an object whose circle of confusion is as large as its projected bounding box, for the metric
-// `proportional`. Jeong, Kim and Lee 2011 state no value. Of the values 10 · 2ⁿ, this is the largest for which the
-// levels raise the FLIP error of the built-in school of fish at 32 samples by at most 2 % (docs/reference.md).
+// `proportional`. Jeong, Kim and Lee 2011 state no value. The value is the largest 10 · 2ⁿ with levels that raise the
+// FLIP error of the built-in school of fish at 32 samples by at most 2 % (docs/reference.md).
 inline constexpr double proportionalLevels = 10;
 
 // Returns the thresholds of a metric for N = `sampleCount` lens samples.

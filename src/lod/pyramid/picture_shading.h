@@ -268,7 +268,7 @@ private:
     std::vector<Cell> cells_;
     std::array<std::vector<float>, 3> normal_;  // normals of the cells, one array per coordinate
     std::vector<float> agreement_;
-    std::vector<float> spread_, along_, towards_;  // per cell, members of SeenNormals
+    std::vector<float> spread_, along_, towards_;  // members of SeenNormals, one entry per cell
     std::vector<std::vector<float>> shares_;       // per light, the mean cosine of the angle of incidence at each cell
 };
 
