@@ -43,7 +43,7 @@ struct Cluster {
     float radius = 0;         // radius of the bounding sphere
     glm::vec3 axis{0, 0, 1};  // unit axis of a cone that contains the unit normals n of all triangles
     float minCosine = -1;     // min cosine of the angle between a normal n and the axis
-    float planes = 0;         // min of n·(p − centre) over the triangles, with p on the triangle's plane
+    float planes = 0;         // min over the triangles of n·(p − centre), for a point p on the triangle's plane
     // Smallest altitude of any triangle. Triangles with coinciding corners are ignored, because they draw nothing.
     float minAltitude = 0;
 };
@@ -154,7 +154,7 @@ private:
     std::vector<double> shares_;
     std::size_t finished_ = 0;
     double total_ = 0;    // number of triangles of all meshes, plus one per mesh
-    double reached_ = 0;  // finished fraction of the work, scaled to `total_`
+    double reached_ = 0;  // finished part of `total_`, in the same unit
 };
 
 // Returns the total number of triangles of the meshes.

@@ -63,7 +63,7 @@ public:
     Fit judge(HalfedgeHandle along);
 
 private:
-    std::vector<Handover> handovers_;  // selected by the last call of judge(); empty after the collapse
+    std::vector<Handover> handovers_;  // new wedges of corners, selected by judge(); empty after the collapse
     HalfedgeHandle judged_;            // half-edge whose collapse judge() evaluated last
 };
 
@@ -87,7 +87,7 @@ public:
     [[nodiscard]] Candidate cheapest(VertexHandle v);
 
 private:
-    std::vector<HalfedgeHandle> spokes_;  // half-edges of the vertex, used by cheapest()
+    std::vector<HalfedgeHandle> spokes_;  // temporary data of cheapest(): the vertex's half-edges
 };
 
 // The modules that evaluate each collapse and its cost, and that update wedges and quadrics after the collapse.
