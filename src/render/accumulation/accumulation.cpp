@@ -88,7 +88,7 @@ Image ofFirstPositions(Image drawn, int axis) {
     return result;
 }
 
-// Whether each sample's image is blurred by its lens cell, the part of the lens that the sample stands for, to fill
+// When each sample's image is blurred by its lens cell, the part of the lens that the sample represents. The blur fills
 // gaps between samples. `automatic` decides by the size of the blur in the frame (automatic_cells.h).
 enum class CellUse { never, always, automatic };
 

@@ -22,8 +22,8 @@ namespace defocus::engine {
 // colours also draws the data layers.
 class WaveDataLayers {
 public:
-    // `picture` holds the colours and depths of the batch (wave). `countsSamples`: the number of samples differs
-    // between pixels.
+    // `picture` holds the colours and depths of the batch (wave). `countsSamples`: true if the number of samples
+    // differs between pixels.
     WaveDataLayers(const std::vector<Layer>& layers, bool countsSamples, const WaveLayers& picture);
 
     // Clears the data layers and binds them together with the colours and depths.
