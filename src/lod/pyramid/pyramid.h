@@ -86,12 +86,12 @@ struct PyramidLevel {
     double meanEdge = 0;
     double longestEdge = 0;  // length of the longest edge, object units
 
-    // Distance between the surfaces of the level and of level 0, in object units: the larger of the 99th percentiles
-    // over the area in both directions. The percentile is estimated conservatively from 256 to 1,024 points per
-    // direction (surface_distance.h). With e[l] for the error of level l: e[0] = 0, and errors are raised where needed
-    // so that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding box's diagonal. If components were removed from the
-    // level, the error is at least their size and at least the distance from any of their points to the level. The
-    // error never exceeds the diagonal of the bounding box.
+    // Distance between the surfaces of the level and of level 0, in object units: the larger of the two 99th
+    // percentiles over the area, one per direction. The percentiles are estimated conservatively from 256 to 1,024
+    // points per direction (surface_distance.h). With e[l] for the error of level l: e[0] = 0, and errors are raised
+    // where needed so that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding box's diagonal. If components were
+    // removed from the level, the error is at least their size and at least the distance from any of their points to
+    // the level. The error never exceeds the diagonal of the bounding box.
     double error = 0;
 
     BlurTables blurredError{};  // errors after blurring (blurred_error.h); 0 for level 0
