@@ -17,7 +17,7 @@ namespace defocus::engine {
 
 namespace {
 
-// A lens cell's blur has σ = cellWidth/√N times the CoC diameter for N samples. A disk-shaped cell has σ = 1/4 of its
+// With N samples, a lens cell's blur has σ = cellWidth/√N times the CoC diameter. A disk-shaped cell has σ = 1/4 of its
 // diameter; the value here is 40 % larger to close the gaps between cells.
 constexpr double cellWidth = 0.35;
 constexpr std::uint32_t fewestSamples = 4;  // with fewer samples, the image of each sample stays unblurred
@@ -83,7 +83,7 @@ void rotate(std::vector<LensSample>& samples, double angle) {
 }
 
 // Moves each of `samples`, which begin at index 0 of the sequence, to the mean point of its lens cell, the region of
-// the lens that the sample represents. A cell is given by further points of the sequence, which are divided evenly
+// the lens that the sample represents. A cell consists of further points of the sequence, which are divided evenly
 // among nearby samples. The division runs along two axes, so the mean points form rows and columns. The axes are
 // rotated, so that adjacent columns interleave across a blurred vertical or horizontal edge.
 void moveToMeans(std::vector<LensSample>& samples, const FramePlan& plan) {
