@@ -12,7 +12,7 @@ namespace defocus::engine {
 // Returns one of `count` distances in m that are spaced evenly in 1/distance from `from` to `to`. `i`: index, from 0.
 double distanceAt(double from, double to, int i, int count);
 
-// Returns `count` focus distances over a range in m, evenly in 1/distance, the nearest first.
+// Returns `count` focus distances over a range in m, spaced evenly in 1/distance, the nearest first.
 std::vector<double> stackDistances(const FocusRange& range, int count);
 
 // Returns the depths in m of the surfaces that are visible from the lens's centre, +∞ where no surface writes depth.
