@@ -72,7 +72,7 @@ WaveShape chosenShape(const FramePlan& plan, const RendererOptions& options, con
     if (shape.threads <= 1) {
         shape.samples = power(std::min({layers, samples, longest, std::uint64_t{maxWave}}));
     } else {
-        // Four batches per thread.
+        // Number of samples per batch if each thread draws four batches.
         const std::uint64_t even = std::max<std::uint64_t>(1, samples / (4 * shape.threads));
         shape.samples = power(std::min({layers / shape.waves(), even, longest, std::uint64_t{maxSharedWave}}));
     }

@@ -78,7 +78,7 @@ private:
     };
 
     const Program& program(const char* fragment, ShaderDefines defines);
-    // Returns the output (slot) whose sum has the coverage; all slots except NUMBER_SLOT have the same alpha.
+    // Returns the output (slot) whose sum contains the coverage; all slots except NUMBER_SLOT have the same alpha.
     [[nodiscard]] const std::string& coverageSlot() const;
     void addSlot(const std::string& slot, const GlTexture& layers, const FrameUniforms& frame, std::uint32_t first,
                  std::uint32_t count);
