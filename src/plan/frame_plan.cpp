@@ -226,7 +226,7 @@ void arrange(std::vector<ObjectPlan>& values, std::vector<std::size_t> order) {
 
 // Adds the potentially visible objects to the plan, nearest first, so that near objects occlude farther objects early.
 // Returns the invisible objects if RenderSettings::keepAll is set, else none. If `all` isn't null, it receives all
-// objects in the order of the pose.
+// objects in the order of World::pose.
 std::vector<ObjectPlan> placeObjects(FramePlan& plan, const World& world, std::vector<ObjectPlan>* all) {
     const glm::dmat4 viewFromWorld = glm::inverse(plan.view.worldFromCamera);
     std::vector<ObjectPlan>& objects = plan.objects;

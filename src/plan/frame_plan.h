@@ -73,7 +73,7 @@ struct ObjectPlan {
     CocRange coc;               // CoC in px over the bounding box; `smallest` also covers RenderSettings::refocus
     CocDeviation cocDeviation;  // bounds in px of the error of interpolating the CoC inside the drawn triangles
     double projectedEdge = 0;   // projected mean edge length of level 0 at the nearest depth, px
-    double lambda = 0;          // fractional level λ
+    double lambda = 0;          // fractional level of detail λ
     LevelDraw coarse;           // samples [0, n) draw level ⌊λ⌋ + 1; no samples if λ is an integer
     LevelDraw fine;             // samples [n, N) draw level ⌊λ⌋
     // With LodMode::continuous, both levels share one sample, and this fraction of its pixels draws `coarse`. 0 if no
@@ -86,7 +86,7 @@ struct ObjectPlan {
     Refinement refinement = Refinement::none;
     // Max number of parts into which Refinement::subdivide divides an edge.
     std::uint32_t maxParts = maxEdgeParts;
-    bool cuts = false;       // true: refined triangles may reach the near plane, or the slope of C may jump inside them
+    bool cuts = false;       // true: refined triangles may reach the near plane, or contain a jump in the CoC's slope
     bool mirrored = false;   // true: the transform flips the winding of triangles
     bool blended = false;    // true: the object has alpha-blended primitives
     bool transmits = false;  // true: the object has transmissive primitives
@@ -159,8 +159,8 @@ struct FramePlan {
     std::vector<LeftOut> leftOut;
     std::vector<std::vector<bool>> levelsUsed;  // [mesh][level]: true if any object draws the level
     bool usesLens = true;                       // false: no blur reaches half a pixel, so samples only antialias edges
-    bool usesCocControls = false;  // true: for some object, the circle of confusion C at depth w differs from a + b·w
-    bool usesOwnBlur = false;      // true: an object or a vertex modifies the lens's blur
+    bool usesCocControls = false;               // true: some object's circle of confusion isn't a + b·w at depth w
+    bool usesOwnBlur = false;                   // true: an object or a vertex modifies the lens's blur
     bool usesTextures = false;
     bool usesBlending = false;   // true: some object is alpha-blended
     bool sortsBlending = false;  // true: some primitive is blended in order from back to front

@@ -1,12 +1,12 @@
 #pragma once
-// Fills the gaps that a picture shows if it is computed from few lens images (one image per lens sample): the sum of N
-// sharp images shows N separate copies of each blurred surface. Instead, each image represents a cell, the part of the
-// lens around its lens point. The image's pixels are blurred as a lens of the cell's size would blur them: σ = 0.5 · c
-// / √N px for a circle of confusion of c px (plan/lens_cells/lens_cells.h).
-// As in method multirate, pixels are sorted by σ into a few classes on each side of the focus plane, and the sum of
-// each class is blurred once. A pixel contributes to the two classes with the nearest variances. The classes are
-// composited from the farthest to the nearest, each weighted by the fraction of the samples that no nearer class
-// covers. A sharp outline thus stays sharp in front of a blurred background.
+// Fills the gaps that a refocused image shows if it is computed from few lens images (one image per lens sample): the
+// sum of N sharp images shows N separate copies of each blurred surface. Instead, each lens image represents a cell,
+// the part of the lens around its lens point. The image's pixels are blurred as a lens of the cell's size would blur
+// them: σ = 0.5 · c / √N px for a circle of confusion of c px (plan/lens_cells/lens_cells.h). As in method multirate,
+// pixels are sorted by σ into a few classes on each side of the focus plane, and the sum of each class is blurred once.
+// A pixel contributes to the two classes with the nearest variances. The classes are composited from the farthest to
+// the nearest, each weighted by the fraction of the samples that no nearer class covers. A sharp outline thus stays
+// sharp in front of a blurred background.
 
 #include <cstdint>
 #include <glm/vec2.hpp>

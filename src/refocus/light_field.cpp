@@ -51,7 +51,7 @@ double largestMove(const LightFieldInfo& info) {
     return std::max(std::abs(info.shift(info.range.nearest)), std::abs(info.shift(info.range.farthest)));
 }
 
-// Returns the margin in px that the images need, so that shifted images still cover the picture.
+// Returns the margin in px that lens images need so that they still cover the refocused image when they are shifted.
 int marginOf(const LightFieldInfo& info) {
     return static_cast<int>(std::ceil(std::min(largestMove(info), 1e6) + 0.5));  // 0.5 px for rounding in wholeMove
 }

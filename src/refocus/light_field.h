@@ -4,8 +4,8 @@
 // Rendering; Ng 2005, Fourier Slice Photography).
 //
 // A point (u, v) of the lens moves a vertex in clip space by C(w)·(u, k·v), and C(w) = a + b·w for a thin lens
-// (lens/circle_of_confusion.h). The focus distance s is only in b = (A/2)/(tan(θx/2)·s). Another focus distance s′ thus
-// moves the whole image of the lens point by
+// (lens/circle_of_confusion.h). The focus distance s appears only in b = (A/2)/(tan(θx/2)·s). Another focus distance s′
+// thus moves the whole image of the lens point by
 //   P · (1/s′ − 1/s) · (u, v) px,   P = A·W / (4·tan(θx/2)),
 // at every depth; u points right and v points up. A is the aperture's diameter in m, W the image's width in px, and θx
 // the horizontal field of view.
@@ -24,7 +24,7 @@
 namespace defocus::engine {
 
 struct LightFieldInfo {
-    PartSize size;                   // picture size, and width of the margin around it in each lens image, px
+    PartSize size;                   // size of refocused images, and width of each lens image's margin, px
     double focusDistance = 1;        // focus distance s of the rendered images, m
     double fStop = 1;                // f-number of the rendered aperture
     double pixelsPerDioptre = 0;     // shift P of the image of lens point (1, 1) per dioptre of focus, px
@@ -77,7 +77,7 @@ public:
     // Returns the depths in m of the image of lens point i, with its margin.
     [[nodiscard]] Image depth(std::size_t i) { return parts_.depth(i); }
     // Keeps colours in memory after the first read if all of them fit into half of the free memory. This saves time if
-    // several pictures are computed.
+    // several refocused images are computed.
     void keepImages();
     // Returns the index of the image whose lens point is nearest to the lens's centre.
     [[nodiscard]] std::size_t central() const;

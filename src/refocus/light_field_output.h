@@ -19,9 +19,9 @@ public:
     // Number of lens samples if the request gives none.
     static constexpr std::uint32_t defaultSamples = 64;
 
-    // `driver` must outlive the output. `range`: focus distances that pictures from the file may have, in addition to
-    // the request's focus distance; nullopt: from the nearest to the farthest visible surface. Throws UsageError unless
-    // 0 < nearest ≤ farthest.
+    // `driver` must outlive the output. `range`: focus distances that images computed from the file may have, in
+    // addition to the request's focus distance; nullopt: from the nearest to the farthest visible surface. Throws
+    // UsageError unless 0 < nearest ≤ farthest.
     LightFieldOutput(SceneDriver& driver, std::filesystem::path path, std::optional<FocusRange> range);
 
     // Throws UsageError unless the file's name ends with .exr.
@@ -31,7 +31,7 @@ public:
     static Request suited(Request request);
 
     // Begins the frame of the driver's request, which must come from suited(). Throws Error if the lens or the focus
-    // range is not suited (lightFieldInfo), and in the cases of SceneDriver::start.
+    // range is unsuitable (lightFieldInfo), or if SceneDriver::start throws it.
     void start(const Progress& progress = {});
     // Draws and writes the next image. Returns false once all images are written.
     bool advance();

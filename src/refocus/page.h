@@ -1,9 +1,10 @@
 #pragma once
-// Writes a web page in which a visitor refocuses the picture. The page is one HTML file that needs no network: lens
+// Writes a web page in which a visitor can refocus an image. The page is one HTML file that needs no network: lens
 // images (one image per lens sample) as WebP, and a WebGL 2 shader that moves and adds them (refocus.h).
 //
 // A radiance r is stored as log2(1 + k·r) / log2(1 + k·maximum) in 8 bits, so that lights far above white stay bright
-// when they are blurred. Each image is rounded with another dither offset, so that rounding errors cancel in the sum.
+// when they are blurred. Each image is rounded with a different dither offset, so that rounding errors cancel in the
+// sum.
 
 #include <cstddef>
 #include <filesystem>
@@ -15,8 +16,8 @@
 
 namespace defocus::engine {
 
-// Maximum number of images in a page. If there are more lens images, the page has the first ones, because every prefix
-// of the lens points is spread evenly over the lens.
+// Maximum number of images in a page. If there are more lens images, the page contains only the first of them, because
+// every prefix of the lens points is spread evenly over the lens.
 inline constexpr std::size_t maxPageImages = 64;
 // Maximum size in bytes of a page at 1024 × 768 px; pages of other sizes are limited in proportion. WebP's quality is
 // lowered until the page fits.

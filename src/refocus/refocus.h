@@ -1,12 +1,13 @@
 #pragma once
-// Computes pictures with another focus, f-number and aperture shape from lens images (one image per lens sample), by
-// shift and add (Levoy and Hanrahan 1996; Isaksen, McMillan and Gortler 2000, Dynamically Reparameterized Light
-// Fields).
+// Computes refocused images from lens images (one image per lens sample): images with another focus distance, f-number
+// and aperture shape. The method is shift and add (Levoy and Hanrahan 1996; Isaksen, McMillan and Gortler 2000,
+// Dynamically Reparameterized Light Fields).
 //
-// Each image is shifted by the distance in light_field.h. An image has one sample per pixel, at a known position in the
-// pixel. The shift moves this position; the sample's colour is added unchanged to the pixel that contains the shifted
-// position, so the image moves by whole pixels. A pixel of the picture is thus the mean of samples within it, one from
-// each image, as in a rendered picture. Interpolation would soften the picture, even with more images.
+// Each lens image is shifted by the distance in light_field.h. A lens image has one sample per pixel, at a known
+// position in the pixel. The shift moves this position; the sample's colour is added unchanged to the pixel that
+// contains the shifted position, so the lens image moves by whole pixels. A pixel of the refocused image is thus the
+// mean of samples within it, one from each lens image, as in a rendered image. Interpolation would soften the refocused
+// image, even with more lens images.
 //
 // A smaller aperture uses the images of the lens points within it. An aperture shape weights each image by the relative
 // amount of light that passes through the shape at the image's lens point.
@@ -34,24 +35,24 @@ Refocusing asRendered(const LightFieldInfo& info);
 struct ShiftedImage {
     std::size_t image = 0;  // index of the image in LightFieldInfo::points
     glm::ivec2 move{0};     // move in px, to the right and up
-    double weight = 1;      // weight of the image in the picture, > 0
+    double weight = 1;      // weight of the lens image, > 0
 };
 
 // Returns by how many whole px an image moves to the right and up if the image of lens point (1, 1) moves by `shift`
 // px. The rounding accounts for the sample's position within its pixel.
 glm::ivec2 wholeMove(const LightFieldInfo& info, std::size_t image, double shift);
 
-// Returns shift and weight of each image that contributes to the picture, in the order of LightFieldInfo::points.
-// Throws Error, with `name` in its message, if the focus distance or the f-number is outside the rendered range. Also
-// throws if the picture needs another shape or f-number although the rendered aperture was not a full disk, and if no
-// lens point lies within the aperture.
+// Returns the shift and the weight of each lens image that contributes to the refocused picture, in the order of
+// LightFieldInfo::points. Throws Error, with `name` in its message, if the focus distance or the f-number is outside
+// the rendered range. Also throws if the refocused picture needs another shape or f-number although the rendered
+// aperture was not a full disk, and if no lens point lies within the aperture.
 std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocusing& refocusing,
                                         const std::string& name);
 
 // Returns the refocused picture: linear, premultiplied RGBA. Throws Error if shiftedImages throws it or if the file is
 // damaged. Keeps only a few lens images in memory at a time.
 Image refocused(LightField& field, const Refocusing& refocusing, const Progress& progress = {});
-// Returns the picture without gap filling: the weighted mean of the shifted images.
+// Returns the refocused picture without gap filling: the weighted mean of the shifted images.
 Image sharpSum(LensImages& images, const Refocusing& refocusing, const Progress& progress = {});
 
 // Returns the diameter in px of the circle of confusion of a surface that is one dioptre out of focus.

@@ -10,13 +10,13 @@
 
 namespace defocus::engine {
 
-// Returns the aperture's shape in lens settings; nullopt if they give no shape. Throws UsageError, with the setting's
+// Returns the aperture shape that lens settings give; nullopt if they give none. Throws UsageError, with the setting's
 // name in its message, for a value that cannot be chosen after rendering or is out of range, and Error if the aperture
 // image cannot be read.
 std::optional<Lens> apertureShape(const LensSettings& settings);
 
 // Returns the focus and aperture that `settings` give; values that are not set are those of the rendered lens images.
-// Throws in the cases of apertureShape and focusAtPixel, and UsageError for a focus that is neither a distance nor a
+// Throws the errors of apertureShape and focusAtPixel, and UsageError for a focus that is neither a distance nor a
 // pixel.
 Refocusing refocusingOf(const RefocusSettings& settings, LightField& field);
 

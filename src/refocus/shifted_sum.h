@@ -9,7 +9,7 @@
 
 namespace defocus::engine {
 
-// An image, with the move and the weight with which it is added.
+// An image, and the displacement and the weight with which it is added.
 struct MovedImage {
     const HalfImage* image = nullptr;  // image with its margin
     glm::ivec2 move{0};                // move in px, to the right and up; each component at most the margin

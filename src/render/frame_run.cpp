@@ -124,8 +124,8 @@ void FrameRun::startBlock(bool first) {
     plan_ = std::move(plan);
 }
 
-// Draws one batch (wave) of lens samples. A driver only queues draws, so with a time limit this waits until the GPU has
-// drawn them. Otherwise the measured time would be too short.
+// Draws one batch (wave) of lens samples. With a time limit, waits until the GPU has drawn the batch, because drivers
+// only queue draws and the measured time would otherwise be too short.
 bool FrameRun::advanceRenderer() {
     const bool more = renderer_->advance();
     if (timed_) glFinish();

@@ -43,7 +43,7 @@ struct Cluster {
     float radius = 0;         // radius of the bounding sphere
     glm::vec3 axis{0, 0, 1};  // unit axis of a cone that contains the unit normals n of all triangles
     float minCosine = -1;     // min cosine of the angle between a normal n and the axis
-    float planes = 0;         // min of n·(p − centre) over the triangles, with p on the triangle's plane
+    float planes = 0;         // min over the triangles of n·(p − centre), for a point p on the triangle's plane
     // Smallest altitude of any triangle. Triangles with coinciding corners are ignored, because they draw nothing.
     float minAltitude = 0;
 };
@@ -86,12 +86,12 @@ struct PyramidLevel {
     double meanEdge = 0;
     double longestEdge = 0;  // length of the longest edge, object units
 
-    // Distance between the surfaces of the level and of level 0, in object units: the larger of the 99th percentiles
-    // over the area in both directions. The percentile is estimated conservatively from 256 to 1,024 points per
-    // direction (surface_distance.h). With e[l] for the error of level l: e[0] = 0, and errors are raised where needed
-    // so that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding box's diagonal. If components were removed from the
-    // level, the error is at least their size and at least the distance from any of their points to the level. The
-    // error never exceeds the diagonal of the bounding box.
+    // Distance between the surfaces of the level and of level 0, in object units: the larger of the two 99th
+    // percentiles over the area, one per direction. The percentiles are estimated conservatively from 256 to 1,024
+    // points per direction (surface_distance.h). With e[l] for the error of level l: e[0] = 0, and errors are raised
+    // where needed so that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding box's diagonal. If components were
+    // removed from the level, the error is at least their size and at least the distance from any of their points to
+    // the level. The error never exceeds the diagonal of the bounding box.
     double error = 0;
 
     BlurTables blurredError{};  // errors after blurring (blurred_error.h); 0 for level 0
@@ -154,7 +154,7 @@ private:
     std::vector<double> shares_;
     std::size_t finished_ = 0;
     double total_ = 0;    // number of triangles of all meshes, plus one per mesh
-    double reached_ = 0;  // finished fraction of the work, scaled to `total_`
+    double reached_ = 0;  // finished part of `total_`, in the same unit
 };
 
 // Returns the total number of triangles of the meshes.

@@ -149,8 +149,8 @@ Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t
     if (!std::isfinite(nearest.squaredDistance)) nearest.squaredDistance = infinity;
     const glm::vec3 place(p);
     const float slack = rounding * std::max({surface.extent, std::abs(place.x), std::abs(place.y), std::abs(place.z)});
-    // Returns the smallest squared distance so far, slightly enlarged because the boxes' squared distances are rounded,
-    // too.
+    // Returns the smallest squared distance so far, slightly enlarged to allow for rounding of the boxes' squared
+    // distances.
     const auto bound = [&] { return static_cast<float>(nearest.squaredDistance * (1 + 1e-6)); };
     float max = bound();
     stack[size++] = {0, 0};
@@ -186,7 +186,7 @@ glm::dvec3 pointOf(const Triangle& t, double u, double v) {
     return (1 - root) * glm::dvec3(t[0]) + root * (1 - v) * glm::dvec3(t[1]) + root * v * glm::dvec3(t[2]);
 }
 
-// Calls visit(point) for each of the points at which sampleDistances measures.
+// Calls visit(point) for each sample point of sampleDistances().
 template <typename Visit>
 void forEachSample(const Surface& surface, std::size_t count, const Visit& visit) {
     std::size_t triangle = 0;
@@ -249,7 +249,7 @@ std::vector<double> sampleDistances(const Surface& from, const Surface& to, std:
     if (to.empty()) return std::vector<double>(count, infinity);
     std::vector<double> distances;
     distances.reserve(count);
-    std::size_t nearest = 0;  // nearest triangle of the previous point, used as a first guess
+    std::size_t nearest = 0;  // triangle nearest to the previous point, used as a first guess
     forEachSample(from, count, [&](const glm::dvec3& point) {
         const Nearest found = nearestTriangle(to, point, nearest, 0);
         nearest = found.triangle;
@@ -261,8 +261,8 @@ std::vector<double> sampleDistances(const Surface& from, const Surface& to, std:
 double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double min) {
     if (from.empty() || rank == 0 || count < rank) return min;
     if (to.empty()) return infinity;
-    std::vector<double> largest(rank, min * min);  // squared distances, as a heap with the smallest on top
-    std::size_t nearest = 0;                       // nearest triangle of the previous point, used as a first guess
+    std::vector<double> largest(rank, min * min);  // largest squared distances, as a heap with the smallest on top
+    std::size_t nearest = 0;                       // triangle nearest to the previous point, used as a first guess
     forEachSample(from, count, [&](const glm::dvec3& point) {
         const Nearest found = nearestTriangle(to, point, nearest, largest.front());
         nearest = found.triangle;

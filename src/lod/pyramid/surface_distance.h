@@ -22,7 +22,7 @@ namespace defocus::engine {
 
 // Bounding boxes of the four children of a node of the bounding volume hierarchy.
 struct BoxNode {
-    Four minimum[3];  // one vector of four values each for x, y and z
+    Four minimum[3];  // x, y and z; each vector has one value per child
     Four maximum[3];
 };
 
@@ -54,9 +54,9 @@ double distanceTo(const Surface& surface, const glm::dvec3& point);
 // `from` is empty.
 std::vector<double> sampleDistances(const Surface& from, const Surface& to, std::size_t count);
 
-// Returns the `rank`-th largest (from 1) of the distances that sampleDistances returns, but at least `min`. Returns
-// `min` if there are fewer than `rank` distances. Faster than sampleDistances, because the search for a closest point
-// stops as soon as it cannot affect the result.
+// Returns the `rank`-th largest (counted from 1) of the distances that sampleDistances returns, but at least `min`.
+// Returns `min` if there are fewer than `rank` distances. Faster than sampleDistances, because the search for a closest
+// point stops as soon as it cannot affect the result.
 double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double min);
 
 struct Distances {

@@ -24,7 +24,7 @@ void sortSpatially(TriangleSet<MeshVertexNumber>& triangles);
 struct SurvivalOrder {
     Numbered<PyramidVertexNumber, MeshVertexNumber> vertices;  // vertices that at least one level uses
     Numbered<MeshVertexNumber, PyramidVertexNumber> numbers;   // inverse of `vertices`; invalid for unused vertices
-    std::vector<std::uint32_t> vertexCounts;                   // number of vertices in each level's prefix
+    std::vector<std::uint32_t> vertexCounts;                   // length of each level's prefix of the vertex buffer
 };
 
 // Sorts vertices by the coarsest level that uses their position, then by first use in that level. Vertices at the same

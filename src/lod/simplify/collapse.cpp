@@ -104,7 +104,7 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
     // The surviving vertex's wedge (attributes) in a face beside the collapsing edge. No seam separates this face from
     // the corner with the wedge `wedge`.
     WedgeNumber across;
-    WedgeNumber exact;     // like `across`, but without a crease in between
+    WedgeNumber exact;     // like `across`, but no crease separates the face from the corner either
     bool torn = false;     // a seam crosses the collapsing edge at the surviving vertex
     bool creased = false;  // a crease crosses the collapsing edge at the surviving vertex
     for (const EdgeSide& side : sides.both) {

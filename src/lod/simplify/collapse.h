@@ -52,8 +52,8 @@ public:
     // Assigns each corner of the removed vertex its new wedge, and adds the quadrics of the old wedges to the quadrics
     // of the new wedges.
     void preprocess_collapse(const CollapseInfo& collapse) override;
-    // Copies a wedge to another half-edge after the collapse: OpenMesh replaces a half-edge beside the removed face by
-    // a half-edge of that face.
+    // Copies a wedge to another half-edge after the collapse, because OpenMesh replaces a half-edge beside the removed
+    // face by a half-edge of that face.
     void postprocess_collapse(const CollapseInfo& collapse) override;
 
     // Selects a wedge of the surviving vertex for each remaining corner of the removed vertex, and returns the class of
@@ -63,7 +63,7 @@ public:
     Fit judge(HalfedgeHandle along);
 
 private:
-    std::vector<Handover> handovers_;  // selected by the last call of judge(); empty after the collapse
+    std::vector<Handover> handovers_;  // new wedges of corners, selected by judge(); empty after the collapse
     HalfedgeHandle judged_;            // half-edge whose collapse judge() evaluated last
 };
 
@@ -87,7 +87,7 @@ public:
     [[nodiscard]] Candidate cheapest(VertexHandle v);
 
 private:
-    std::vector<HalfedgeHandle> spokes_;  // half-edges of the vertex, used by cheapest()
+    std::vector<HalfedgeHandle> spokes_;  // temporary data of cheapest(): the vertex's half-edges
 };
 
 // The modules that evaluate each collapse and its cost, and that update wedges and quadrics after the collapse.

@@ -1,5 +1,5 @@
 // Removes small components of a mesh that collapses cannot simplify further. A component shares no vertex position with
-// the rest, like a stone of a heap or a leaf of a tree. Collapses reduce it at best to a tetrahedron or a triangle.
+// the rest, like a stone in a heap or a leaf on a tree. Collapses reduce it at best to a tetrahedron or a triangle.
 // Then complete components are removed, the smallest first. Their neighbours grow to preserve the visible area (Cook,
 // Halstead, Planck and Ryu 2007, Stochastic Simplification of Aggregate Detail).
 
@@ -22,8 +22,8 @@ namespace {
 constexpr double largestRatio = 1.2;  // max size ratio among components that are removed in random order
 // Max size of the neighbour that grows to replace a removed component, relative to that component.
 constexpr double maxEnlargement = 4;
-constexpr double manyShare = 0.25;        // fraction of faces above which manyAreSmallest() is true
-constexpr std::uint32_t fewestFaces = 4;  // min faces of a closed component: those of a tetrahedron
+constexpr double manyShare = 0.25;        // manyAreSmallest() is true above this fraction of the faces
+constexpr std::uint32_t fewestFaces = 4;  // min number of faces of a closed component: a tetrahedron
 
 // Disjoint sets of vertices (union-find).
 class Forest {
@@ -210,8 +210,7 @@ public:
     CentreTree& operator=(const CentreTree&) = delete;
 
     // Returns the component with the nearest centre for which counts(component) is true, or an invalid number. `point`
-    // is in object units. The search ends after maxVisits components, so that it finds none if too many nearer
-    // components fail the condition.
+    // is in object units. The search ends after maxVisits components, even if none of them meets the condition.
     template <typename Counts>
     [[nodiscard]] ComponentNumber nearest(const glm::dvec3& point, const Counts& counts) const {
         Search<Counts> search(centres_.numbers, counts);
@@ -292,7 +291,7 @@ void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangle
     if (!s.components.empty()) return;
     SurfaceMesh& mesh = *s.mesh;
     Forest forest = joinedVertices(s);
-    // For the root vertex of each tree in `forest`, the component's number.
+    // Component number of each tree in `forest`, stored at the tree's root vertex.
     Numbered<VertexHandle, ComponentNumber> numbers(mesh.n_vertices());
     forEachFace(mesh, [&](FaceHandle face) {
         ComponentNumber& number = numbers[forest.root(firstVertexOf(mesh, face))];

@@ -1,10 +1,9 @@
 #pragma once
 // Fits positions, normals, colours and texture coordinates of a coarser level to level 0, the full mesh. Copies of the
 // remaining vertices' attributes would alias: single spots of a pattern or single bumps of a relief would cover large
-// areas. If its vertices lay on a convex surface, the level would also be too small. Therefore, the linear
-// interpolation over the level is fitted to all vertices of level 0 by least squares. Hoppe et al. 1993, Mesh
-// Optimization, fit positions in this way. The solver is the Jacobi-preconditioned conjugate gradient method (Hestenes
-// and Stiefel 1952).
+// areas. A level whose vertices lie on a convex surface would also be too small. Therefore, the linear interpolation
+// over the level is fitted to all vertices of level 0 by least squares. Hoppe et al. 1993, Mesh Optimization, fit
+// positions in this way. The solver is the Jacobi-preconditioned conjugate gradient method (Hestenes and Stiefel 1952).
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -91,10 +90,10 @@ struct LevelFit {
 };
 
 // Fits the attributes of a level to level 0. Each mesh vertex is weighted by its area, projected onto the triangle that
-// contains its anchor. Level vertices without any anchor on their triangles keep their original values. No triangle
-// rotates by more than 60°, and all stay inside level 0's bounding box. Vertices at the same position stay together. To
-// prevent gaps and visible seams, vertices whose normals agree within one degree share a normal; if their colours are
-// equal, they also share a colour.
+// contains its anchor (point on the level). Level vertices without any anchor on their triangles keep their original
+// values. No triangle rotates by more than 60°, and all triangles stay inside level 0's bounding box. Vertices at the
+// same position stay together. To prevent gaps and visible seams, vertices whose normals agree within one degree share
+// a normal; if their colours are equal, they also share a colour.
 LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<MeshVertexNumber, Anchor> anchors);
 
 // Corrects a fitted level so that it preserves the properties of level 0 that remain visible after a wide blur:

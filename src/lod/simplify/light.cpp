@@ -123,7 +123,7 @@ struct GroupSlopes {
 // Returns the derivatives of meanCosine() under each light with respect to the point's normal. The derivative in the
 // direction of the normal is 0. `values` receives the values of meanCosine().
 GroupSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& values) {
-    constexpr float minRoot = 0.02f;  // bounds the derivative at grazing incidence if normals hardly diverge
+    constexpr float minRoot = 0.02f;  // min divisor; limits derivatives at grazing incidence if normals hardly diverge
     const glm::vec3& n = point.normal;
     const float half = 0.5f * point.agreement;
     const float spread = normalSpread(point.agreement);

@@ -13,8 +13,8 @@
 
 namespace defocus::engine {
 
-// Directions to the lights: unit vectors to the 26 neighbours in a 3 × 3 × 3 cube. Each vector of the second half is
-// opposite to one of the first half.
+// Directions to the lights: unit vectors from the centre cell of a 3 × 3 × 3 cube to the 26 other cells. Each vector of
+// the second half is opposite to one of the first half.
 inline constexpr std::size_t lightCount = 26;
 std::array<glm::dvec3, lightCount> directionsToLights();
 
@@ -22,10 +22,11 @@ std::array<glm::dvec3, lightCount> directionsToLights();
 // ignored. Colours are averaged over their three channels.
 using LightMeans = std::array<double, lightCount>;
 
-// Return the spread of a distribution of normals, and the mean clamped cosine between its normals and a light
-// direction, as the functions in shaders/include/shading.glsl do. `agreement`, in [0, 1], is the length of the mean of
-// the unit normals. `cosine` is the cosine between mean normal and light direction. `mean` is agreement · cosine if the
-// distribution is symmetric about the mean normal. The average of meanCosine() over all light directions is then 1/4.
+// normalSpread() returns the spread of a distribution of normals. meanCosine() returns the mean clamped cosine between
+// the normals and a light direction. Both match shaders/include/shading.glsl. `agreement`, in [0, 1], is the length of
+// the mean of the unit normals. `cosine` is the cosine between mean normal and light direction. `mean` is agreement ·
+// cosine if the distribution is symmetric about the mean normal. The average of meanCosine() over all light directions
+// is then 1/4.
 inline float normalSpread(float agreement) {
     const float lost = 1 - agreement;
     const float root = std::sqrt(lost);

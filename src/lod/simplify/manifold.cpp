@@ -57,8 +57,8 @@ Numbered<SurfaceFaceNumber, TriangleNumber> properFaces(const TriangleSet<Positi
                                                               return std::min({p[0], p[1], p[2]});
                                                           });
 
-    // Sort key of a face: equal faces have the same smallest position number, so that only faces with this number are
-    // compared.
+    // Sort key of a face. Only faces with the same smallest position number are compared, because equal faces share
+    // this number.
     struct Key {
         PositionNumber next, previous;  // the other two corners of the face, in winding order
         PrimitiveNumber primitive;
@@ -126,8 +126,8 @@ EdgeGroups groupEdges(const PairedSurface& surface) {
     return groups;
 }
 
-// Makes the orientation of faces consistent across edges of two faces; reverses the minority of faces in each connected
-// component. A Möbius band cannot be oriented consistently; it stays cut at one edge.
+// Makes the orientation of faces consistent across edges with two faces; reverses the minority of faces in each
+// connected component. A Möbius band cannot be oriented consistently; it stays cut at one edge.
 void orient(PairedSurface& surface, const EdgeGroups& groups) {
     Numbered<SurfaceCorner, SurfaceCorner> across(surface.at.size());
     for (std::size_t g = 0; g < groups.count(); ++g) {

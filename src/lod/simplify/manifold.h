@@ -3,7 +3,7 @@
 // surface. Every edge has at most one face on each side. The faces around a vertex form a single fan.
 //
 // Only two kinds of faces are removed. Degenerate faces have two corners at the same position. Duplicates repeat a face
-// of the same primitive exactly. Faces with a winding opposite to their neighbours are reversed. At an edge of more
+// of the same primitive exactly. Faces with a winding opposite to their neighbours are reversed. At an edge with more
 // than two faces, the best-matching pairs of faces stay connected; the edge is cut between these pairs. A vertex where
 // several fans of faces meet is split into one vertex per fan.
 
@@ -22,7 +22,7 @@ struct Repairs {
     std::uint32_t faces = 0;    // total number of repaired faces
     std::uint32_t dropped = 0;  // degenerate or duplicate faces; the only faces that are removed
     std::uint32_t turned = 0;   // faces reversed because their winding was opposite to their neighbours
-    std::uint32_t cut = 0;      // faces cut off at an edge of three or more faces, or of two faces of opposite winding
+    std::uint32_t cut = 0;      // faces cut off at an edge with three or more faces, or with two of opposite winding
     std::uint32_t split = 0;    // faces separated from others at a vertex where several fans meet
 };
 

@@ -58,7 +58,7 @@ template <typename Face>
 constexpr CornerNumber<Face> cornerAt(Face face, std::uint32_t i) {
     return {3 * face.value + i};
 }
-// Return the next or the previous corner of the same face.
+// nextCorner() and previousCorner() return the next and the previous corner of the same face.
 template <typename Face>
 constexpr Number<CornerOf<Face>> nextCorner(Number<CornerOf<Face>> corner) {
     return {corner.value % 3 == 2 ? corner.value - 2 : corner.value + 1};

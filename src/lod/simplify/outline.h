@@ -14,8 +14,8 @@
 
 namespace defocus::engine {
 
-// Directions of projection: unit vectors to half of the 26 neighbours in a 3 × 3 × 3 cube. The other half is redundant,
-// because a surface covers the same area from the opposite side.
+// Directions of projection: unit vectors from the centre cell of a 3 × 3 × 3 cube to half of the 26 other cells. The
+// other half is redundant, because a surface covers the same area from the opposite side.
 inline constexpr std::size_t outlineDirections = 13;
 std::array<glm::dvec3, outlineDirections> directionsOfOutlines();
 

@@ -7,8 +7,8 @@
 //
 // An attribute quadric is the squared difference between the attributes of a vertex and the linear interpolation of the
 // faces' attributes at the same position, weighted by face area (Hoppe 1999, New Quadric Metric for Simplifying Meshes
-// with Appearance Attributes). Attributes are relative to the attributes of the vertex that owns the quadric. `n` is
-// the number of attributes, so that memory is used only for attributes that the mesh has.
+// with Appearance Attributes). Attributes are relative to the attributes of the vertex that owns the quadric. The
+// number of attributes `n` is a template parameter, so that memory is used only for attributes that the mesh has.
 
 #include <algorithm>
 #include <array>

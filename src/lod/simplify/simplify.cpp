@@ -1,6 +1,6 @@
 // Simplifies a mesh by edge collapses (Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics).
-// Each vertex has a candidate: its cheapest collapse. A candidate is checked against the rules only just before its
-// collapse is performed. Meshes with many faces are swept in memory order, with an increasing limit for the cost of
+// Each vertex has a candidate: its cheapest collapse. Whether a candidate is allowed is tested only immediately before
+// its collapse is performed. Meshes with many faces are swept in memory order, with an increasing limit for the cost of
 // collapses. With fewer faces, a priority queue orders the collapses. Deleted elements are removed at each level.
 
 #include "lod/simplify/simplify.h"
@@ -233,13 +233,13 @@ bool sweepTo(Simplifier& s, std::size_t target) {
     return true;
 }
 
-// Returns whether `faces` exceeds `min` so little that a level with `min` faces would save less than a quarter.
+// Returns whether `faces` exceeds `min` by so little that a level with `min` faces would save less than a quarter.
 bool isJustAbove(std::size_t faces, std::size_t min) {
     return faces > min && largestShare * static_cast<double>(faces) < static_cast<double>(min);
 }
 
 // Returns the target number of faces of the next level: half of the current number. Returns `minTriangles` if half of
-// the number is below this minimum, or so little above that no further level fits in between.
+// the number is below this minimum, or so little above it that no further level fits in between.
 std::size_t nextTarget(const Simplifier& s, std::size_t minTriangles) {
     const std::size_t half = s.liveFaces / 2;
     return half <= minTriangles || isJustAbove(half, minTriangles) ? minTriangles : half;

@@ -40,8 +40,8 @@ double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// Returns true if all face normals are within 60° of the first face normal. Their mean is then long enough to keep the
-// wedge, for any weights by corner angle.
+// Returns true if all face normals are within 60° of the first face normal. The mean of the normals is then long enough
+// to keep the wedge, whatever the corner angles are.
 bool surelyAgree(std::span<const CornerNormal> corners) {
     const glm::dvec3& first = corners[0].normal;
     const double limit = minResultant * minResultant * glm::dot(first, first);
@@ -110,7 +110,7 @@ std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
     return static_cast<std::size_t>(border - corners.begin());
 }
 
-// Groups of face corners whose vertices share a normal; groups are numbered by first use.
+// Number of a group of face corners whose vertices share a normal; numbered by first use.
 using NormalGroup = Number<struct NormalGroupKind>;
 using CornersByNormal = Buckets<NormalGroup, TriangleCorner>;
 
@@ -132,7 +132,7 @@ CornersByNormal groupCorners(const Simplifier& s, const Corners& corners) {
 // chosen as the back. A mesh vertex that belongs to both sides is split.
 struct Creases {
     Numbered<TriangleCorner, MeshVertexNumber> drawn;
-    std::vector<MeshVertexNumber> behind;  // vertices of `drawn` whose corners are all on the back; sorted
+    std::vector<MeshVertexNumber> behind;  // vertices whose corners are all on the back of a thin plate; sorted
 };
 
 Creases creases(Simplifier& s, const Corners& corners) {
@@ -306,7 +306,7 @@ Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot&
     Numbered<MeshVertexNumber, Anchor> result(origin.firstVertex.size());
     const Numbered<VertexHandle, std::uint32_t> strides = anchorStrides(origin, level);
     Numbered<VertexHandle, std::uint32_t> waiting(strides.size(), 0);
-    Numbered<VertexHandle, MeshVertexNumber> lastOf(strides.size());  // last vertex with an anchor of its own
+    Numbered<VertexHandle, MeshVertexNumber> lastOf(strides.size());  // last vertex that got its own anchor
     for (const MeshVertexNumber own : result.numbers()) {
         const SurfaceVertexNumber v = origin.firstVertex[own];
         if (!v.isValid()) continue;

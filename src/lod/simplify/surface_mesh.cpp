@@ -6,7 +6,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Connects the half-edges without faces to loops along the borders. Each border vertex has exactly one outgoing
+// Connects the half-edges without faces into loops along the borders. Each border vertex has exactly one outgoing
 // half-edge without a face, because its faces form a single fan. This half-edge becomes the halfedge_handle of the
 // vertex.
 void linkBorders(SurfaceMesh& mesh) {

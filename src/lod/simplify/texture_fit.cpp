@@ -28,8 +28,8 @@ bool leavesChart(const glm::vec2& gap, const std::array<glm::vec2, 3>& corners) 
     return !(glm::dot(gap, gap) <= maxTextureGap * maxTextureGap * longest);
 }
 
-// Sums for the least-squares fit of texture coordinates, over displacements in texture space from the anchors (points
-// on the level) to the mesh vertices.
+// Sums of displacements in texture space from the anchors (points on the level) to the mesh vertices, for the
+// least-squares fit of texture coordinates.
 struct TextureSums {
     struct Vertex {
         double weight = 0;

@@ -8,7 +8,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr float minBlurRange = 1e-3f;  // min range of blur values over the mesh, in mm or as a factor
+constexpr float minBlurRange = 1e-3f;  // min range over the mesh of blur factors, and of added blur in mm
 constexpr double minQuality = 1e-3;    // twice the area / sum of squared edges; 0.29 for an equilateral triangle
 
 // Returns the attribute differences `to` − `from` between two wedges with n attributes each.

@@ -33,8 +33,8 @@ double blurredShareOf(const ObjectPlan& object, const FramePlan& plan, double mi
     return static_cast<double>(blurred) / depths;
 }
 
-// Returns the first and the last of `count` grid cells along an axis whose centres lie in [begin, end]; coordinates are
-// normalised device coordinates.
+// Returns the first and the last grid cell with a centre in [begin, end], out of `count` cells along an axis.
+// Coordinates are normalised device coordinates.
 std::array<int, 2> cellsIn(double begin, double end, int count) {
     const auto cell = [&](double ndc) { return (ndc + 1) / 2 * count - 0.5; };
     return {static_cast<int>(std::ceil(std::clamp(cell(begin), -0.5, count + 0.5))),

@@ -13,7 +13,7 @@ struct FramePlan;
 // Smallest CoC diameter at which gaps between lens samples become visible. With 64 samples, the neighbouring images of
 // a point are then 0.9 px apart.
 inline constexpr double minBlurOfCells = 8;  // px
-// Min fraction of the image whose CoC must reach minBlurOfCells, so that method "auto" uses lens cells.
+// Min fraction of the image whose CoC must reach minBlurOfCells for method "auto" to use lens cells.
 inline constexpr double minShareOfCells = 0.01;
 
 // Returns the fraction of the image, 0 … 1, in which the CoC diameter is at least `minCoc` px. The fraction is

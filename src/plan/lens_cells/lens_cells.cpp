@@ -17,13 +17,13 @@ namespace defocus::engine {
 
 namespace {
 
-// A lens cell's blur has σ = cellWidth/√N times the CoC diameter for N samples. A disk-shaped cell has σ = 1/4 of its
+// With N samples, a lens cell's blur has σ = cellWidth/√N times the CoC diameter. A disk-shaped cell has σ = 1/4 of its
 // diameter; the value here is 40 % larger to close the gaps between cells.
 constexpr double cellWidth = 0.35;
 constexpr std::uint32_t fewestSamples = 4;  // with fewer samples, the image of each sample stays unblurred
 constexpr std::uint32_t maxPointsOfCell = 16;
 constexpr std::uint32_t maxPoints = 1u << 14;  // max number of lens points, summed over all cells
-// Min number of cells into which all batches but the first divide the lens.
+// Min number of cells into which the lens is divided for all batches of samples but the first.
 constexpr std::uint32_t cellsOfBatches = maxPoints / maxPointsOfCell;
 
 // Mean and covariance of lens points, and the fraction of the unit disk that they cover. The default values describe a
@@ -83,7 +83,7 @@ void rotate(std::vector<LensSample>& samples, double angle) {
 }
 
 // Moves each of `samples`, which begin at index 0 of the sequence, to the mean point of its lens cell, the region of
-// the lens that the sample represents. A cell is given by further points of the sequence, which are divided evenly
+// the lens that the sample represents. A cell consists of further points of the sequence, which are divided evenly
 // among nearby samples. The division runs along two axes, so the mean points form rows and columns. The axes are
 // rotated, so that adjacent columns interleave across a blurred vertical or horizontal edge.
 void moveToMeans(std::vector<LensSample>& samples, const FramePlan& plan) {
@@ -168,8 +168,8 @@ LensCells lensCells(const FramePlan& plan) {
     cells.behind = classesFor(blur, behind);
     cells.blur = blur;
     cells.firstSample = plan.frameFirst;
-    // Later batches divide the lens once for all of them. With divisions of their own, their cells would have nearly
-    // the same centres, and many batches would show a light as the same few dots.
+    // All later batches share one division of the lens. If each batch had its own division, the cells of different
+    // batches would have nearly the same centres, and many batches would show a light as the same few dots.
     const std::uint32_t count =
         plan.frameFirst == 0 ? plan.frameSamples : std::max(cellsOfBatches, std::bit_ceil(plan.frameSamples));
     std::vector<LensSample> samples = lensSamples(plan.view.lens, plan.settings.sequence, 0, count, plan.settings.seed);

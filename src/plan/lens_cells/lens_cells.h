@@ -26,7 +26,7 @@ namespace defocus::engine {
 
 struct FramePlan;
 
-inline constexpr int maxCellClasses = 5;  // max number of variance classes on each side of the focus plane
+inline constexpr int maxCellClasses = 5;  // max number of classes of similar blur on each side of the focus plane
 // Returns the blur variance of class k ≥ 0, a group of pixels with similar blur, along an axis in px²: 4^k/3 + 1/6. The
 // image of a class consists of tent-weighted means over squares of 2^k px, interpolated linearly between their centres.
 double cellClassVariance(int k);
@@ -37,8 +37,8 @@ struct LensCells {
     std::uint32_t firstSample = 0;   // LensSample::index of the first cell's lens sample
     std::vector<glm::vec2> middles;  // centre of each cell, in the coordinates of LensSample::lens
     glm::dvec2 pixelShift{0};        // shift in px, added to LensSample::pixel so that the mean offset is 0
-    // Number of variance classes in front of and behind the focus plane. Both are 0 if the samples leave no visible
-    // gaps. Samples move to the cells' centres even then, to avoid popping.
+    // Number of classes of similar blur in front of and behind the focus plane. Both are 0 if the samples leave no
+    // visible gaps. Samples move to the cells' centres even then, to avoid popping.
     int inFront = 0;
     int behind = 0;
     std::string reason;  // why images are not blurred; empty if images are blurred

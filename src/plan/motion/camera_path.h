@@ -5,8 +5,8 @@
 
 namespace defocus::engine {
 
-// Returns the worldFromCamera of an upright camera at `position` that looks at `target`. If the camera looks straight
-// down, the top of the image points to −z; if straight up, to +z. Throws Error if both points coincide.
+// Returns the transform worldFromCamera of an upright camera at `position` that looks at `target`. If the camera looks
+// straight down, the top of the image points to −z; if straight up, to +z. Throws Error if both points coincide.
 glm::dmat4 lookingAt(const glm::dvec3& position, const glm::dvec3& target);
 
 // Returns the view with the camera moved `forward` metres along its view axis. The lens doesn't change.

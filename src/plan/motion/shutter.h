@@ -32,8 +32,8 @@ struct ShutterMoment {
 
 // Fills `opened` (World::shutter) and view.shutterCameras with the results of `momentAt`. The argument of `momentAt` is
 // a time in seconds relative to the frame's time. `opened` and the cameras stay empty if the exposure has no duration;
-// the cameras also stay empty if the camera doesn't move. With exact motion, the shutter times are the times of the
-// lens samples, which follow from `view` and `settings`.
+// the cameras also stay empty if the camera doesn't move. With ExactMotion, the shutter times are the times of the lens
+// samples, which follow from `view` and `settings`.
 void openShutter(const ShutterSettings& shutter, const RenderSettings& settings,
                  const std::function<ShutterMoment(double)>& momentAt, Shutter& opened, View& view);
 

@@ -14,7 +14,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t maxConvexTriangles = 1000;  // max triangles of a primitive that isConvex() tests
-constexpr std::size_t maxParts = 5000;            // max number of parts; limits the time for comparing pairs of parts
+constexpr std::size_t maxParts = 5000;            // max parts in a frame; limits the time for comparing pairs of parts
 constexpr double tolerance = 1e-4;                // allowance for rounded positions, relative to the primitive's size
 
 // An alpha-blended or transmissive primitive of an object.

@@ -4,10 +4,11 @@
 // noise, but it is correct only where surfaces have the same depth order for all lens points. Stochastic transparency
 // needs no order.
 //
-// A convex primitive is one part; of other primitives, each triangle is a part. A part may be drawn before another if a
+// A convex primitive is one part; in other primitives, each triangle is a part. A part may be drawn before another if a
 // plane separates it from the other part and the lens, because it then never hides the other part (Newell, Newell and
 // Sancha 1972, A Solution to the Hidden Surface Problem). If two parts have no order, because they cross or because the
-// lens sees both sides of their planes, one of them is drawn by stochastic transparency. So is one part of each cycle.
+// lens sees both sides of their planes, one of them is drawn by stochastic transparency. If parts form a cycle, one of
+// them is drawn in this way, too.
 
 #include <span>
 #include <vector>

@@ -25,7 +25,7 @@ public:
     };
     // Maps `point` ∈ [0, 1)² to a direction.
     [[nodiscard]] Choice at(const glm::dvec2& point) const;
-    // Returns the illuminance from the environment, averaged over all orientations of a surface. Colours are weighted
+    // Returns the illuminance from the environment, averaged over all orientations of a surface. Colours are converted
     // to luminance.
     [[nodiscard]] double meanIlluminance() const { return meanIlluminance_; }
     [[nodiscard]] bool empty() const { return rowSums_.empty() || !(rowSums_.back() > 0); }

@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the illuminance in lux on a surface that faces the light. The light's colour is weighted to luminance.
+// Returns the illuminance in lux on a surface that faces the light. The light's colour is converted to luminance.
 double illuminance(const PlacedLight& placed, const glm::dvec3& camera, const SeenPoint& seen) {
     const Light& light = placed.light;
     const double brightness = light.intensity * luminance(glm::dvec3(light.color));

@@ -14,9 +14,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int rayColumns = 16;  // columns of the grid of rays through the image; rayRows: rows
+constexpr int rayColumns = 16;  // number of columns of the grid of rays through the image
 constexpr int rayRows = 12;
-constexpr int rayDepths = 4;              // points on the part of a ray inside a bounding box
+constexpr int rayDepths = 4;              // number of points on the part of a ray inside a bounding box
 constexpr std::size_t maxCrossings = 16;  // max boxes along a ray; farther boxes are ignored
 
 // Part of a ray inside the bounding box of an object, with depths in m.

@@ -1,6 +1,7 @@
 #pragma once
-// Computes soft shadows with the lens samples of the blur (Haeberli and Akeley 1990). Each lens sample has a point on
-// every light and a shadow map rendered from that point. The mean over the samples contains the penumbrae.
+// Computes soft shadows with the same lens samples as the depth of field (Haeberli and Akeley 1990). Each lens sample
+// has a point on every light and a shadow map rendered from that point. The mean over the samples contains the
+// penumbrae.
 //
 // Lights are disks that face the receiver. A directional light has an angular diameter; other lights have a radius. The
 // surroundings (environment map) act as one more light if they light the scene. For them, each lens sample has a

@@ -21,7 +21,7 @@ constexpr double snapping = 1.0 / 128;      // max change in px of a triangle's 
 constexpr double transformation = 0x1p-21;  // max error of a single-precision position, relative to the summed terms
 constexpr double storage = 1e-6;            // relative error of a cluster's stored values
 constexpr double guardBand = 1.8;           // |NDC| beyond which triangles may be clipped
-constexpr int shutterParts = 4;         // parts of the time between two shutter times; each has its own motion bound
+constexpr int shutterParts = 4;         // number of intervals between two shutter times, each with its own motion bound
 constexpr std::size_t maxMoments = 64;  // max shutter times for culling; with more, all clusters are drawn
 constexpr double minSaving = 1.0 / 8;   // min culled fraction of a level's triangles; otherwise all are drawn
 constexpr std::uint32_t minGap = 128;   // min culled triangles between two ranges; fewer are drawn, not skipped
@@ -301,8 +301,8 @@ double thinLensReach(const ClipCircleOfConfusion& coc, const OwnBlur& own, doubl
 
 // Returns true if all corners lie outside one plane of the frustum. For the left plane, at image position −1, this
 // means x/tan(θx/2) + w + |C| < 0, with half a pixel added for the jitter. The circle of confusion of a thin lens,
-// |C(w)|, is convex, so the corners bound it. Otherwise |C|/w is at most `largest` px over the image's width. If a side
-// of `area` lies inside the image, one more pixel accounts for the rounding of vertex positions.
+// |C(w)|, is convex, so the corners bound it. For other lenses, |C|/w is at most `largest` divided by the image's width
+// in px. If a side of `area` lies inside the image, one more pixel accounts for the rounding of vertex positions.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,
                            const PixelRectangle& area) {
     const View& view = plan.view;

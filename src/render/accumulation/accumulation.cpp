@@ -72,7 +72,7 @@ WaveShape chosenShape(const FramePlan& plan, const RendererOptions& options, con
     if (shape.threads <= 1) {
         shape.samples = power(std::min({layers, samples, longest, std::uint64_t{maxWave}}));
     } else {
-        // Four batches per thread.
+        // Number of samples per batch if each thread draws four batches.
         const std::uint64_t even = std::max<std::uint64_t>(1, samples / (4 * shape.threads));
         shape.samples = power(std::min({layers / shape.waves(), even, longest, std::uint64_t{maxSharedWave}}));
     }
@@ -88,7 +88,7 @@ Image ofFirstPositions(Image drawn, int axis) {
     return result;
 }
 
-// Whether each sample's image is blurred by its lens cell, the part of the lens that the sample stands for, to fill
+// When each sample's image is blurred by its lens cell, the part of the lens that the sample represents. The blur fills
 // gaps between samples. `automatic` decides by the size of the blur in the frame (automatic_cells.h).
 enum class CellUse { never, always, automatic };
 

@@ -1,7 +1,7 @@
 #pragma once
 // Sums the pixels of a block of 64 samples separately by blur class, and returns the block's image with each class
-// blurred. The blur class of a pixel is the rounded size of its blur by the sample's lens cell, the part of the lens
-// that the sample stands for (plan/lens_cells/lens_cells.h).
+// blurred. A blur class is a group of pixels with similar blur by the sample's lens cell, the part of the lens that the
+// sample represents (plan/lens_cells/lens_cells.h).
 //
 // The classes are composited from the farthest to the nearest: behind the focus plane from more to less blur, then
 // sharp pixels, then in front of the focus plane from less to more blur. Each class is averaged only over the samples

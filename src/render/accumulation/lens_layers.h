@@ -22,8 +22,8 @@ namespace defocus::engine {
 // colours also draws the data layers.
 class WaveDataLayers {
 public:
-    // `picture` holds the colours and depths of the batch (wave). `countsSamples`: the number of samples differs
-    // between pixels.
+    // `picture` holds the colours and depths of the batch (wave). `countsSamples`: true if the number of samples
+    // differs between pixels.
     WaveDataLayers(const std::vector<Layer>& layers, bool countsSamples, const WaveLayers& picture);
 
     // Clears the data layers and binds them together with the colours and depths.
@@ -78,7 +78,7 @@ private:
     };
 
     const Program& program(const char* fragment, ShaderDefines defines);
-    // Returns the output (slot) whose sum has the coverage; all slots except NUMBER_SLOT have the same alpha.
+    // Returns the output (slot) whose sum contains the coverage; all slots except NUMBER_SLOT have the same alpha.
     [[nodiscard]] const std::string& coverageSlot() const;
     void addSlot(const std::string& slot, const GlTexture& layers, const FrameUniforms& frame, std::uint32_t first,
                  std::uint32_t count);

@@ -55,7 +55,6 @@ public:
     // Returns GPU times of the frame's passes. Waits for the GPU.
     [[nodiscard]] std::vector<PassTime> times();
     [[nodiscard]] std::size_t bytes() const;  // graphics memory in bytes; needs a prepared frame
-    // Sets the times of all passes to 0.
     void resetTimes();
 
 private:

@@ -5,7 +5,7 @@
 
 namespace defocus::engine {
 
-// WaveDrawer and the thread that owns its OpenGL context. Without a thread, tasks run immediately in the caller's
+// A WaveDrawer and the thread that owns its OpenGL context. Without a thread, tasks run immediately in the caller's
 // context.
 class WaveQueue::Lane {
 public:
@@ -57,8 +57,8 @@ WaveQueue::~WaveQueue() {
     stop();
 }
 
-// Ensures at least `threads` lanes (WaveDrawers), each with a thread and an OpenGL context of its own. Makes only one
-// lane, in the caller's context, if `threads` is 1 or contexts cannot share objects.
+// Creates lanes (WaveDrawers) until there are `threads` of them, each with a thread and an OpenGL context of its own.
+// Creates only one lane, in the caller's context, if `threads` is 1 or contexts cannot share objects.
 void WaveQueue::makeLanes(std::uint32_t threads) {
     const bool several = threads > 1;
     if (several != severalContexts_) lanes_.clear();
