@@ -14,7 +14,7 @@ constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 // Direction in which texture coordinate u grows on a triangle, and whether its texture appears mirrored.
 struct TextureFrame {
-    glm::dvec3 tangent{0.0};  // any length; zero if the texture coordinates have no area
+    glm::dvec3 tangent{0.0};  // any length; zero if the triangle has no area in texture coordinates
     bool mirrored = false;
 };
 
