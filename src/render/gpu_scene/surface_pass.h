@@ -156,7 +156,7 @@ private:
     std::map<std::string, Programs> programs_;  // all programs, keyed by the defines of their pass
     std::array<ShaderDefines, 2>
         passDefines_;  // defines of this frame; index 0: with a geometry shader that selects the layer; 1: without
-    std::array<Programs*, 2> passPrograms_{};  // programs compiled with passDefines_, at the same index
+    std::array<Programs*, 2> passPrograms_{};  // programs compiled with the defines at the same index of passDefines_
     Bound bound_;
     Program sky_;
     ShaderDefines skyDefines_;
