@@ -37,8 +37,8 @@ double cornerAngle(const Vertices& vertices, const std::uint32_t* triangle, std:
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// Assigns new indices to vertices in order of first use. A vertex of both mirrored and unmirrored triangles gets two
-// indices.
+// Assigns new indices to vertices in order of first use. A vertex that triangles with mirrored and unmirrored textures
+// share gets two indices.
 class MirrorSplit {
 public:
     explicit MirrorSplit(std::size_t count) : plain_(count, none), mirrored_(count, none) {}
