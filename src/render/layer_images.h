@@ -1,5 +1,5 @@
 #pragma once
-// Data layers of a frame (defocus/layers.h), as a renderer returns them.
+// Data layers of a frame, such as depth and motion vectors (defocus/layers.h), as a renderer returns them.
 
 #include <cstdint>
 #include <map>

@@ -18,8 +18,8 @@
 namespace defocus::engine {
 
 struct MethodSetting {
-    std::string name;                  // e.g. "far-components"; the command-line option is --far-components
-    std::string defaultValue;          // default value as text
+    std::string name;  // e.g. "far-components"; the command-line option is --far-components
+    std::string defaultValue;
     std::string description;           // help text
     std::vector<std::string> choices;  // allowed values; empty: a number in [min, max]
     double min = 0;

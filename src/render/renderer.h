@@ -1,5 +1,5 @@
 #pragma once
-// Common interface of all methods.
+// Common interface of the renderers of all methods.
 
 #include <cstdint>
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
-// Computes environment maps. Each map is scaled to an illuminance of π lux on an upward-facing horizontal surface, so
-// that a white diffuse surface with this orientation has radiance 1.
+// Computes the built-in environment maps. Each map is scaled to an illuminance of π lux on an upward-facing horizontal
+// surface, so that a white diffuse surface with this orientation has radiance 1.
 
 #include <span>
 #include <string>

@@ -293,7 +293,7 @@ Scene sceneFromData(const SceneData& data) {
     scene.name = data.name.empty() ? "scene" : shortLine(data.name);
     scene.ownMetresPerUnit = data.metresPerUnit;
 
-    // Add materials before meshes: meshes with normal-mapped materials need tangents.
+    // Add textures and materials before meshes: meshes with normal-mapped materials need tangents.
     each("texture", data.textures, [&](const auto& label, const auto& part) { addTexture(label, part, scene); });
     each("material", data.materials, [&](const auto& label, const auto& part) {
         scene.materials.push_back(materialOf(label, part, data.textures));

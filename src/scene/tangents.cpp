@@ -14,7 +14,7 @@ constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 // Direction in which texture coordinate u grows on a triangle, and whether its texture appears mirrored.
 struct TextureFrame {
-    glm::dvec3 tangent{0.0};  // any length; zero if the texture coordinates have no area
+    glm::dvec3 tangent{0.0};  // any length; zero if the triangle has no area in texture coordinates
     bool mirrored = false;
 };
 
@@ -37,8 +37,8 @@ double cornerAngle(const Vertices& vertices, const std::uint32_t* triangle, std:
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// Assigns new indices to vertices in order of first use. A vertex of both mirrored and unmirrored triangles gets two
-// indices.
+// Assigns new indices to vertices in order of first use. A vertex that triangles with mirrored and unmirrored textures
+// share gets two indices.
 class MirrorSplit {
 public:
     explicit MirrorSplit(std::size_t count) : plain_(count, none), mirrored_(count, none) {}

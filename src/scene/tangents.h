@@ -12,8 +12,9 @@
 namespace defocus::engine {
 
 // Returns `block` with tangents computed from its normals and texture coordinate set `uvSet` (0 or 1). Without texture
-// coordinates, tangents are arbitrary. A vertex shared by mirrored and unmirrored triangles is duplicated, and
-// `indices` are updated. As in glTF, the bitangent cross(normal, tangent) · w points up in the image, opposite to v.
+// coordinates, tangents are arbitrary. A vertex shared by triangles with mirrored and unmirrored texture coordinates is
+// duplicated, and `indices` are updated. As in glTF, the bitangent cross(normal, tangent) · w points up in the image,
+// opposite to v.
 VertexBlock withTangents(const VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices, int uvSet);
 
 }  // namespace defocus::engine

@@ -200,7 +200,7 @@ FinRows finRows(const Fin& fin, float edge) {
 void addFin(const Fin& fin, const FinRows& rows, const FishPattern& pattern, FishSurface& surface) {
     const auto first = static_cast<std::uint32_t>(surface.positions.size());
     std::vector<VertexRow> strips;
-    std::vector<glm::vec3> halves;  // per vertex, vector from the fin's middle to its front side
+    std::vector<glm::vec3> halves;  // per vertex: vector from the fin's middle surface to its front surface
     for (std::size_t row = 0; row < rows.at.size(); ++row) {
         const std::uint32_t count = rows.counts[row];
         strips.push_back({first + static_cast<std::uint32_t>(halves.size()), count, 0.0f});

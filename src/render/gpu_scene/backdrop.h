@@ -1,5 +1,6 @@
 #pragma once
-// Copies the background of a transmitting surface: the layers, just before the surface is drawn into them.
+// Keeps a copy of the layers, made just before a transmitting surface is drawn into them. The surface shows the copy as
+// its background.
 
 #include "gl/texture.h"
 

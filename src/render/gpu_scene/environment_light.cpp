@@ -10,9 +10,10 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the coefficients of a gradient with radiance L(y) = h + (z − h)·max(y, 0) + (n − h)·max(−y, 0), for zenith z,
-// horizon h and nadir n. In Legendre polynomials, max(y, 0) = 1/4 + y/2 + 5/16·P2(y) + …. Convolution with the clamped
-// cosine over π scales bands 0, 1 and 2 by 1, 2/3 and 1/4.
+// Returns the irradiance coefficients of a gradient with radiance L(y) = h + (z − h)·max(y, 0) + (n − h)·max(−y, 0) in
+// a direction with vertical component y. z, h and n are the radiances at zenith, horizon and nadir. In Legendre
+// polynomials, max(y, 0) = 1/4 + y/2 + 5/16·P2(y) + …. Convolution with the clamped cosine over π scales bands 0, 1 and
+// 2 by 1, 2/3 and 1/4.
 std::array<glm::vec4, 9> gradientCoefficients(const Environment& environment) {
     const glm::vec3 up = environment.zenith - environment.horizon;
     const glm::vec3 down = environment.nadir - environment.horizon;
@@ -35,8 +36,8 @@ std::array<double, 9> harmonics(const glm::dvec3& d) {
             0.546274 * (d.x * d.x - d.y * d.y)};
 }
 
-// Factors of the polynomials 1, y, z, x, xy, yz, 3z² − 1, xz, x² − y² in the spherical harmonics, multiplied by the
-// factor 1, 2/3 or 1/4 of the clamped cosine for their band.
+// Normalization factors of the spherical harmonics 1, y, z, x, xy, yz, 3z² − 1, xz, x² − y², each multiplied by the
+// clamped cosine's factor for its band (1, 2/3 or 1/4).
 constexpr std::array<double, 9> factors = {0.282095,         0.488603 * 2 / 3, 0.488603 * 2 / 3,
                                            0.488603 * 2 / 3, 1.092548 / 4,     1.092548 / 4,
                                            0.315392 / 4,     1.092548 / 4,     0.546274 / 4};

@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double unlimitedBlur = 1e9;  // in image widths; finite instead of infinite, so that its product with 0 is 0
+constexpr double unlimitedBlur = 1e9;  // in image widths; not infinite, because infinity times 0 is NaN
 constexpr std::size_t maxConstantLights = 4;
 
 // Limits of the uniform blocks in shaders/include/frame.glsl and lighting.glsl.
@@ -259,8 +259,9 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     waves_ = Buffer::of(std::span<const glm::vec4>(waves));
 }
 
-// Uploads SampleBlock of shaders/accumulation/layer_light.glsl for each block of samples: the colour weights of each
-// sample's wavelength and the wavelength's change of b (in the circle of confusion C = a + b·w), then lens points.
+// Uploads SampleBlock of shaders/accumulation/layer_light.glsl for each block of samples: per sample, the colour
+// weights of its wavelength and the wavelength's change of b in the circle of confusion C = a + b·w (depth w); then the
+// lens points.
 void FrameUniforms::uploadBands(const FramePlan& plan, const std::vector<float>& bandShifts) {
     bandShifts_ = Buffer();
     sampleBands_ = Buffer();

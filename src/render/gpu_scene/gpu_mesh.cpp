@@ -21,7 +21,7 @@ constexpr std::size_t sharedBytes = std::size_t{1} << 20;  // size in bytes at w
 // half the box's largest side.
 constexpr double farFromOrigin = 4;
 
-constexpr float rangeRounding = 1e-3f;  // tolerance when rounding outwards, in units of 1/255
+constexpr float rangeRounding = 1e-3f;  // tolerance when colour ranges are rounded outwards, in units of 1/255
 
 // Colours of level 0 are in [0, 1]; 16-bit fixed point is exact for files with 8 or 16 bits. Colours of coarser levels
 // are fitted and may lie outside [0, 1].

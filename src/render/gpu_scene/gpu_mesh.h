@@ -39,7 +39,7 @@ struct GpuMorphs {
     TexelBuffer texels;  // RGB32F; per target: displacements of positions, then normals, then tangents
     bool normals = false;
     bool tangents = false;
-    std::size_t vertexCount = 0;  // number of texels per attribute of a target
+    std::size_t vertexCount = 0;  // number of texels per attribute of a morph target
     [[nodiscard]] int attributesPerTarget() const { return 1 + (normals ? 1 : 0) + (tangents ? 1 : 0); }
     explicit operator bool() const { return static_cast<bool>(texels); }
 };

@@ -19,7 +19,7 @@ namespace defocus::engine {
 struct GpuMaterialTextures {
     std::array<const GlTexture*, materialTextureCount> slots{};
     auto operator<=>(const GpuMaterialTextures&) const = default;
-    // Returns the index, among the material's used textures, of the texture of a slot (an index into textureUses()).
+    // Returns the index of a slot's texture among the material's used textures. `slot` is an index into textureUses().
     [[nodiscard]] int unit(std::size_t slot) const;
     [[nodiscard]] int count() const { return unit(materialTextureCount); }
     // Binds the textures to the units that shaders/include/material_textures.glsl reads.
@@ -58,7 +58,8 @@ private:
     std::vector<GpuMesh> meshes_;  // one per mesh of the world, without levels until a frame uses the mesh
     std::map<std::tuple<int, bool, float>, GlTexture> textures_;  // textures, keyed by the arguments of texture()
     std::set<GpuMaterialTextures> textureSets_;                   // distinct values of texturesOf()
-    // Entry i: textures of material i − 1; entry 0: of the default material. Null if no frame has used the material.
+    // Entry i: textures of material i − 1; entry 0: textures of the default material. Null if no frame has used the
+    // material.
     std::vector<const GpuMaterialTextures*> materialTextures_;
 };
 

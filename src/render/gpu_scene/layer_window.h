@@ -21,7 +21,7 @@ struct LayerWindow {
     int imageBottom = 0;
     int imageWidth = 0;
     int imageHeight = 0;
-    // True if pixels outside the rectangle need not be drawn.
+    // True if pixels outside the summed rectangle need not be drawn.
     bool cut = false;
     bool operator==(const LayerWindow&) const = default;
 };

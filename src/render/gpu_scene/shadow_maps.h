@@ -16,8 +16,8 @@ public:
     ShadowMaps(const GpuScene& scene, SubmissionPacer& pacer, bool vertexShaderLayers,
                std::filesystem::path shaderFolder);
 
-    // Allocates the maps of `plan`, which may be without shadows. `frame` must hold the uniforms of `plan` and exist
-    // until the last draw().
+    // Allocates the maps of `plan`, which may have no shadows. `frame` must hold the uniforms of `plan` and exist until
+    // the last draw().
     void prepare(const FramePlan& plan, const FrameUniforms& frame);
     // Draws the maps of samples [first, first + count), which must be one batch (wave). Changes the render target.
     void draw(std::uint32_t first, std::uint32_t count);

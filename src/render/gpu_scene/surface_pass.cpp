@@ -22,7 +22,7 @@ struct SampleSpan {
     [[nodiscard]] std::uint32_t size() const { return empty() ? 0 : end - begin; }
 };
 
-// Returns the samples of [first, first + count) for which `drawn` is drawn.
+// Returns the intersection of samples [first, first + count) with the sample range of `drawn`.
 SampleSpan samplesOf(const auto& drawn, std::uint32_t first, std::uint32_t count) {
     return {std::max(first, drawn.firstSample), std::min(first + count, drawn.firstSample + drawn.sampleCount)};
 }
@@ -35,7 +35,7 @@ GLenum modeOf(Refinement refinement) {
     return refinement == Refinement::subdivide ? GL_PATCHES : GL_TRIANGLES;
 }
 
-// Draws the indices of the bound vertex array in `run`, with one instance per sample in `samples`.
+// Draws the index range `run` of the bound vertex array, with one instance per sample in `samples`.
 void drawIndices(GLenum mode, const IndexRun& run, const SampleSpan& samples) {
     // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL expects the offset as a pointer
     const auto* const offset = reinterpret_cast<const void*>(std::size_t{run.first} * sizeof(std::uint32_t));

@@ -50,9 +50,10 @@ public:
     // Returns the draws of drawOpaque, for Occlusion::prepare.
     [[nodiscard]] std::vector<OccludableDraw> opaqueDraws() const;
     // Draws the same image as drawOpaque, but skips hidden triangles if there are enough of them. `occlusion` must have
-    // been prepared with opaqueDraws(). Layer `layer` of `depths` is the depth buffer of sample `first`; the layers
-    // after it are those of the later samples. The batch (wave) with the first sample of a block of 64 sets `block`,
-    // the block's visible triangles; other batches wait until it is set. Returns the number of skipped triangles.
+    // been prepared with opaqueDraws(). Layer `layer` of `depths` is the depth buffer of sample `first`, and the next
+    // layers are the depth buffers of the next samples. The batch (wave) with the first sample of a block of 64 sets
+    // `block`, the classification of the block's triangles as visible or hidden; other batches wait for the
+    // classification. Returns the number of skipped triangles.
     std::uint64_t drawOpaqueVisible(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
                                     std::uint32_t layer, const Occlusion& occlusion, WaveVisibility& block);
     // Draws sorted alpha-blended and transmitting surfaces, in FramePlan::blendOrder. `colors` is the render
@@ -120,7 +121,7 @@ private:
         std::optional<std::size_t> materialSlot;
     };
 
-    // Programs with the same defines of the pass, keyed by the defines of the draws that use them.
+    // Programs that share the defines of their pass, keyed by the defines of their draws.
     using Programs = std::map<std::string, Program>;
 
     void uploadMaterials();
@@ -155,7 +156,7 @@ private:
     std::map<std::string, Programs> programs_;  // all programs, keyed by the defines of their pass
     std::array<ShaderDefines, 2>
         passDefines_;  // defines of this frame; index 0: with a geometry shader that selects the layer; 1: without
-    std::array<Programs*, 2> passPrograms_{};  // programs compiled with passDefines_, at the same index
+    std::array<Programs*, 2> passPrograms_{};  // programs compiled with the defines at the same index of passDefines_
     Bound bound_;
     Program sky_;
     ShaderDefines skyDefines_;

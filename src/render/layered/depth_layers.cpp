@@ -25,8 +25,8 @@ GlHandle<destroyQuery> newQuery() {
 }  // namespace
 
 // A position n in normalised device coordinates becomes n·(W, H)/(W', H') when the image size changes from W x H to W'
-// x H'. The coefficients of the circle of confusion (lens/circle_of_confusion.h) are scaled so that it does not change
-// in px.
+// x H'. The coefficients of the circle of confusion (lens/circle_of_confusion.h) are scaled so that the circle does not
+// change in px.
 FramePlan widened(const FramePlan& plan, int border) {
     FramePlan wide = plan;
     wide.tile.reset();

@@ -16,7 +16,8 @@
 namespace defocus::engine {
 
 // Returns `plan` for an image with `border` additional px at each edge. The inner pixels keep their content and their
-// circle of confusion in px. The result is for pinholes: all lens points are at the lens centre, and there is no tile.
+// circle of confusion in px. The result is a plan for pinhole images: all lens points are at the lens centre, and there
+// is no tile.
 FramePlan widened(const FramePlan& plan, int border);
 
 struct DepthLayersInfo {
@@ -50,7 +51,7 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    // Draws the nearest surfaces behind the depths in front_ into a layer. Returns whether any pixel was drawn.
+    // Draws into a layer the nearest surfaces behind the depths in front_. Returns whether any pixel was drawn.
     bool peelLayer(std::uint32_t index, std::uint32_t layer);
 
     DepthLayersInfo info_;

@@ -9,8 +9,8 @@ namespace defocus::engine {
 
 std::uint32_t partsOfEdges(const ObjectPlan& object, std::uint64_t triangles, double tolerance, double maxTriangles) {
     if (object.refinement == Refinement::none || triangles == 0) return 1;
-    // With n parts per edge, the deviation of the circle of confusion from linear falls as 1/n at a kink and as 1/n² on
-    // a curve.
+    // With n parts per edge, the deviation of the circle of confusion from a linear function falls as 1/n at a kink and
+    // as 1/n² on a curve.
     const double needed =
         std::max(object.cocDeviation.kinks / tolerance, std::sqrt(object.cocDeviation.curved / tolerance));
     const double most = std::min(double{maxEdgeParts}, std::sqrt(maxTriangles / static_cast<double>(triangles)));

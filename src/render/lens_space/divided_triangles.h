@@ -29,8 +29,8 @@ struct DividedRun {
 inline constexpr double maxSmallTriangles = 1'000'000;
 
 // Returns the number of parts n ≤ 64 into which each edge is divided, so that the circle of confusion deviates from
-// linear by at most `tolerance` px. n is smaller if the object's `triangles` triangles would otherwise become more than
-// `maxTriangles`.
+// linear by at most `tolerance` px. n is limited so that the object's `triangles` triangles become at most
+// `maxTriangles` small triangles.
 std::uint32_t partsOfEdges(const ObjectPlan& object, std::uint64_t triangles, double tolerance, double maxTriangles);
 
 class DividedTriangles {
@@ -41,8 +41,8 @@ public:
     void start(const ShaderDefines& defines);
     void add(const DividedRun& run) { runs_.push_back(run); }
     [[nodiscard]] bool empty() const { return runs_.empty(); }
-    // Writes the small triangles. The buffers of the undivided triangles, of the frame's triangles and, if lighting is
-    // computed per vertex, of the first triangle of each vertex must be bound at storage binding points 1, 2 and 3.
+    // Writes the small triangles. Needs buffers at storage binding points 1 (undivided triangles) and 2 (the frame's
+    // triangles), and with per-vertex lighting also at 3 (the first triangle of each vertex).
     void makeTriangles(const Buffer& bases) const;
     // Both functions write the vertices of the small triangles to the buffer that holds the vertices of the undivided
     // triangles: makeClips() their clip positions, makeAttributes() their attributes.

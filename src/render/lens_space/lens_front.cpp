@@ -14,7 +14,7 @@ constexpr std::size_t clipBytes = 4 * sizeof(float);
 constexpr std::size_t ownBlurBytes = 2 * sizeof(float);
 // Mesa's software driver ends the loops of a thread after a total of 65,535 iterations.
 constexpr std::uint32_t maxTilesAtOnce = 50'000;   // max tiles that a thread tests for one triangle
-constexpr std::uint32_t maxSortedAtOnce = 65'536;  // max list length that one dispatch sorts: 136 · 256 iterations
+constexpr std::uint32_t maxSortedAtOnce = 65'536;  // max list length per dispatch: 136 steps of 256 iterations
 constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // per vertex; see LightBlock of shade_vertices.comp
 constexpr std::size_t attributeBytes = 20 * sizeof(float);   // per vertex; output of shaders/lens_space/attributes.vert
 

@@ -26,7 +26,7 @@ struct ShadedGroup {
     [[nodiscard]] bool seeThrough() const { return alphaMode != AlphaMode::opaque; }
 };
 
-// Tiles [first, end) whose lists fit into one buffer. Tiles are numbered row by row from the lower left.
+// Tiles [first, end) whose triangle lists fit into one buffer. Tiles are numbered row by row from the lower left.
 struct TileBand {
     std::uint32_t first = 0;
     std::uint32_t end = 0;
@@ -65,7 +65,7 @@ public:
     // Computes the vertices and the list sizes for part `part` of the exposure, from shutter time number `part` to the
     // next one. If nothing moves, there is only part 0.
     void pose(std::uint32_t part);
-    // Fills the tiles' lists of a band and sorts them front to back, unless they are already filled.
+    // Fills the tiles' lists of a band and sorts them front to back, unless the lists are already filled.
     void fill(const TileBand& band);
     // Binds the buffers of vertices, triangles, draws and tile lists at the binding points in shaders/lens_space/.
     void bindTriangles() const;

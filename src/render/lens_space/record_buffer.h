@@ -1,5 +1,5 @@
 #pragma once
-// Creates storage buffers for the lens-space kernels, and holds the records (ray hits) of a batch of rays in a buffer
+// Creates storage buffers for the lens-space methods, and holds the records (ray hits) of a batch of rays in a buffer
 // that grows.
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
-// Shades the records (ray hits) of a batch (wave) of rays. Records are listed by ShadedGroup, and each group is shaded
-// with its material, like fragments in other methods. With per-vertex lighting (Tzeng et al. 2012), vertices are shaded
-// first, and their radiance is interpolated.
+// Shades the records (ray hits) of a batch (wave) of rays. Records are grouped by surfaces with the same program and
+// material (ShadedGroup), and each group is shaded like fragments in other methods. With per-vertex lighting (Tzeng et
+// al. 2012), vertices are shaded first, and their radiance is interpolated.
 
 #include <map>
 #include <string>

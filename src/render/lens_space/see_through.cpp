@@ -7,8 +7,9 @@ namespace defocus::engine {
 
 namespace {
 
-// Number of entries of a tile's list that an iteration of shaders/lens_space/behind.comp tests. Mesa's software driver
-// ends the loops of a thread after a total of 65,535 iterations.
+// Number of entries of a tile's list that one iteration of shaders/lens_space/behind.comp tests. Several entries per
+// iteration allow longer lists, because Mesa's software driver ends the loops of a thread after a total of 65,535
+// iterations.
 constexpr std::uint32_t entriesAtOnce = 8;
 constexpr std::uint32_t softwareIterations = 65'000;
 

@@ -1,6 +1,6 @@
 #pragma once
-// Lets rays of the lens-space methods pass through cut-out and alpha-blended surfaces. After the visibility kernel,
-// each ray that hits such a surface stops there or goes on, depending on alpha at the hit
+// Lets rays of the lens-space methods pass through cut-out and alpha-blended surfaces. After the visibility kernel has
+// found the hits, each ray that hits such a surface stops there or goes on, depending on alpha at the hit
 // (shaders/lens_space/let_through.comp). Rays that go on find their next hit (behind.comp), until all rays have
 // stopped.
 //

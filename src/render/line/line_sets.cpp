@@ -14,7 +14,7 @@ namespace {
 
 constexpr int angleSteps = 4096;  // size of the table of lightUpToAngles()
 
-// Returns the area of a narrow sector of this radius, up to a constant factor.
+// Returns the area of a narrow circular sector with this radius, up to a constant factor.
 double areaAt(double radius) {
     return radius * radius;
 }

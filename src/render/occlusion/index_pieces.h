@@ -1,6 +1,7 @@
 #pragma once
-// Divides the clusters of a level of detail into pieces for the occlusion test: a few neighbouring triangles with a
-// bounding box. Clusters have up to 64 triangles, and their larger boxes would often extend in front of occluders.
+// Divides the clusters of a level of detail into pieces for the occlusion test. A piece is a few neighbouring triangles
+// with a bounding box. Clusters have up to 64 triangles, and their larger boxes would often extend in front of
+// occluders.
 
 #include <cstdint>
 #include <glm/vec3.hpp>

@@ -1,6 +1,6 @@
 #pragma once
-// Projects an object-space bounding box for one lens sample: bounds of the pixels that it may cover, and of its depth.
-// The bounds are conservative and include the rounding of rasterizers.
+// Projects an object-space bounding box for one lens sample: computes bounds of the pixels that the box may cover, and
+// of the box's depth. The bounds are conservative and include the rounding of rasterizers.
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>

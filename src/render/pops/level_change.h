@@ -18,8 +18,8 @@ struct HeldPlan {
 // Returns the plan of `object`, an index into Pose::objects; null if the plan doesn't draw the object.
 const ObjectPlan* objectOf(const FramePlan& plan, int object);
 
-// Returns `plan` with the previous frame's levels and division of samples between levels, for objects that are in both
-// frames. Returns nullopt if nothing differs, or if the numbers of samples differ.
+// Returns `plan` with the levels of the previous frame's plan `before`, and with its division of samples between
+// levels, for objects that are in both plans. Returns nullopt if nothing differs, or if the numbers of samples differ.
 std::optional<HeldPlan> asBefore(const FramePlan& plan, const FramePlan& before);
 
 // Marks in FramePlan::levelsUsed the levels of detail that the plan's objects draw.

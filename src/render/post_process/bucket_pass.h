@@ -2,9 +2,9 @@
 // Draws a bucket (transparency_buckets.h) of alpha-blended objects as a separate pinhole image on a transparent
 // background (Garcia 2018).
 //
-// Pixels hidden by opaque surfaces are black with zero coverage and have the opaque depth. Pixels without a surface of
-// the bucket have zero coverage and a depth extrapolated from nearby surfaces of the bucket, so that the bucket's edges
-// are blurred like its surfaces.
+// Pixels hidden by opaque surfaces are black with zero coverage, at the depth of the opaque surface. Pixels without a
+// surface of the bucket have zero coverage and a depth extrapolated from nearby surfaces of the bucket, so that the
+// bucket's edges are blurred like its surfaces.
 
 #include "gl/fullscreen.h"
 #include "gl/target.h"

@@ -29,7 +29,7 @@ struct PinholeImage {
     GlTexture ownBlur;  // blur modifiers of surfaces: factor and offset; empty if no surface has blur controls
     // Rectangle outside which the blurred image is black with zero coverage and need not be drawn. nullopt: full image.
     std::optional<TexelRectangle> part;
-    const PinholeImage* multisampled = nullptr;  // the same image before its samples were averaged; null: none
+    const PinholeImage* multisampled = nullptr;  // this image before its samples were averaged; null: not multisampled
 };
 
 }  // namespace defocus::engine

@@ -39,8 +39,8 @@ public:
     [[nodiscard]] PinholeImage& image() { return image_; }
 
     [[nodiscard]] std::size_t buckets() const { return buckets_.size(); }
-    // Draws a bucket (blended objects of similar depth) of sample `index`, the sample of the latest draw(), on a
-    // transparent background, without the parts that surfaces in image() hide. Bucket 0 is the farthest.
+    // Draws a bucket (blended objects of similar depth) on a transparent background, without the parts that surfaces in
+    // image() hide. `index` must be the sample of the latest draw(). Bucket 0 is the farthest.
     [[nodiscard]] PinholeImage& drawBucket(std::uint32_t index, std::size_t bucket);
 
     [[nodiscard]] bool hasOwnBlur() const { return static_cast<bool>(image_.ownBlur); }

@@ -27,7 +27,7 @@ public:
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
-// Each function returns a setting that several post-process methods share.
+// Each of these functions returns a setting that several post-process methods share.
 MethodSetting pinholesSetting();
 MethodSetting transparencyBucketsSetting(const char* defaultValue);
 

@@ -89,7 +89,7 @@ TexelRectangle reachOf(const TransparencyBucket& bucket, const FramePlan& plan) 
         min = everywhere ? glm::dvec2(0) : glm::min(min, (box.ndcMin + 1.0) * 0.5 * size);
         max = everywhere ? size : glm::max(max, (box.ndcMax + 1.0) * 0.5 * size);
     }
-    // In front of the focus plane, a method may gather with the largest blur in the image.
+    // For surfaces in front of the focus plane, a method may gather with the largest foreground blur of all objects.
     for (const ObjectPlan& object : plan.objects) diameter = std::max(diameter, -object.coc.nearest);
     const double reach = margin + 0.5 * std::min(diameter, std::max(size.x, size.y));
     min = glm::clamp(glm::floor(min - reach), glm::dvec2(0), size);

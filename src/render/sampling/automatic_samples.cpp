@@ -13,11 +13,11 @@ namespace {
 
 // Max distance in px between a blurred point's images in neighbouring samples with four pixel positions each.
 constexpr double gapOfPositions = 1.25;
-constexpr double payingTriangles = 0.1;  // min triangles per pixel and sample at which four positions save time
+constexpr double payingTriangles = 0.1;  // min triangles per pixel and sample at which four pixel positions save time
 // Max side in px of images with four pixel positions per sample, whose layers are twice as wide and high.
 constexpr int maxDoubledSide = 4096;
 constexpr double maxDoubledPixels = 4 << 20;
-constexpr std::uint32_t minSpread = 64;  // min samples for smooth penumbrae and motion
+constexpr std::uint32_t minSpread = 64;  // min samples for smooth penumbrae and motion blur
 
 struct QualityLimits {
     double flip;        // target error, as FLIP

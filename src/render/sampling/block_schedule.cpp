@@ -22,8 +22,8 @@ constexpr double maxLevelPower = 1.4;
 // Sample count of the first error estimate, which needs two blocks.
 constexpr std::uint32_t firstEstimate = 2 * blockSamples;
 // An estimate from the halves of a block is too large by this factor. The first half draws more coarse levels than the
-// second half, and the lens cells of the first half are not centred on the lens. Measured: 1.3 (school of fish) and 2.0
-// (bokeh).
+// second half, and the lens cells of the first half (one part of the lens per sample) are not centred on the lens.
+// Measured: 1.3 (school of fish) and 2.0 (bokeh).
 constexpr double excessWithinBlock = 1.3;
 
 // Returns `samples` rounded up to complete blocks.
@@ -95,8 +95,8 @@ double BlockSchedule::thresholdSamples() const {
     return levels_->samplesFor(levelShare * *aim, expected);
 }
 
-// Returns the total error from a sampling error and the mean error of levels of detail so far. Both are assumed to be
-// independent.
+// Returns the total error for a sampling error, given the mean error of levels of detail so far. The two errors are
+// assumed to be independent.
 double BlockSchedule::withLevels(double sampleError) const {
     return std::hypot(sampleError, levelErrorSum_ / std::max(samples_, 1u));
 }

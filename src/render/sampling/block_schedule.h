@@ -1,6 +1,6 @@
 #pragma once
 // Schedules the blocks of a frame whose number of lens samples is not known in advance. After each block of 64 samples,
-// it decides whether another block follows and with which settings. The schedule holds no image and makes no OpenGL
+// the schedule decides whether another block follows and with which settings. It holds no image and makes no OpenGL
 // calls; still images and the window both use it.
 //
 // The error of levels of detail cannot be estimated from differences between blocks that draw the same levels. It is
@@ -21,7 +21,7 @@ namespace defocus::engine {
 const char* stopReasonText(StopReason reason);
 
 // RMSE of levels of detail, as in ErrorEstimate: the difference between images with levels and at full detail, for the
-// same few lens samples. The levels depend on a sample count through its default thresholds. The RMSE is modelled as a
+// same few lens samples. The levels depend on the default thresholds for a sample count. The RMSE is modelled as a
 // power law in that count, fitted to two measurements.
 struct LevelError {
     static constexpr std::uint32_t drawn = 16;    // lens samples drawn for each measurement
@@ -67,7 +67,8 @@ public:
     // Returns the predicted final sample count, which is refined after each block.
     [[nodiscard]] std::uint32_t expectedSamples() const;
     [[nodiscard]] std::optional<StopReason> stopped() const { return stopped_; }
-    // Returns whether an automatic number of samples is only predicted from the blur, without an error estimate yet.
+    // Returns whether the number of samples is automatic, but so far only predicted from the blur, without an error
+    // estimate.
     [[nodiscard]] bool unconfirmed() const { return targetFlip_ && !estimate_.flip(); }
     // Returns the latest error estimate, extrapolated to the current number of samples with lensSampleExponent. A
     // complete frame needs no extrapolation.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double maxPixelsSeen = 1 << 20;
 
-// Returns a hash of a tile's position, which selects one pixel of the tile. Random pixels avoid bias by regular
+// Returns a hash of a tile's position, which selects one pixel of the tile. Random pixels avoid bias from regular
 // patterns.
 std::uint32_t tileHash(std::uint32_t x, std::uint32_t y) {
     return fmix32(x * 0x9e3779b9u + y * 0x85ebca6bu + 1);

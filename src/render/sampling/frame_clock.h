@@ -1,6 +1,6 @@
 #pragma once
-// Measures the times of a frame for RenderStats: wall-clock times of setup and drawing, after waiting for the GPU, CPU
-// times of drawing, and GPU times between beginWave() and endWave().
+// Measures the times of a frame for RenderStats: wall-clock times of setup and drawing, each including the wait for the
+// GPU; CPU times of drawing; and GPU times between beginWave() and endWave().
 
 #include <chrono>
 

@@ -115,8 +115,8 @@ std::uint32_t threadsIn(std::uint64_t bytes, std::uint64_t layer, std::uint32_t 
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, 1 + bytes / 2 / (contextBytes + 2 * layer)));
 }
 
-// Returns a tile of one row at the top of the image's first cell (plan/visible/tiles.h). Drawing it allocates all
-// memory that a tile needs except for its pixels.
+// Returns a tile of one row at the top of the image's first cell (plan/visible/tiles.h). Drawing this tile allocates
+// all memory that any tile needs, except the memory of the tile's pixels.
 Tile trialTile(const FramePlan& plan) {
     const PixelRectangle frame{0, 0, plan.view.width, plan.view.height};
     const PixelRectangle cell = plan.usesTransmission ? frame : cellsOf(frame.width, frame.height).front();

@@ -30,10 +30,10 @@ std::uint32_t wantedThreads(const DrawLimits& limits, const Method& method);
 // of the memory still available within `limit` if this is less.
 std::uint64_t waveBytesWithin(std::uint64_t limit, std::uint32_t threads);
 
-// Returns how many of `wanted` threads fit into half of the memory that a frame of one thread leaves. The context and
-// layers of each further thread take memory.
+// Returns how many of `wanted` threads fit into half of the memory that a frame of one thread leaves free. The context
+// and layers of each further thread take memory.
 std::uint32_t threadsWithin(const TilingNeeds& needs, std::uint32_t wanted);
-// Returns the number of threads that fit, for a frame for which surelyFits() is true.
+// Returns the number of threads that fit. The frame must be one that surelyFits() accepts.
 std::uint32_t threadsWithin(int width, int height, std::uint64_t limit, std::uint32_t wanted);
 
 // Subtracts the memory of the contexts of `threads` threads from the available memory.
@@ -42,8 +42,9 @@ void reserveThreads(TilingNeeds& needs, std::uint32_t threads);
 // Returns RendererOptions::pendingBytes for a frame: the default, or a twelfth of `limit` if this is less.
 std::uint64_t pendingBytesWithin(std::uint64_t limit);
 
-// Returns the number of samples that are drawn together, each into its layer: TilingNeeds::askedWave, or as many as fit
-// together with sums and images into at most a quarter of the memory. `needs` is the result of needsBeforeUpload().
+// Returns the number of samples that are drawn together, each into its layer: TilingNeeds::askedWave, or as many as
+// fit. Layers take at most a quarter of the memory, and at most the memory that sums and images leave free. `needs` is
+// the result of needsBeforeUpload().
 std::uint32_t waveWithin(const TilingNeeds& needs);
 
 // Returns the needs of the full frame before its scene is uploaded. With software drivers, they include meshes and

@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 class TileWalk {
 public:
-    // Receives the pixels of a complete tile, in the tile's size.
+    // Receives the pixels of a complete tile; the image `pixels` has the tile's size.
     using Sink = std::function<void(const Tile& tile, Image&& pixels)>;
 
     // All arguments must outlive this object. `plan` is the plan of the full frame. The renderer's method must draw
@@ -44,7 +44,8 @@ private:
 // Copies a tile's pixels into `rows`, whose first row is row `firstRow` of the full image.
 void placeTile(Image& rows, int firstRow, const Tile& tile, const Image& pixels);
 
-// Adds the statistics of a tile to those of its frame: times and triangles are summed; the larger peak is kept.
+// Adds the statistics of a tile to those of its frame: times and triangles are summed; of the peak memory, the larger
+// value is kept.
 void addTileStats(RenderStats& sum, const RenderStats& added);
 
 }  // namespace defocus::engine

@@ -103,8 +103,8 @@ Tiling chosenTiling(const TilingNeeds& asked) {
     if (fitting < static_cast<std::uint64_t>(wanted)) failForMemory(asked, largest.width, tiling.wave * layer, wanted);
     const int rows = static_cast<int>(std::min<std::uint64_t>(fitting, static_cast<std::uint64_t>(needs.height)));
 
-    // Divide each row of cells (plan/visible/tiles.h) into bands of equal height, except for the last band, because a
-    // change of size reallocates layers and accumulation buffers.
+    // Divide each row of cells (plan/visible/tiles.h) into bands of equal height; only the last band may be lower. Each
+    // change of height reallocates layers and accumulation buffers.
     for (const PixelRectangle& cell : cells) {
         if (cell.left > 0) continue;
         const int first = std::max(cell.top, needs.rows.first);

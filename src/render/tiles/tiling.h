@@ -14,7 +14,7 @@ struct TilingNeeds {
     int width = 1;  // size of the image in px
     int height = 1;
     RowRange rows;                   // rows to draw
-    std::uint64_t layerPixel = 12;   // bytes per pixel of a layer: colour, depth and backdrop
+    std::uint64_t layerPixel = 12;   // bytes per pixel of a layer: colour, depth and copy for transmission
     std::uint64_t layerMaps = 0;     // bytes of shadow maps per layer
     std::uint64_t dataPixel = 0;     // bytes per pixel of the sums of data layers; the host needs as many again
     std::uint64_t waveBytes = 0;     // max bytes of all layers
@@ -43,7 +43,7 @@ struct Tiling {
 inline constexpr std::uint64_t sumPixelBytes = 9 * 16;
 inline constexpr std::uint64_t tilePixelBytes = 16;  // bytes per pixel of a tile read back to the host: RGBA floats
 inline constexpr std::uint64_t bandPixelBytes = 16;  // bytes per pixel of a band on the host: RGBA floats
-// Bytes per pixel on the host of an image without tiles: read back, encoded, and written.
+// Bytes per pixel on the host for an image without tiles: three copies (read back, encoded and written).
 inline constexpr std::uint64_t wholePixelBytes = 16 + 16 + 16;
 
 // Returns whether the full image fits into memory without tiles, with at least one layer; ignores `rows`.

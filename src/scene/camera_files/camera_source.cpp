@@ -25,7 +25,7 @@ std::string contentOf(const std::filesystem::path& path) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// Returns the camera of a glTF scene with the scene's first animation.
+// Returns the camera of a glTF scene, animated by the scene's first animation.
 CameraTrack gltfCamera(const CameraSource& source) {
     const auto scene = std::make_shared<Scene>(loadGltf(source.file));
     scene->metresPerUnit = scene->ownMetresPerUnit.value_or(1);

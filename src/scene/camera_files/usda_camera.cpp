@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double widestSensor = 1000;  // max sensor width in mm; a greater one means that the file's lengths are in mm
+constexpr double widestSensor = 1000;  // max sensor width in mm; a wider sensor means that the file stores mm
 constexpr double plainUnit = 0.01;     // default of the layer entry metersPerUnit; a tenth of this unit is 1 mm
 constexpr const char* lensPrefix = "defocus:";
 

@@ -233,8 +233,8 @@ Document readDocument(const std::filesystem::path& path) {
     document.file = path.string();
     document.folder = path.parent_path();
 
-    // A file is GLB if it has the magic number or the extension .glb. Error messages about a damaged .glb file can then
-    // mention the GLB header.
+    // A file is GLB if it has the magic number or the extension .glb. The extension alone suffices, so that error
+    // messages about a damaged .glb file can mention the GLB header.
     const std::vector<std::byte> bytes = readFile(path);
     document.fileBytes = bytes.size();
     if (bytes.empty()) fault(document, "the file is empty, so it is not valid JSON");

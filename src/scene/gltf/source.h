@@ -26,7 +26,7 @@ namespace defocus::engine::gltf {
 // accessors.
 class UnpackBudget {
 public:
-    // Raises the limit, because a file of `fileBytes` bytes is read. Call it once per file.
+    // Raises the limit for a file of `fileBytes` bytes. Must be called once per file that is read.
     void grant(std::uint64_t fileBytes);
     [[nodiscard]] std::uint64_t fileBytes() const { return fileBytes_; }  // total size of the files passed to grant()
     // Counts `count` elements of `elementBytes` each as used memory. Returns false, and counts nothing, if the total

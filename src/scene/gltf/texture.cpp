@@ -135,7 +135,6 @@ void convertGlossiness(Source& source, std::vector<Material>& materials, Texture
 }  // namespace
 
 Textures readTextures(Source& source, std::vector<Material>& materials, const Progress& progress) {
-    // Decode the images that materials use.
     const std::vector<bool> used = usedImages(source, materials);
     std::vector<ReadImage> read(used.size());
     for (std::size_t i = 0; i < used.size(); ++i)
@@ -159,7 +158,6 @@ Textures readTextures(Source& source, std::vector<Material>& materials, const Pr
         report(progress, "reading images", ++done, count);
     });
 
-    // Keep the decoded images.
     Textures result;
     std::vector<int> places(used.size(), -1);  // index into `result.images`
     for (std::size_t i = 0; i < used.size(); ++i) {
