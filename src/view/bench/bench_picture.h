@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 class BenchPicture {
 public:
-    // `document` and `state` must exist longer than this object.
+    // `document` and `state` must outlive this object.
     BenchPicture(Document& document, ViewState& state, bool software)
         : document_(document), state_(state), software_(software) {}
 

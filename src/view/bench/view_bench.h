@@ -21,7 +21,7 @@ struct ViewBenchOptions {
     std::uint32_t frames = 60;             // number of frames of the movement, an orbit of 1° per frame; ≥ 4
     double restSeconds = 10;               // max time to measure after the movement, s
     double convergedError = 0.005;         // estimated error at which the accumulated image counts as converged
-    std::uint32_t referenceSamples = 512;  // lens samples of a reference at full detail, 2 … maxSamples
+    std::uint32_t referenceSamples = 512;  // lens samples of a reference image, which has full detail; 2 … maxSamples
     std::filesystem::path shaderFolder;    // replacement shaders; empty: the embedded shaders
     bool software = false;                 // true: OpenGL runs on the CPU
 };

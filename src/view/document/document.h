@@ -37,7 +37,7 @@ View currentView(const Document& document, const ViewState& state);
 void noteEdit(Document& document, const ViewState& state, bool held);
 
 // Executes the actions that concern the document: opening, undo, saved views, cameras. `exporting`: whether a still
-// image is being exported, so the scene must not change. Throws Error if an action fails.
+// image is being exported; if so, the scene must not change. Throws Error if an action fails.
 void actOnDocument(Document& document, ViewState& state, const ViewActions& actions, bool exporting);
 
 // Applies all differences between the state's request and Document::shown: camera, aperture image, blur of nodes, time

@@ -36,9 +36,9 @@ public:
 
     [[nodiscard]] bool busy() const { return !jobs_.empty() && !jobs_.back()->cancelled; }
     struct Opening {
-        std::string name;   // name of the scene
+        std::string name;
         std::string stage;  // what is loaded or built, such as "fish" or "pyramids"
-        double share = 0;   // finished fraction of the stage, 0 … 1
+        double share = 0;   // finished fraction of the loading stage, 0 … 1
     };
     // Returns the progress of the current job; nullopt if the loader is idle.
     [[nodiscard]] std::optional<Opening> opening() const;

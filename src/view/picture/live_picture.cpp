@@ -34,8 +34,8 @@ std::optional<PictureSide> comparedSide(const ViewState& state, const PictureSid
     return std::nullopt;
 }
 
-// Returns the focus distance (m) during the popping test: from the nearest to the farthest object and back, evenly in
-// 1/distance.
+// Returns the focus distance (m) of the popping test at `seconds` after its start. The focus moves from the nearest to
+// the farthest object and back, as a cosine in 1/distance.
 double poppingFocus(const FramePlan& plan, double nearPlane, double seconds) {
     double nearest = 1e6;
     double farthest = 1e-3;

@@ -113,12 +113,12 @@ struct ViewState : ViewEdit, SceneState {
     PictureArea area;           // window area that shows the picture
     glm::ivec2 pictureSize{1};  // size of the picture, px
 
-    // State of camera and scene.
+    // State of the camera and the scene.
     Navigation navigation = Navigation::orbit;
     double animationSpeed = 1;
 
     // State of the picture.
-    DisplaySettings display;  // exposure and tone map are overwritten from `exposure` and `options`
+    DisplaySettings display;  // exposure and tone map are ignored: `exposure` and `options` determine them
     Comparison comparison = Comparison::none;
     std::string comparedMethod = "circular";
     FrameBudget budget;
@@ -191,7 +191,7 @@ void tiltFocus(ViewState& state);
 void frameSelection(const PreparedFrame& frame, ViewState& state);
 void frameScene(const PreparedFrame& frame, ViewState& state);
 
-inline constexpr double poppingDuration = 8;  // duration of the popping test, s
+inline constexpr double poppingDuration = 8;  // duration of the test for popping (visible switches of levels), s
 // Starts or stops the popping test: a focus pull from near to far and back, which shows fractional levels on the left
 // side and nearest levels on the right.
 void togglePoppingTest(ViewState& state);
