@@ -39,7 +39,7 @@ struct ViewBenchRow {
     double stillPsnr = 0;        // PSNR of the final image, dB
 };
 
-// Opens the scene of `state.options` and waits for its pyramids. Throws Error if it can't be opened.
+// Opens the scene of `state.options` and waits for its level-of-detail pyramids. Throws Error if it can't be opened.
 void openForBench(Document& document, ViewState& state);
 
 // Measures the methods on the document's scene at ViewState::pictureSize. Errors are measured on the image at the

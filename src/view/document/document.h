@@ -13,7 +13,7 @@ struct Document {
 
     SceneLoader loader;
     std::unique_ptr<PreparedFrame> frame;  // the scene, ready to draw; null: no scene is open
-    bool draft = false;                    // true: `frame` has draft pyramids; the final ones are being built
+    bool draft = false;                    // true: `frame` has draft level-of-detail pyramids, not the final ones
     EditHistory history;
     Request shown;                           // request that `frame` reflects; see updateWorld
     bool poseIsStale = false;                // true: the objects must be posed again even if the request is unchanged

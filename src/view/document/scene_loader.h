@@ -1,5 +1,5 @@
 #pragma once
-// Opens scenes and builds their pyramids on background threads.
+// Opens scenes and builds their level-of-detail pyramids on background threads.
 
 #include <atomic>
 #include <memory>
@@ -17,7 +17,7 @@ struct LoadedScene {
     Request options;
     std::unique_ptr<PreparedFrame> frame;  // null: the scene could not be opened
     std::string fault;                     // why the scene could not be opened
-    bool draft = false;                    // true: the pyramids are coarse drafts; the final pyramids follow
+    bool draft = false;                    // true: the level-of-detail pyramids are coarse drafts; final ones follow
 };
 
 class SceneLoader {

@@ -94,8 +94,8 @@ void makeImage(LivePicture& picture, const Document& document, const ViewState& 
     picture.worldVersion = document.worldVersion;
 }
 
-// Simplifies a request that can't be drawn: turns off comparison and popping test or, if neither is on, replaces the
-// method with accumulation. Returns false if the request is already as simple as possible.
+// Simplifies a request that can't be drawn: turns off the comparison and the popping test or, if neither is on,
+// replaces the method with accumulation. Returns false if the request is already as simple as possible.
 bool simplifyRequest(ViewState& state) {
     if (state.comparison != Comparison::none || state.poppingSince) {
         state.comparison = Comparison::none;

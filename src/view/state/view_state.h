@@ -196,7 +196,7 @@ inline constexpr double poppingDuration = 8;  // duration of the test for poppin
 // side and nearest levels on the right.
 void togglePoppingTest(ViewState& state);
 
-// Advances focus pull and animation by `seconds`, and ends the popping test after poppingDuration.
+// Advances the focus pull and the animation by `seconds`, and ends the popping test after poppingDuration.
 void advance(const Scene& scene, ViewState& state, double seconds);
 
 // Returns the --clip value of a clip of the scene: its name, or its index if the name is ambiguous.
