@@ -1,4 +1,5 @@
-// Tests that the errors that pyramids predict for their levels agree with the errors of rendered images.
+// Tests that the errors that level-of-detail pyramids predict for their levels agree with the errors of rendered
+// images.
 
 #include <gtest/gtest.h>
 
