@@ -1,6 +1,6 @@
 #pragma once
-// Measures the frame rate, latency and image error of the window without a display, while a camera moves along a fixed
-// path and then rests.
+// Measures the window's frame rate, latency and image error, without a display. The camera moves along a fixed path and
+// then rests.
 
 #include <cstdint>
 #include <filesystem>

@@ -56,7 +56,8 @@ private:
     };
     static void run(Job& job);
 
-    // The last job is the current one. Earlier jobs are cancelled, or still build the final pyramids of a draft.
+    // The last job is the current one. Earlier jobs are cancelled, or are still building the final pyramids that
+    // replace a draft.
     std::vector<std::unique_ptr<Job>> jobs_;
 };
 

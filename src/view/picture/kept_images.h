@@ -1,7 +1,7 @@
 #pragma once
-// Stores the image of each lens sample (lens image) of a view at rest. The window computes images with another focus
-// distance or a smaller aperture from these in one frame, by the mathematics of refocus/refocus.h. The levels of detail
-// of the lens images suit all focus distances of a range around the view's focus distance.
+// Stores the image of each lens sample (lens image) of a view at rest. From these images, the window computes images
+// with another focus distance or a smaller aperture in one frame, with the equations of refocus/refocus.h. The levels
+// of detail of the lens images suit all focus distances of a range around the view's focus distance.
 
 #include <cstdint>
 #include <filesystem>

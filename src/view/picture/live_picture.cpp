@@ -47,7 +47,7 @@ double poppingFocus(const FramePlan& plan, double nearPlane, double seconds) {
     return focusBetween(nearest, std::max(nearest, farthest), share);
 }
 
-// Returns the settings that affect the picture as one string, except the number of samples, the level mode and the
+// Returns, as one string, the settings that affect the picture, except the number of samples, the level mode and the
 // method.
 std::string pictureSettings(Request request) {
     const Request defaults;

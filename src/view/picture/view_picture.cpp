@@ -36,7 +36,8 @@ std::vector<double> imageKey(const PictureRequest& request) {
     return key;
 }
 
-// Returns the lens values that can change when a picture is computed from stored lens images instead of rendered.
+// Returns the lens values that can change without rendering, because the picture is then computed from stored lens
+// images.
 std::vector<double> focusKey(const Lens& lens) {
     return {lens.focusDistance, lens.fStop};
 }
@@ -331,7 +332,7 @@ void ViewPicture::present(const PictureRequest& request) {
     }
     displayTimer_.reset();
     displayTimer_.begin();
-    // Draw frames of a moving view at their own resolution, because the display pass is slow on a CPU. The window
+    // Draw frames of a moving view at their reduced resolution, because the display pass is slow on a CPU. The window
     // enlarges the result.
     const TextureInfo& image = inputs.first->info();
     const bool fullSize = growing_ || display.wireframe;
