@@ -1,6 +1,6 @@
 #pragma once
-// Computes reference aperture shapes and their light distributions from the definitions. Tests compare aperture maps,
-// the rasterizer and the ray tracer with these references.
+// Computes reference aperture shapes and their light distributions from the definitions of the lens values. Tests
+// compare aperture maps, the rasterizer and the ray tracer with these references.
 
 #include <algorithm>
 #include <cmath>

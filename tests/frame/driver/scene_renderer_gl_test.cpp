@@ -56,7 +56,7 @@ TEST_F(SceneRendererTest, otherMethodsHaveOnePosition) {
     }
 }
 
-// Each frame of one renderer equals the image of a new renderer.
+// Each of several frames that one renderer draws equals the image of a new renderer.
 TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
     std::vector<Request> requests(11, smallRequest());
     requests[1] = movedRequest();
