@@ -139,7 +139,7 @@ struct ViewState : ViewEdit, SceneState {
     std::string openPath, viewName, environmentPath, aperturePath;
     bool environmentIsFile = false;  // true: the field for an environment file is shown
     std::string exportPath = "still.png";
-    std::optional<glm::ivec2> exportSize;  // size of a still, px; nullopt: pictureSize
+    std::optional<glm::ivec2> exportSize;  // size of the exported still image, px; nullopt: pictureSize
     std::optional<ExportDialog> exportDialog;
     std::string shotPath = "shot.json";
 };
