@@ -106,7 +106,7 @@ inline Environment blackBackground() {
 // of all pixel values is `energy`.
 template <typename Light>
 Image expectedBokeh(const View& view, double depth, double square, double energy, const Light& light) {
-    constexpr int size = 400;  // number of grid points along each side of the lens
+    constexpr int size = 400;  // number of grid points across the lens, along each axis
     const double radius = blurDiameter(view, depth) / 2;
     Image image(view.width, view.height, 1);
     double all = 0;

@@ -18,7 +18,8 @@ struct FinRay {
 
 struct Fin {
     FinKind kind = FinKind::dorsal;
-    std::function<FinRay(float t)> ray;    // returns the fin ray at t in [0, 1], from the first to the last
+    // Returns the fin ray at the position t across the fin: 0 is the first ray, 1 the last.
+    std::function<FinRay(float t)> ray;
     glm::vec3 sideways{0.0f, 0.0f, 1.0f};  // unit direction in which the fin ripples
     float ripple = 0.02f;
     float phase = 0.0f;

@@ -22,7 +22,8 @@ namespace {
 constexpr int maximumFish = 10'000;
 constexpr int minimumTriangles = 200;
 constexpr int maximumTriangles = 10'000'000;
-constexpr std::int64_t maximumTotal = 400'000'000;  // max triangles of a school, about 10 GB of memory
+// Max number of triangles of a school; they take about 10 GB of memory.
+constexpr std::int64_t maximumTotal = 400'000'000;
 
 // Camera: 50 mm lens at f/0.95 on a 36 mm wide sensor, focused at 2 m. The CoC diameter in an image 1024 px wide is
 // 74.9 px · |1/2 − 1/z| for a depth of z m. It is 37 px at 1 m, under 2 px from 1.90 to 2.11 m, and at most 37 px
@@ -32,7 +33,7 @@ constexpr double fStop = 0.95;
 constexpr double focusDistance = 2.0;
 constexpr double tanHalfWidth = 0.36;   // 36 mm / (2 · 50 mm)
 constexpr double tanHalfHeight = 0.27;  // at an aspect ratio of 4:3
-constexpr double cameraTilt = 0.28;     // radians upwards, so that the bright water surface is the background
+constexpr double cameraTilt = 0.28;     // upward tilt in radians, so that the bright water surface is the background
 
 struct Placement {
     FishSpecies species;
@@ -192,12 +193,10 @@ Scene fishSchool(const FishSchoolOptions& options, const Progress& progress) {
     checkOptions(options);
     const auto count = static_cast<std::size_t>(options.fishCount);
 
-    // Determine the positions of the fish.
     std::vector<Placement> school(
         composition.begin(), composition.begin() + static_cast<std::ptrdiff_t>(std::min(count, composition.size())));
     if (count > school.size()) scatter(count, options.seed, school);
 
-    // Create one mesh per fish.
     Scene scene;
     scene.name = "Fish school";
     scene.school = true;
@@ -213,7 +212,7 @@ Scene fishSchool(const FishSchoolOptions& options, const Progress& progress) {
         report(progress, "fish", ++done, count);
     });
 
-    // Add the nodes of fish, camera and lights.
+    // Add the nodes of the fish, the camera and the lights.
     for (std::size_t i = 0; i < count; ++i) {
         constexpr double radians = 3.14159265358979323846 / 180.0;
         Node node;

@@ -13,12 +13,12 @@ namespace defocus::engine {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr float eyeEdge = 0.75f;  // edge length in eyes relative to that in bodies; short edges make pupils crisp
+constexpr float eyeEdge = 0.75f;  // edge length on eyes relative to bodies; short edges make pupils crisp
 
 // ---- body of the fish ------------------------------------------------------------------------------
 
 struct Rings {
-    std::vector<float> at;  // position of each ring: along a body from 0 (snout) to 1 (tail), on an eye the polar angle
+    std::vector<float> at;  // position of each ring: 0 (snout) to 1 (tail) along a body, or the polar angle on an eye
     std::vector<std::uint32_t> counts;
 };
 
@@ -235,7 +235,7 @@ Mesh fishMesh(const Fish& fish, int triangles, int skinMaterial, int eyeMaterial
     const std::vector<Fin> fins = fishFins(fish.shape);
     const Layout plan = layoutFor(fish.shape, fins, triangles);
 
-    // Build the straight fish in body lengths: first body and fins, then the eyes.
+    // Build the straight fish in body lengths: first the body and the fins, then the eyes.
     FishSurface surface;
     surface.positions.reserve(plan.triangles / 2 + 64);
     surface.colors.reserve(plan.triangles / 2 + 64);

@@ -10,7 +10,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr float softness = 0.012f;  // half the width of a soft colour border in body lengths, a few mesh edges
+constexpr float softness = 0.012f;  // half the width of a soft colour border, in body lengths; spans a few mesh edges
 
 // Returns 1 for |distance| < halfWidth and 0 elsewhere, with a soft transition of half width `soft`.
 float painted(float distance, float halfWidth, float soft = softness) {

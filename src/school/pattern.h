@@ -12,8 +12,8 @@ namespace defocus::engine {
 struct FishBand {  // coloured band around the fish's body; lengths are in body lengths
     float a = 0.5f;
     float halfWidth = 0.05f;
-    float bow = 0.0f;    // shift towards the tail at back and belly, relative to mid-height
-    float slant = 0.0f;  // tilt: shift towards the tail at the back, and towards the head at the belly
+    float bow = 0.0f;    // shift of the band towards the tail at back and belly, relative to mid-height
+    float slant = 0.0f;  // shift of the band towards the tail at the back, and towards the head at the belly
     glm::vec3 color{0.0f};
     glm::vec3 rim{0.0f};
     float rimWidth = 0.0f;
@@ -60,9 +60,9 @@ struct FishPattern {
     glm::vec3 scaleEdge{1.0f};  // colour of the pale rims of fish scales
     float scaleEdgeAmount = 0.12f;
     float scaleVariation = 0.06f;
-    glm::vec3 medianRoot{0.5f};  // colour of dorsal and anal fin at the fin's root
+    glm::vec3 medianRoot{0.5f};  // colour of the dorsal and anal fins at their roots
     glm::vec3 medianEdge{0.5f};
-    glm::vec3 medianRim{0.5f};  // colour of a thin line along the edge of dorsal and anal fin
+    glm::vec3 medianRim{0.5f};  // colour of a thin line along the edges of the dorsal and anal fins
     float medianRimWidth = 0.0f;
     glm::vec3 caudalRoot{0.5f};
     glm::vec3 caudalEdge{0.5f};

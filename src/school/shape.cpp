@@ -12,7 +12,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr float originA = 0.45f;  // position along the body, 0 (snout) to 1 (tail), that bending does not move
+constexpr float originA = 0.45f;  // body position, 0 (snout) to 1 (tail), of the point that bending leaves in place
 
 float monotoneCubic(const std::array<float, 9>& x, const std::array<float, 9>& y, float at) {
     const auto slope = [&](std::size_t i) { return (y[i + 1] - y[i]) / (x[i + 1] - x[i]); };

@@ -15,8 +15,8 @@ namespace defocus::engine {
 inline constexpr std::array<float, 9> fishKnots{0.0f, 0.04f, 0.12f, 0.25f, 0.4f, 0.55f, 0.7f, 0.85f, 1.0f};
 
 struct FishOutline {
-    std::array<float, 9> top{};     // per position in fishKnots, height of the back above the axis
-    std::array<float, 9> bottom{};  // depth of the belly below the axis
+    std::array<float, 9> top{};     // height of the back above the body's axis, at each position in fishKnots
+    std::array<float, 9> bottom{};  // depth of the belly below the body's axis
     std::array<float, 9> width{};   // half thickness of the body
 };
 
@@ -51,8 +51,9 @@ struct CaudalFin {
 
 struct PairedFin {
     FinKind kind = FinKind::pectoral;
-    float a = 0.3f;        // position of the fin's root along the body, 0 (snout) to 1 (tail)
-    float height = -0.2f;  // height of the root above the body section's centre, relative to half the section's height
+    float a = 0.3f;  // position of the fin's root along the body, 0 (snout) to 1 (tail)
+    // Height of the fin's root above the cross-section's centre, relative to the section's half height.
+    float height = -0.2f;
     float length = 0.2f;
     float spread = 0.9f;     // angle in radians between the first and last fin ray
     float outwards = 0.5f;   // angle in radians between the fin and the side of the body
@@ -65,7 +66,8 @@ struct FishShape {
     float length = 0.3f;  // body length in m, without the tail fin
     FishOutline outline;
     float eyeA = 0.13f;
-    float eyeHeight = 0.25f;  // height of the eye above the section's centre, relative to half the section's height
+    // Height of the eye above the cross-section's centre, relative to the section's half height.
+    float eyeHeight = 0.25f;
     float eyeRadius = 0.034f;
     float mouthLength = 0.05f;
     float mouthDrop = 0.02f;
@@ -73,7 +75,7 @@ struct FishShape {
     float scaleSize = 0.043f;
     float finRipple = 0.02f;  // amplitude of sideways waves at the edges of fins, body lengths
     float finPhase = 0.0f;
-    float swimAmplitude = 0.3f;  // amplitude of the heading at the tail while swimming, radians
+    float swimAmplitude = 0.3f;  // amplitude of the heading at the tail while the fish swims, radians
     float swimPhase = 0.0f;
     float turn = 0.0f;  // bend of the whole body from head to tail, radians
     std::vector<MedianFin> medianFins;
@@ -112,7 +114,7 @@ public:
 
 private:
     static constexpr int steps = 256;
-    static constexpr float first = -0.2f;  // position of the first tabulated spine point along the body
+    static constexpr float first = -0.2f;  // position along the body of the first tabulated spine point
     static constexpr float last = 2.3f;
     struct Station {
         glm::vec2 position{0.0f};  // x and z coordinates of the spine point

@@ -14,8 +14,8 @@ std::uint32_t onRing(const VertexRow& ring, std::uint32_t i) {
     return ring.first + (i == ring.count ? 0u : i);
 }
 
-// Adds the triangles between two open rows, seen from the front. Each step uses the shorter diagonal, which avoids
-// sheared triangles between rows that are shifted relative to each other.
+// Adds the triangles between two open rows of vertices; the triangles face the front. Each step uses the shorter
+// diagonal, which avoids sheared triangles between rows that are shifted relative to each other.
 void stitchRows(const VertexRow& a, const VertexRow& b, const std::vector<glm::vec3>& positions,
                 std::vector<std::uint32_t>& indices) {
     std::uint32_t i = a.first;

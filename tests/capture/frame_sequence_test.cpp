@@ -103,8 +103,8 @@ TEST_F(FrameSequence, turntableComesBackToItsOwnPlace) {
     expectNear(placeOf(frame(shot, 30)), {0, 0, -8});
 }
 
-// The exposure is centred on the frame's time. With ShutterPosition::start, it begins at that time. The dolly moves 0.3
-// m per frame, and the node rises 0.1 m per frame.
+// The exposure is centred on the frame's time. With ShutterPosition::start, it begins at that time. The camera moves
+// 0.3 m per frame, and the node rises 0.1 m per frame.
 TEST_F(FrameSequence, theShutterOpensAroundItsFrame) {
     base_.shutter.seconds = 0.05;
     const char* shot = R"({"frameRate": 10, "range": [0, 90], "camera": {"dolly": {"distance": 3, "frames": [10, 20],
@@ -242,7 +242,7 @@ TEST_F(FrameSequence, settingsOfAMethodHaveKeys) {
 }
 
 TEST_F(FrameSequence, lensFollowsTheCamerasOwnValues) {
-    // the yfov for which tan(θx/2) = 0.5 at an aspect ratio of 4:3; θx is the horizontal field of view
+    // gives tan(θx/2) = 0.5 at an aspect ratio of 4:3, with the horizontal field of view θx
     scene_.cameras[0].yfov = 2 * std::atan(0.375);
     scene_.cameras[0].lens = {{"fStop", 8}, {"focusDistance", 7}};
     EXPECT_EQ(frame("{}", 0).view.lens.fStop, 8);

@@ -56,7 +56,8 @@ TEST_F(PopChecks, fullDetailHasNone) {
     EXPECT_FALSE(popOf(LodMode::off));
 }
 
-// If the preceding frame is missing, a frame cannot be compared, so it has no pop.
+// A frame whose preceding frame is missing cannot be compared, so PopCheck measures no pop (change caused by a switch
+// of levels) for it.
 TEST_F(PopChecks, aGapInTheFramesIsNoPop) {
     PopCheck check(frame_.world, parseMethodUse("accumulation"), {});
     check.note(1, planAt(2, LodMode::nearest));

@@ -76,7 +76,8 @@ TEST_F(BadInput, valuesOutOfRange) {
     expectFault(2, "--blur-scale", {"--blur-scale", "-1"});
     expectFault(2, "--blades", {"--blades", "1"});
     expectFault(2, "--blades", {"--blades", "2"});
-    expectFault(2, "--focus-tilt", {"--focus-tilt", "90"});  // a focus plane at 90° contains the view axis
+    // A focus plane that is tilted by 90° contains the view axis.
+    expectFault(2, "--focus-tilt", {"--focus-tilt", "90"});
     expectFault(2, "--focus-swing", {"--focus-swing=-90"});
     expectFault(2, "--exposure-time", {"--exposure-time=-1"});
     expectFault(2, "--exposure-time", {"--exposure-time", "1/0"});
@@ -96,7 +97,7 @@ TEST_F(BadInput, valuesOutOfRange) {
 
 TEST_F(BadInput, settingsThatTheMethodDoesNotTake) {
     expectFault(2, "did you mean 'circular'", {"--method", "circulr"});
-    // --taps is a setting of method scheuermann, but the method is accumulation
+    // --taps belongs to the method scheuermann, but the method is accumulation
     expectFault(2, "no settings", {"--taps", "16"});
     expectFault(2, "far-components must be an integer from 1 to 9", {"--method", "circular", "--far-components", "10"});
     expectFault(2, "storage must be one of", {"--method", "circular:storage=double"});
@@ -395,8 +396,8 @@ TEST_F(BadInput, hostileModels) {
     EXPECT_EQ(fileCount(), 1u);
 }
 
-// No damaged model file crashes the program. The test truncates copies of a fish at many lengths and changes each word
-// of their headers.
+// No damaged model file crashes the program. The test truncates a copy of a fish at eight lengths, and changes the
+// 32-bit words of the GLB header and numbers in the JSON part.
 TEST_F(BadInput, damagedCopiesOfAModel) {
     const std::string full = textOf(fs::path(DEFOCUS_SOURCE_DIR) / "meshes/fish.glb");
     ASSERT_GT(full.size(), 10'000u);

@@ -104,7 +104,7 @@ TEST_F(Faults, aMergeThatIsKilledLeavesTheFileOfBeforeOrTheNewOne) {
     }
 }
 
-// Killing the program leaves each pyramid file in the cache either complete or absent.
+// Killing the program leaves each file of level-of-detail pyramids in the cache either complete or absent.
 TEST_F(Faults, aProgramThatIsKilledLeavesTheCacheSound) {
     std::set<std::string> complete;
     const auto clear = [&] { fs::remove_all(cacheFolder()); };

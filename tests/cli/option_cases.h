@@ -91,7 +91,7 @@ inline std::string movingBall(bool lamp, bool pane = false) {
     return builder.glb();
 }
 
-// A camera that stands left of the file's cameras and focuses on the ball.
+// A camera that stands to the left of the file's cameras and focuses on the ball.
 inline constexpr const char* usdCamera = R"(#usda 1.0
 (
     metersPerUnit = 1
@@ -116,7 +116,7 @@ inline const Words farFocus = {"--fstop", "0.5", "--focus-distance", "8"};
 inline const Words nearFocus = {"--fstop", "0.5", "--focus-distance", "1"};
 inline const Words nearRange = {"--fstop", "0.5", "--focus-distance", "1", "--focus-range-behind", "1"};
 
-// Returns the options that test cases of a method's own settings need: the method and a wide aperture.
+// Returns the options that the test cases of a method's settings need: the method and a wide aperture.
 inline Words only(const char* method) {
     return {"--method", method, "--fstop", "0.5"};
 }

@@ -1,7 +1,7 @@
-// Tests that fractional levels of detail avoid popping, visible image changes by switches of levels, in a focus pull, a
-// dolly and a walk cycle. Fractional levels divide an object's lens samples between two levels. From frame to frame,
-// they change the image by a small fraction of a full change, in which all samples switch at once. The tests measure
-// the section of each movement with the most level changes (measurements: eval/popping/popping.h).
+// Tests that fractional levels of detail avoid popping (visible image changes when objects switch levels) in a focus
+// pull, a dolly and a walk cycle. Fractional levels divide an object's lens samples between two levels. From frame to
+// frame, they change the image by a small fraction of a full change, in which all samples switch at once. The tests
+// measure the section of each movement with the most level changes (measurements: eval/popping/popping.h).
 //
 // If one of N samples switches its level, the image changes by √(c/w)/N of a full change, for a blur of c px and a
 // deviation of w px between the levels. Here c/w is at most about 30/0.4, so one sample changes at most 8.7/N. If k
@@ -92,13 +92,13 @@ protected:
         options_.scene = path;
         options_.units = 1;
         options_.clip = "Walk";
-        options_.time = 0.3;  // s; the fox is in mid-stride
+        options_.time = 0.3;  // time in s at which the fox is in mid-stride
         options_.lens.blurScale = 1000;
     }
 
     Request options_;
     LodMetric metric_ = LodMetric::size;
-    double minLevelPop_ = 0.003;  // min RMSE if all samples switch; else the test proves nothing
+    double minLevelPop_ = 0.003;  // min RMSE if all samples switch; with a smaller one, the test would prove nothing
 };
 std::unique_ptr<GlContext> NoPopping::context_;
 

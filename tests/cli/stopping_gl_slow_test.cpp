@@ -48,7 +48,8 @@ protected:
                 Seconds(std::chrono::steady_clock::now() - begin).count(), withoutProgress(textOf(folder() / "said"))};
     }
 
-    // Renders a complete frame with one sample, so that the caches contain the pyramids and shaders.
+    // Renders a complete frame with one sample, so that the caches contain the level-of-detail pyramids and the
+    // shaders.
     void warmUp(Words words) const {
         words.insert(words.end(), {"--samples", "1", "-o", "warm.png"});
         ASSERT_EQ(run(words).exitCode, 0);

@@ -1,5 +1,5 @@
-// Tests that frames that are drawn in tiles are bit-identical to a frame without tiles, even if several machines draw
-// the tiles. Tiles of different frames are not merged.
+// Tests that frames drawn in tiles are bit-identical to a frame without tiles, even if several machines draw the tiles.
+// Tiles of different frames are not merged.
 
 #include "cli/tile_command.h"
 #include "image/image_io.h"

@@ -116,8 +116,8 @@ TEST_F(Files, aLinkStaysAndWhatItNamesIsReplaced) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "far"), fs::directory_iterator()), 2) << "nothing is left";
 }
 
-// The program never writes through a link or pipe at the path of a file that it names itself. A new file replaces a
-// link, a broken link or a pipe.
+// If a link or a pipe stands at the path of a file that the program itself names, the program replaces the link or the
+// pipe and never writes through it.
 TEST_F(Files, ownFilesReplaceLinksAndPipes) {
     fs::create_directory(folder_ / "far");
     const fs::path victim = folder_ / "far" / "victim.txt";
@@ -190,8 +190,8 @@ TEST_F(Files, aDescriptorIsWrittenWhereItLeads) {
     ::close(descriptor);
 }
 
-// Temporary files of another process are never overwritten, even if it has the same process id on another machine that
-// shares the folder.
+// Temporary files of another process are never overwritten, even if that process has the same id on another machine
+// that shares the folder.
 TEST_F(Files, temporaryNamesThatAreTakenAreLeftAlone) {
     const fs::path path = folder_ / "frame.exr";
     const auto numberOf = [&](const fs::path& temporary) {

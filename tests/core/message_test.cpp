@@ -1,4 +1,5 @@
-// Tests messages to the user and standard output. Each test runs in a child process, since it closes standard output.
+// Tests writing messages to the user, and writing to standard output. Each test runs in a child process, since it
+// closes standard output.
 
 #include "core/message.h"
 

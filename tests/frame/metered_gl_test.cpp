@@ -1,4 +1,5 @@
-// Tests exposure metering: a file with the sun of a clear day is rendered without exposure settings.
+// Tests exposure metering: a file with a light as bright as the sun on a clear day is rendered without exposure
+// settings.
 
 #include <gtest/gtest.h>
 

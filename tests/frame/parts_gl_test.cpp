@@ -1,5 +1,5 @@
-// Tests that blocks of samples that are rendered separately add up to an image that is bit-identical to a single run,
-// for every level mode and split.
+// Tests that separately rendered blocks of samples add up to an image that is bit-identical to a single run, for every
+// level mode and split.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests that presets change exactly the settings that they list, and that plans of jeong2011 follow the paper's
-// formulas. The tests repeat these formulas and compute them only from scene and camera.
+// formulas. The tests repeat these formulas and compute them only from the scene and the camera.
 
 #include "frame/settings/presets.h"
 

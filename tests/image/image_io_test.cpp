@@ -345,7 +345,7 @@ TEST(Texture, realTexturesDecode) {
     DEFOCUS_MODEL_OR_SKIP(path, "FlightHelmet/FlightHelmet_Materials_LensesMat_BaseColor.png");
     const std::vector<std::byte> file = readFile(path);
     const TextureImage texture = decodeTexture(file, path.string());
-    const auto headerValue = [&](std::size_t offset) {  // file offset of an IHDR value
+    const auto headerValue = [&](std::size_t offset) {  // reads an IHDR value at a file offset
         return int(file.at(offset)) << 24 | int(file.at(offset + 1)) << 16 | int(file.at(offset + 2)) << 8 |
                int(file.at(offset + 3));
     };

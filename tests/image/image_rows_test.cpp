@@ -102,7 +102,7 @@ TEST_F(ImageRows, whatIsNoFileOfRowsIsRefused) {
     }
 }
 
-// A full disk, simulated by a limit on the file size, throws an Error with the file's name.
+// Writing to a full disk, simulated by a limit on the file size, throws an Error with the file's name.
 TEST_F(ImageRows, aFullDiskIsAnErrorThatNamesTheFile) {
     rlimit before{};
     ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);

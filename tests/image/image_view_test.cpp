@@ -1,4 +1,4 @@
-// Tests that pixels that an ImageView refers to are written and compared like the pixels of an Image.
+// Tests that the pixels of an ImageView are written and compared like the pixels of an Image.
 
 #include <gtest/gtest.h>
 

@@ -30,7 +30,7 @@ inline void appendChunk(Bytes& png, const std::string& type, const Bytes& data) 
     appendBigEndian(png, ~crc);
 }
 
-// Returns the zlib stream with one stored block. The rows must be below 65,536 bytes.
+// Returns the zlib stream with one stored block. `rows` must have fewer than 65,536 bytes.
 inline Bytes storedZlib(const Bytes& rows) {
     Bytes zlib = {0x78, 0x01, 0x01};  // header, then one final stored block
     const auto length = static_cast<std::uint16_t>(rows.size());
@@ -49,7 +49,7 @@ inline Bytes storedZlib(const Bytes& rows) {
 }
 
 // Returns a PNG file. `samples`: the bytes of the rows without filter bytes; 16-bit samples are big-endian. Rows and
-// filter bytes together must be below 65,535 bytes.
+// filter bytes together must have fewer than 65,536 bytes.
 inline Bytes buildPng(int width, int height, int bits, PngColour colour, const Bytes& samples,
                       const Bytes& palette = {}) {
     Bytes rows;

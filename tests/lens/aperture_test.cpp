@@ -98,8 +98,8 @@ TEST_P(ApertureOf, keepsTheCentreWhereItHasOne) {
         EXPECT_GT(fromCentre, 0.3 * lens.obstruction);
 }
 
-// The concentric map from the square to the disk and its inverse cancel, even on the square's diagonals and at its
-// centre.
+// The concentric map from the square to the disk, followed by its inverse, maps each point to itself, even on the
+// square's diagonals and at its centre.
 TEST(ConcentricDisk, isUndoneByItsInverse) {
     for (int y = 0; y <= 16; ++y)
         for (int x = 0; x <= 16; ++x) {

@@ -112,7 +112,8 @@ TEST(Sequences, everyPrefixAndSuffixCoversLensAndPixel) {
     }
 }
 
-// The points with even indices exceed the error bound of complete sequences, and so do independent points.
+// The error of the points with even indices exceeds the bound for complete sequences; so does the error of independent
+// points.
 TEST(Sequences, boundsFailForParityAndForIndependentPoints) {
     const std::vector<Region> regions = halfPlanes();
     for (const Sequence sequence : {Sequence::halton, Sequence::scrambledHalton, Sequence::sobol}) {
@@ -140,7 +141,7 @@ double rootMeanSquare(const std::vector<glm::dvec2>& points, const std::vector<R
     return std::sqrt(square / static_cast<double>(regions.size()));
 }
 
-// At 16 to 256 points, seed 0 of `sobol` has a smaller error than at least 90 of 100 other seeds, and than Halton.
+// At 16 to 256 points, seed 0 of `sobol` has a smaller error than Halton and than at least 90 of 100 other Sobol seeds.
 TEST(Sequences, seedZeroOfSobolIsAGoodOne) {
     const std::vector<Region> regions = halfPlanes();
     const auto meanLogError = [&](Sequence sequence, std::uint32_t seed) {

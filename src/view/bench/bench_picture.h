@@ -9,7 +9,7 @@ namespace defocus::engine {
 
 class BenchPicture {
 public:
-    // `document` and `state` must exist longer than this object.
+    // `document` and `state` must outlive this object.
     BenchPicture(Document& document, ViewState& state, bool software)
         : document_(document), state_(state), software_(software) {}
 
@@ -27,7 +27,7 @@ private:
     LivePicture picture_;
 };
 
-// Renders the reference image of a view: full detail and ViewBenchOptions::referenceSamples lens samples.
+// Renders the reference image of a view at full detail, with ViewBenchOptions::referenceSamples lens samples.
 Image benchReference(const Document& document, const ViewState& state, const View& view,
                      const ViewBenchOptions& options, const Progress& progress);
 

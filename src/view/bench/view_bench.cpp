@@ -31,7 +31,8 @@ struct ShownFrame {
     Image image;  // frame as drawn, possibly smaller than the view
 };
 
-using References = std::map<std::uint32_t, Image>;  // references by frame index; all methods have the same camera path
+// Reference images by frame index; shared by all methods, whose camera path is the same.
+using References = std::map<std::uint32_t, Image>;
 
 double percentile95(std::vector<double> values) {
     const auto place = values.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(values.size() - 1));

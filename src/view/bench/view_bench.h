@@ -1,6 +1,6 @@
 #pragma once
-// Measures the frame rate, latency and image error of the window without a display, while a camera moves along a fixed
-// path and then rests.
+// Measures the window's frame rate, latency and image error, without a display. The camera moves along a fixed path and
+// then rests.
 
 #include <cstdint>
 #include <filesystem>
@@ -21,7 +21,7 @@ struct ViewBenchOptions {
     std::uint32_t frames = 60;             // number of frames of the movement, an orbit of 1° per frame; ≥ 4
     double restSeconds = 10;               // max time to measure after the movement, s
     double convergedError = 0.005;         // estimated error at which the accumulated image counts as converged
-    std::uint32_t referenceSamples = 512;  // lens samples of a reference at full detail, 2 … maxSamples
+    std::uint32_t referenceSamples = 512;  // lens samples of a reference image, which has full detail; 2 … maxSamples
     std::filesystem::path shaderFolder;    // replacement shaders; empty: the embedded shaders
     bool software = false;                 // true: OpenGL runs on the CPU
 };
@@ -39,7 +39,7 @@ struct ViewBenchRow {
     double stillPsnr = 0;        // PSNR of the final image, dB
 };
 
-// Opens the scene of `state.options` and waits for its pyramids. Throws Error if it can't be opened.
+// Opens the scene of `state.options` and waits for its level-of-detail pyramids. Throws Error if it can't be opened.
 void openForBench(Document& document, ViewState& state);
 
 // Measures the methods on the document's scene at ViewState::pictureSize. Errors are measured on the image at the

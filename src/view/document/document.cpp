@@ -94,8 +94,9 @@ void stepThroughHistory(Document& document, ViewState& state, const ViewActions&
     static_cast<ViewEdit&>(state) = *edit;
     state.options.time = time;
     state.options.clip = clip;
-    document.shown.lens.apertureImage = state.options.lens.apertureImage;  // no reload: the restored lens has the image
-    document.poseIsStale = !document.frame->scene->clips.empty();          // pose again: the camera may be animated
+    // The restored lens contains its aperture image, so the image need not be loaded again.
+    document.shown.lens.apertureImage = state.options.lens.apertureImage;
+    document.poseIsStale = !document.frame->scene->clips.empty();  // an animated camera must be posed again
     state.aperturePath = state.options.lens.apertureImage.string();
     state.marker.shown = false;
     state.focusPoints.clear();

@@ -13,9 +13,9 @@ struct Document {
 
     SceneLoader loader;
     std::unique_ptr<PreparedFrame> frame;  // the scene, ready to draw; null: no scene is open
-    bool draft = false;                    // true: `frame` has draft pyramids; the final ones are being built
+    bool draft = false;                    // true: `frame` has draft level-of-detail pyramids, not the final ones
     EditHistory history;
-    Request shown;                           // request that `frame` reflects; see updateWorld
+    Request shown;                           // request that `frame` was last updated to match; see updateWorld
     bool poseIsStale = false;                // true: the objects must be posed again even if the request is unchanged
     std::vector<double> ownBlurs;            // Node::cocScale of each scene node, as loaded
     std::vector<glm::dmat4> shutterCameras;  // View::shutterCameras; empty unless the view follows the file's camera
@@ -37,7 +37,7 @@ View currentView(const Document& document, const ViewState& state);
 void noteEdit(Document& document, const ViewState& state, bool held);
 
 // Executes the actions that concern the document: opening, undo, saved views, cameras. `exporting`: whether a still
-// image is being exported, so the scene must not change. Throws Error if an action fails.
+// image is being exported; if so, the scene must not change. Throws Error if an action fails.
 void actOnDocument(Document& document, ViewState& state, const ViewActions& actions, bool exporting);
 
 // Applies all differences between the state's request and Document::shown: camera, aperture image, blur of nodes, time

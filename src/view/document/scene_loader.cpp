@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::uint64_t draftTriangles = 60'000;  // approximate triangle count of a draft; smaller scenes get no draft
 
-// Returns the scene with draft pyramids; null for a small scene, whose final pyramids are built quickly.
+// Returns the scene with draft level-of-detail pyramids; null for a small scene, whose final pyramids are built
+// quickly.
 std::unique_ptr<PreparedFrame> draftOf(const PreparedFrame& frame) {
     const std::vector<Mesh>& meshes = frame.scene->meshes;
     std::uint64_t total = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Opens scenes and builds their pyramids on background threads.
+// Opens scenes and builds their level-of-detail pyramids on background threads.
 
 #include <atomic>
 #include <memory>
@@ -17,7 +17,7 @@ struct LoadedScene {
     Request options;
     std::unique_ptr<PreparedFrame> frame;  // null: the scene could not be opened
     std::string fault;                     // why the scene could not be opened
-    bool draft = false;                    // true: the pyramids are coarse drafts; the final pyramids follow
+    bool draft = false;                    // true: the level-of-detail pyramids are coarse drafts; final ones follow
 };
 
 class SceneLoader {
@@ -36,9 +36,9 @@ public:
 
     [[nodiscard]] bool busy() const { return !jobs_.empty() && !jobs_.back()->cancelled; }
     struct Opening {
-        std::string name;   // name of the scene
+        std::string name;
         std::string stage;  // what is loaded or built, such as "fish" or "pyramids"
-        double share = 0;   // finished fraction of the stage, 0 … 1
+        double share = 0;   // finished fraction of the loading stage, 0 … 1
     };
     // Returns the progress of the current job; nullopt if the loader is idle.
     [[nodiscard]] std::optional<Opening> opening() const;
@@ -56,7 +56,8 @@ private:
     };
     static void run(Job& job);
 
-    // The last job is the current one. Earlier jobs are cancelled, or still build the final pyramids of a draft.
+    // The last job is the current one. Earlier jobs are cancelled, or are still building the final pyramids that
+    // replace a draft.
     std::vector<std::unique_ptr<Job>> jobs_;
 };
 

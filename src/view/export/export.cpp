@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double exportSlice = 60;  // time per frame that is spent on rendering the still, ms
+constexpr double exportSlice = 60;  // time per frame that is spent on rendering the still image, ms
 
 // Returns the window's view at the size of the still image to export.
 View exportView(const Document& document, const ViewState& state) {

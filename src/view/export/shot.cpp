@@ -64,7 +64,7 @@ ordered_json lensJson(const std::vector<ShotKey>& keys, const Lens& cameraLens) 
     ordered_json lens = ordered_json::object();
     for (const LensField& field : lensFields()) {
         const std::string_view name = field.name;
-        if (name == "focusDistance") continue;  // written as keyframes of the shot's focus
+        if (name == "focusDistance") continue;  // stored as the shot's focus keyframes, not as a lens value
         if ((name == "exposureTime" || name == "iso") && !shotExposedByLens(keys)) continue;
         const auto valueAt = [&](std::size_t key) { return lensFieldValue(keys[key].view.lens, field); };
         bool varies = false;

@@ -12,7 +12,7 @@ inline constexpr int framesBetweenKeys = 48;  // frames between two keyframes: 2
 
 struct ShotRecording {
     const Request& options;  // provides scene, clip, samples, levels and method
-    const Lens& cameraLens;  // lens of the camera options.camera, which gives the default lens values of the shot
+    const Lens& cameraLens;  // lens of the camera options.camera; its values are the defaults of the shot
     const std::vector<ShotKey>& keys;
     double animationSpeed = 1;
     WriteOptions write;

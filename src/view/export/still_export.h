@@ -1,5 +1,5 @@
 #pragma once
-// Renders a still image step by step, so that the window stays responsive, and writes it like `defocus render`.
+// Renders a still image step by step, so that the window stays responsive, and writes it as `defocus render` does.
 
 #include <chrono>
 #include <filesystem>

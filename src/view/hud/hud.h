@@ -1,5 +1,5 @@
 #pragma once
-// Draws the heads-up display: labels, markers and messages over the picture.
+// Draws the heads-up display: labels, markers and messages over the image.
 
 #include "view/widgets/ui.h"
 
@@ -18,7 +18,8 @@ ImVec2 pictureCorner(const Ui& ui, double x, double y);
 
 struct LabelStyle {
     ImU32 color = brightColor;
-    float anchorX = 0, anchorY = 0;  // point of the label at the given position; 0: left or top, 1: right or bottom
+    // Point of the label that lies at the given position; 0: left or top, 1: right or bottom.
+    float anchorX = 0, anchorY = 0;
     float alpha = 1;
     float width = 0;  // max width of wrapped text; 0: no wrapping
 };

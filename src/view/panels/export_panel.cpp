@@ -45,7 +45,8 @@ void stillRows(ViewState& state) {
     if (slider("##samples", samples, 1, 4096, ImGuiSliderFlags_Logarithmic)) state.options.samples = samples;
 }
 
-// Asks, inside the dialog, whether to replace the existing file. Returns true once the user has chosen a file name.
+// Asks, inside the dialog, whether to replace the existing file or to write a new one. Returns true once the user has
+// chosen.
 bool replaceRows(const Ui& ui) {
     std::string& path = ui.state.exportPath;
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(ImGuiCol_PlotHistogramHovered));

@@ -1,4 +1,4 @@
-// Draws the panel sections for the lens: focus, lens, aperture, and the exposure of the image.
+// Draws the panel sections for focus, lens, aperture and exposure.
 
 #include <fmt/format.h>
 #include <imgui.h>

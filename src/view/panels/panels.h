@@ -39,7 +39,7 @@ inline constexpr double panelWidth = 364;  // panel width in interface units; se
 // methods that affect the pixels and have a widget.
 std::vector<const Setting*> settingsPanelRows();
 
-// Draws the panel to the right of the picture.
+// Draws the panel to the right of the image.
 void drawPanels(const Ui& ui);
 
 // Draws the dialog for exporting a still if ViewState::exportDialog is set. The dialog asks before it replaces a file.

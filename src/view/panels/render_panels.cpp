@@ -17,7 +17,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Draws the choice of environment: the scene's own, a built-in one, or a file.
+// Draws the rows that set the environment map: the scene's own, a built-in one, or a file.
 void environmentRows(ViewState& state) {
     std::filesystem::path& environment = state.options.environment;
     std::vector<std::string> names = {"the scene's own"};
@@ -54,8 +54,8 @@ void backgroundCombo(Background& background) {
         background = choices[chosen];
 }
 
-// Draws the choice of a paper's preset. The window stores the lens separately from the other settings, so the lens
-// values that the preset sets or resets are also copied to that lens.
+// Draws the row that applies the preset of a paper. The window stores the lens separately from the other settings, so
+// the lens values that the preset sets or resets are also copied to that lens.
 void presetRow(ViewState& state) {
     const Preset* const before = presetOf(state.options);
     if (!settingRow(state.options, "preset", presets().front().name)) return;

@@ -21,7 +21,8 @@ std::uint64_t withinFreeMemory(std::uint64_t bytes) {
     return free > 0 ? std::min(bytes, free / 4) : bytes;
 }
 
-// Returns the number of lens images that fit into `bytes`. Throws Error if fewer than minImages fit.
+// Returns the number of lens images (images of single lens samples) that fit into `bytes`. Throws Error if fewer than
+// minImages fit.
 std::uint32_t fittingImages(const PartSize& size, std::uint64_t bytes) {
     const std::uint64_t fitting = bytes / KeptLensImages::bytes(size, 1);
     if (fitting < KeptImages::minImages)

@@ -1,7 +1,7 @@
 #pragma once
-// Stores the image of each lens sample (lens image) of a view at rest. The window computes images with another focus
-// distance or a smaller aperture from these in one frame, by the mathematics of refocus/refocus.h. The levels of detail
-// of the lens images suit all focus distances of a range around the view's focus distance.
+// Stores the image of each lens sample (lens image) of a view at rest. From these images, the window computes images
+// with another focus distance or a smaller aperture in one frame, with the equations of refocus/refocus.h. The levels
+// of detail of the lens images suit all focus distances of a range around the view's focus distance.
 
 #include <cstdint>
 #include <filesystem>
@@ -35,10 +35,10 @@ public:
     void begin(const View& view, const RenderSettings& settings, const FramePlan& plan, std::uint64_t bytes);
     // Draws at least one lens image, and more until about `milliseconds` have passed. Returns false once all are drawn.
     bool grow(double milliseconds);
-    // Frees the memory of all lens images.
+    // Frees the memory of all lens images (images of single lens samples).
     void discard();
 
-    // Returns the number of lens images drawn so far, and the number planned; both 0 without a plan.
+    // Returns the number of lens images drawn so far, and the number planned; both are 0 without a plan.
     [[nodiscard]] std::uint32_t drawn() const { return drawn_; }
     [[nodiscard]] std::uint32_t planned() const { return static_cast<std::uint32_t>(plan_.samples.size()); }
     [[nodiscard]] bool complete() const { return planned() > 0 && drawn_ == planned(); }

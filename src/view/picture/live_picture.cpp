@@ -34,8 +34,8 @@ std::optional<PictureSide> comparedSide(const ViewState& state, const PictureSid
     return std::nullopt;
 }
 
-// Returns the focus distance (m) during the popping test: from the nearest to the farthest object and back, evenly in
-// 1/distance.
+// Returns the focus distance (m) of the popping test at `seconds` after its start. The focus moves from the nearest to
+// the farthest object and back, as a cosine in 1/distance.
 double poppingFocus(const FramePlan& plan, double nearPlane, double seconds) {
     double nearest = 1e6;
     double farthest = 1e-3;
@@ -47,7 +47,7 @@ double poppingFocus(const FramePlan& plan, double nearPlane, double seconds) {
     return focusBetween(nearest, std::max(nearest, farthest), share);
 }
 
-// Returns the settings that affect the picture as one string, except the number of samples, the level mode and the
+// Returns, as one string, the settings that affect the picture, except the number of samples, the level mode and the
 // method.
 std::string pictureSettings(Request request) {
     const Request defaults;
@@ -94,8 +94,8 @@ void makeImage(LivePicture& picture, const Document& document, const ViewState& 
     picture.worldVersion = document.worldVersion;
 }
 
-// Simplifies a request that can't be drawn: turns off comparison and popping test or, if neither is on, replaces the
-// method with accumulation. Returns false if the request is already as simple as possible.
+// Simplifies a request that can't be drawn: turns off the comparison and the popping test or, if neither is on,
+// replaces the method with accumulation. Returns false if the request is already as simple as possible.
 bool simplifyRequest(ViewState& state) {
     if (state.comparison != Comparison::none || state.poppingSince) {
         state.comparison = Comparison::none;

@@ -14,10 +14,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto settleTime = 120ms;            // time without changes after which the view counts as at rest
-constexpr std::uint32_t minShownSamples = 4;  // an image with fewer samples looks worse than the last moving frame
-constexpr double visibleGrowth = 1.08;        // update the window when the sample count has grown by this factor
-constexpr double softwareGrowthTime = 60;     // min ms per frame for adding samples if OpenGL runs on the CPU
+constexpr auto settleTime = 120ms;  // time without changes after which the view counts as at rest
+// An image with fewer samples looks worse than the last frame of the moving view.
+constexpr std::uint32_t minShownSamples = 4;
+constexpr double visibleGrowth = 1.08;     // update the window when the sample count has grown by this factor
+constexpr double softwareGrowthTime = 60;  // min ms per frame for adding samples if OpenGL runs on the CPU
 constexpr auto psnrInterval = 700ms;
 
 // Returns the numeric values of a request that affect its images, in addition to settings, sides, aperture image and
@@ -35,7 +36,8 @@ std::vector<double> imageKey(const PictureRequest& request) {
     return key;
 }
 
-// Returns the lens values that can change when a picture is computed from stored lens images instead of rendered.
+// Returns the lens values that can change without rendering, because the picture is then computed from stored lens
+// images.
 std::vector<double> focusKey(const Lens& lens) {
     return {lens.focusDistance, lens.fStop};
 }
@@ -146,7 +148,8 @@ void ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
 }
 
 double ViewPicture::growthTime(const FrameBudget& budget) const {
-    const bool shares = showsWork_ && growing_ && grows_ && workIncomplete();  // image and work overlay share the time
+    // The time is split between the image and the overlay that counts triangles per pixel.
+    const bool shares = showsWork_ && growing_ && grows_ && workIncomplete();
     return std::max(budget.milliseconds, software_ ? softwareGrowthTime : 0.0) * (shares ? 0.5 : 1);
 }
 
@@ -329,7 +332,7 @@ void ViewPicture::present(const PictureRequest& request) {
     }
     displayTimer_.reset();
     displayTimer_.begin();
-    // Draw frames of a moving view at their own resolution, because the display pass is slow on a CPU. The window
+    // Draw frames of a moving view at their reduced resolution, because the display pass is slow on a CPU. The window
     // enlarges the result.
     const TextureInfo& image = inputs.first->info();
     const bool fullSize = growing_ || display.wireframe;

@@ -37,7 +37,7 @@ struct PictureRequest {
     RenderSettings settings;         // settings; level thresholds, if set, replace the defaults
     std::string settingsKey;         // text that identifies the settings; when it changes, the image is restarted
     std::uint64_t poseVersion = 0;   // value of Document::poseVersion
-    std::vector<PictureSide> sides;  // what each side shows: one side, or two for comparison
+    std::vector<PictureSide> sides;  // what each side of the picture shows; one side, or two for a comparison
     DisplaySettings display;
     std::uint32_t maxSamples = 4096;
     std::optional<double> targetError;         // estimated error below which accumulation stops

@@ -20,7 +20,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t maxMessages = 4;
-constexpr double maxTimeStep = 0.25;  // max animation time per frame, s
+constexpr double maxTimeStep = 0.25;  // max time by which a frame advances the animation, s
 
 void addMessage(ViewState& state, std::string text, bool fault, double seconds) {
     state.messages.push_back({std::move(text), fault, state.now + seconds});

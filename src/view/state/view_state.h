@@ -113,12 +113,12 @@ struct ViewState : ViewEdit, SceneState {
     PictureArea area;           // window area that shows the picture
     glm::ivec2 pictureSize{1};  // size of the picture, px
 
-    // State of camera and scene.
+    // State of the camera and the scene.
     Navigation navigation = Navigation::orbit;
     double animationSpeed = 1;
 
     // State of the picture.
-    DisplaySettings display;  // exposure and tone map are overwritten from `exposure` and `options`
+    DisplaySettings display;  // exposure and tone map are ignored: `exposure` and `options` determine them
     Comparison comparison = Comparison::none;
     std::string comparedMethod = "circular";
     FrameBudget budget;
@@ -139,7 +139,7 @@ struct ViewState : ViewEdit, SceneState {
     std::string openPath, viewName, environmentPath, aperturePath;
     bool environmentIsFile = false;  // true: the field for an environment file is shown
     std::string exportPath = "still.png";
-    std::optional<glm::ivec2> exportSize;  // size of a still, px; nullopt: pictureSize
+    std::optional<glm::ivec2> exportSize;  // size of the exported still image, px; nullopt: pictureSize
     std::optional<ExportDialog> exportDialog;
     std::string shotPath = "shot.json";
 };
@@ -191,12 +191,12 @@ void tiltFocus(ViewState& state);
 void frameSelection(const PreparedFrame& frame, ViewState& state);
 void frameScene(const PreparedFrame& frame, ViewState& state);
 
-inline constexpr double poppingDuration = 8;  // duration of the popping test, s
+inline constexpr double poppingDuration = 8;  // duration of the test for popping (visible switches of levels), s
 // Starts or stops the popping test: a focus pull from near to far and back, which shows fractional levels on the left
 // side and nearest levels on the right.
 void togglePoppingTest(ViewState& state);
 
-// Advances focus pull and animation by `seconds`, and ends the popping test after poppingDuration.
+// Advances the focus pull and the animation by `seconds`, and ends the popping test after poppingDuration.
 void advance(const Scene& scene, ViewState& state, double seconds);
 
 // Returns the --clip value of a clip of the scene: its name, or its index if the name is ambiguous.

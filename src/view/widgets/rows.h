@@ -24,7 +24,8 @@ bool methodCombo(std::string& name);
 // Draws the row of a method's setting.
 void methodSettingRow(const MethodSetting& setting, std::string& value);
 
-// Returns ImGui's format string for seconds that begins with the photographic fraction: "1/125   %.3g s".
+// Returns ImGui's format string for a time in seconds, such as "1/125   %.3g s". The string begins with the
+// photographic fraction.
 std::string secondsFormat(double seconds);
 
 // Returns the label for a setting's name: "Blade rotation" for "bladeRotation".

@@ -49,7 +49,7 @@ using Places = std::map<std::string, std::array<long, 2>>;
 // Records the window position of the previous widget's centre under a name, unless the widget is scrolled out of sight.
 // Scripts read these positions from the state file (docs/window.md).
 void notePlace(const std::string& name);
-// Returns the positions recorded since the last call.
+// Returns the widget positions recorded since the last call.
 Places takePlaces();
 
 // Draws a ring of standard f-numbers; drag, wheel and click change `fStop`.

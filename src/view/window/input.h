@@ -13,7 +13,7 @@ struct InputContext {
     const PreparedFrame* frame = nullptr;  // null: no scene is open
     bool mouseOnInterface = false;         // true: a widget uses the mouse
     bool typing = false;                   // true: a text field or a dialog receives the keys
-    bool navigating = false;               // true: keys move between widgets
+    bool navigating = false;               // true: keys move ImGui's focus between widgets
 };
 
 class ViewInput {

@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 struct SessionOptions {
     Request request;                     // all settings; Request::size is the size of the picture
-    std::filesystem::path screenshot;    // file for a screenshot at the end; empty: none
+    std::filesystem::path screenshot;    // file for a screenshot of the last frame; empty: none
     int frames = 0;                      // number of frames of the complete scene before the window closes; 0: no limit
     std::filesystem::path shaderFolder;  // replacement shaders; empty: the embedded shaders
     bool quiet = false;                  // true: print no warnings on stderr
@@ -52,7 +52,7 @@ struct Session {
     const Clock::time_point begin = Clock::now();
     int framesWithScene = 0;  // frames drawn with the complete scene, not with a draft
     std::uint64_t framesDrawn = 0;
-    double statsWrittenAt = -1;  // time of the last write, in s since the window was opened; -1: not yet
+    double statsWrittenAt = -1;  // when the state was last written, in s since the window was opened; −1: never
     Places places;               // positions of the widgets in the latest frame
 };
 

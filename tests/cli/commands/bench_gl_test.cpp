@@ -53,7 +53,8 @@ TEST_F(BenchConvergence, aRunCutOffAnywhereIsTakenUp) {
 }
 
 TEST_F(BenchConvergence, resumesNothingButTheSame) {
-    ASSERT_EQ(bench({"-o", "out", "--runs", "1"}).exitCode, 2);  // bench() already passes --runs
+    // The helper bench() already passes --runs, which must not be given twice.
+    ASSERT_EQ(bench({"-o", "out", "--runs", "1"}).exitCode, 2);
     ASSERT_EQ(bench({"-o", "out"}).exitCode, 0);
     const std::string journal = textOf(folder() / "out/runs.csv");
     const Outcome other = bench({"-o", "out", "--resume", "--focus-distance", "3"});
@@ -161,7 +162,7 @@ TEST_F(BenchSpeedup, measuresAPresetBesideNone) {
             EXPECT_EQ(both[3 + i][same], plain[i][same]) << same;
     }
     EXPECT_LT(both[5]["triangles"], both[3]["triangles"]);
-    // the preset uses Halton points, the default Sobol points
+    // the preset uses Halton points, and the default is Sobol points
     EXPECT_NE(both[0]["fromReference"]["rmse"], both[3]["fromReference"]["rmse"]);
     EXPECT_EQ(both[6]["method"], "scheuermann");
 }

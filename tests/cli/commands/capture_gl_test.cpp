@@ -318,7 +318,7 @@ TEST_F(Capture, filmsAndPicturesAreReproducible) {
             runs.push_back(textOf(folder() / name));
             if (i == 0)
                 std::this_thread::sleep_for(
-                    // dates in the files count whole seconds; without SOURCE_DATE_EPOCH, this pause would change them
+                    // dates in the files are in whole seconds; without SOURCE_DATE_EPOCH, this pause would change them
                     std::chrono::milliseconds(1100));
         }
         EXPECT_TRUE(runs[0] == runs[1]) << name;

@@ -1,5 +1,5 @@
 // Tests that a capture that is killed at any time leaves only complete frames under their final names, and that
-// resuming gives bit-identical frames to an undisturbed run.
+// resuming gives frames that are bit-identical to those of an undisturbed run.
 
 #include <fcntl.h>
 #include <sys/wait.h>

@@ -290,7 +290,7 @@ TEST_F(Render, theNumberOfSamplesIsAutomatic) {
     static_cast<void>(readImage(folder() / "much.exr", metadata));
     EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), many);
 
-    // Library and program have the same default number of samples.
+    // The library and the program have the same default number of samples.
     Request request;
     request.scene = folder() / "quads.gltf";
     request.size.width = 128;

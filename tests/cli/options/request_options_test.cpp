@@ -119,7 +119,7 @@ TEST_F(SceneOptionsTest, whatIsGivenBesideAPresetWinsWhereverItStands) {
                                    {"vertices", "surviving"},
                                    {"blurThreshold", proportionalLevels},
                                    {"sizeThreshold", 0.0},
-                                   {"lightThreshold", 0.0}}));  // metric `proportional` has no light threshold
+                                   {"lightThreshold", 0.0}}));  // the metric `proportional` has no light threshold
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"--preset", "jeong2011", "--sequence", "r2", "--lod-coc", "smallest"},
              {"--lod-coc", "smallest", "--sequence", "r2", "--preset", "jeong2011"}}) {

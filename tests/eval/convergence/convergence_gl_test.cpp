@@ -247,7 +247,7 @@ TEST_F(Convergence, methodsThatCanOnlyShowAnotherImageAreLeftOut) {
     EXPECT_EQ(namesLeftOut(), "unshaded ");
 }
 
-// A method's image changes with spheres that move by 0.2 m during the exposure if and only if the method claims to draw
+// Spheres that move by 0.2 m during the exposure change a method's image if and only if the method claims to draw
 // motion.
 TEST_F(Convergence, methodsDrawMotionIfTheySaySo) {
     Pose moved = small_->world.pose;

@@ -77,7 +77,7 @@ TEST(EqualError, isExactForPowersOfTheTime) {
         EXPECT_NEAR(*competitors[1].times[i].milliseconds, std::pow(0.2 / errors[i], 2), 1e-9);
         EXPECT_NEAR(*competitors[2].times[i].milliseconds, 0.3 / errors[i], 1e-9);
     }
-    EXPECT_NE(equalErrorTable(competitors).find("10.67x"), std::string::npos);  // speed-up of 16 ms over 1.5 ms
+    EXPECT_NE(equalErrorTable(competitors).find("10.67x"), std::string::npos);  // the speed-up is 16 ms / 1.5 ms
 }
 
 TEST(EqualError, saysWhatLiesBeyondTheRows) {

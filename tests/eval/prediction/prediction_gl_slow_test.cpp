@@ -1,4 +1,4 @@
-// Tests that the errors that pyramids predict for their levels agree with the errors of rendered images.
+// Compares the errors that level-of-detail pyramids predict for their levels with the errors of rendered images.
 
 #include <gtest/gtest.h>
 

@@ -21,7 +21,7 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     request.size.height = 1200;
     request.wave.reset();
     request.samples = 4;
-    // method auto draws tiles by accumulation, but might choose multirate without tiles
+    // the method auto draws tiles by accumulation, but might choose multirate without tiles
     request.method = "accumulation";
     (void)render(smallRequest());
     const std::uint64_t held = residentMemory();  // memory in use before the driver allocates buffers for large images

@@ -56,7 +56,7 @@ TEST_F(SceneRendererTest, otherMethodsHaveOnePosition) {
     }
 }
 
-// Each frame of one renderer equals the image of a new renderer.
+// Each of several frames that one renderer draws equals the image of a new renderer.
 TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
     std::vector<Request> requests(11, smallRequest());
     requests[1] = movedRequest();
@@ -115,7 +115,7 @@ TEST_F(SceneRendererTest, pyramidsAreBuiltWhereThereAreNone) {
     EXPECT_GT(renderer.statistics().pyramidMilliseconds, before);
     EXPECT_EQ(stagesOf(renderer, movedRequest()), Stages{"samples"});
     EXPECT_EQ(stagesOf(renderer, sharp), Stages{"samples"});
-    EXPECT_EQ(stagesOf(renderer, movedRequest()), Stages{"samples"});  // both kinds of pyramids are kept
+    EXPECT_EQ(stagesOf(renderer, movedRequest()), Stages{"samples"});  // pyramids are kept while the level mode is off
 }
 
 TEST_F(SceneRendererTest, aProgressThatThrowsCancelsAndTheRendererGoesOn) {
@@ -200,7 +200,7 @@ TEST_F(SceneRendererTest, aovsPlanAndFilesAreOfTheFrame) {
     request.size.width = 64;
     request.size.height = 48;
     request.samples = 4;
-    request.lens.fStop = 0.2;  // so much blur that the plan does not use a pinhole
+    request.lens.fStop = 0.2;  // an aperture so wide that the plan does not use a pinhole
     request.focus = FocusDistance{4};
     SceneRenderer renderer(request);
     const Image image = renderer.render();

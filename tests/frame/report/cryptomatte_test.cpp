@@ -1,4 +1,4 @@
-// Compares hashes and ids with published values, and masks with counts computed by hand.
+// Compares Cryptomatte's hashes and ids with published values, and its masks with pixel coverage computed by hand.
 
 #include "frame/report/cryptomatte.h"
 

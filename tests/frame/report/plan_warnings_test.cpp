@@ -129,8 +129,8 @@ TEST(PlanWarnings, copiesAreNamedWithANumberOfSamplesAndAScaleThatFill) {
     EXPECT_TRUE(warningsOf(*small, 32).empty());
 }
 
-// Fewer samples suffice with lens cells: each sample's image is blurred by its part of the lens (its cell), which fills
-// the gaps between samples.
+// Fewer samples suffice with lens cells: each sample's image is blurred over its part of the lens (its cell), which
+// fills the gaps between samples.
 TEST(PlanWarnings, lensCellsNeedFewerSamples) {
     const auto small = quadsAt({0.5, 4});
     small->view.lens.fStop = 0.2;

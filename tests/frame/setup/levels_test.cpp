@@ -36,7 +36,7 @@ TEST(ChosenLevels, areOffInOneImageOfLittleBlur) {
 }
 
 TEST(ChosenLevels, areDrawnInWideBlur) {
-    EXPECT_EQ(chosenFor(smallSchool(0.05)), LodMode::fractional);  // the fish at the edge are blurred by 35 px
+    EXPECT_EQ(chosenFor(smallSchool(0.05)), LodMode::fractional);  // the fish are blurred by up to 35 px
 }
 
 TEST(ChosenLevels, areDrawnWhereManyObjectsShareMeshes) {

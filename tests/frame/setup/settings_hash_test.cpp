@@ -1,4 +1,4 @@
-// Tests that the hash that identifies finished frames changes with every setting that changes the image, and with no
+// Tests the hash that identifies finished frames: it changes with every setting that changes the image, and with no
 // other setting.
 
 #include "frame/setup/settings_hash.h"
