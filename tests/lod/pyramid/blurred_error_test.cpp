@@ -190,7 +190,7 @@ TEST(BlurredError, anOutlineCountsByTheAreaThatItLoses) {
     };
     const double lost = shrunk(0.96f);
     EXPECT_NEAR(lost / shrunk(0.98f), 2, 0.3);
-    // The rim's radiance and the mean radiance both lie between 0.2 and 1.
+    // The radiance of the removed rim and the mean radiance both lie between 0.2 and 1.
     EXPECT_GT(lost, 0.2 * 0.2 * 2 * 0.04);
     EXPECT_LT(lost, 5 * 5 * 2 * 0.04);
 }
@@ -240,7 +240,7 @@ TEST(BlurredError, theLevelMeetsItsLimit) {
     ASSERT_GT(pyramid.levels.size(), 4u);
     const std::array sides{0.05, 0.4};
     const auto mean = [&](const auto& squared) { return std::sqrt(squared(sides[0]) + squared(sides[1])); };
-    // Returns the larger of the error-to-contrast ratios in front of the two backgrounds.
+    // Returns the larger of level l's ratios of error to contrast in front of the two backgrounds.
     const auto error = [&](std::size_t l) {
         double worst = 0;
         for (const Surround surround : surrounds)
