@@ -114,8 +114,8 @@ TEST(CircularKernel, publishedKernelIsThatOfTheSlides) {
     EXPECT_NEAR(profileOf(kernel, 1), 0.9245, 1e-4);
 }
 
-// Rescaled kernels are the published ones in units of the radius of the disk that they approximate. With the extent
-// fixed, a radius 3 % larger or smaller fits a disk worse. The fitted kernels approximate the disk at least as well.
+// Rescaled kernels are the published ones in units of the radius of the disk that they approximate. Kernels scaled to a
+// radius 3 % larger or smaller approximate the disk worse. The fitted kernels approximate the disk at least as well.
 TEST(CircularKernel, rescaledKernelsAreInRadiiOfTheirDisk) {
     EXPECT_THROW(publishedCircularKernel(0), Error);
     EXPECT_THROW(rescaledCircularKernel(publishedKernelLimit + 1), Error);
@@ -175,8 +175,6 @@ TEST(CircularKernel, noSmallChangeComesCloser) {
         }
     }
 }
-
-// ---- separable passes, tap by tap -------------------------------------------------------------------------------
 
 constexpr int blurRadius = 40;  // radius of the disk, px
 constexpr int side = 100;       // side of the image, px
