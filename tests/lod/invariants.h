@@ -15,8 +15,8 @@
 
 namespace defocus::engine {
 
-// Expects each cluster's bounds (sphere, normal cone, altitude) to hold for its triangles, and the clusters to tile the
-// index ranges of the primitives.
+// Expects each cluster's bounds (sphere, normal cone, altitude) to hold for its triangles. The clusters must cover the
+// index ranges of the primitives without gaps or overlaps.
 inline void expectClustersHold(const Pyramid& pyramid) {
     for (const PyramidLevel& level : pyramid.levels) {
         auto cluster = level.clusters.begin();

@@ -57,7 +57,7 @@ TEST(EmbreeFocus, PlaneOfFocusIsUnchangedByTheAperture) {
     closed.lens.dofEnabled = false;
     const Scene scene = rectangleScene(open, {{10.3, 5.1, 31.7, 20.9, open.lens.focusDistance}}, glm::vec3(1));
     // Images with open and closed aperture use the same pixel samples. A ray's hit may differ only where float rounding
-    // moves it across the edge.
+    // moves it across an edge of the surface.
     EXPECT_LE(largestDifference(traced(scene, open, 64), traced(scene, closed, 64)), 1.0 / 64);
 }
 

@@ -56,7 +56,8 @@ TEST(BlurredError, aBrighterLevelAndTheSamplesShareTheLight) {
         EXPECT_NEAR(squaredError(pyramid, 1, side) / (more * more) + squaredContrast(pyramid, side), all, 1e-3 * all)
             << "side " << side;
     }
-    // The ball covers at most 38 % of a patch as wide as the diagonal of its bounding box, 2√3. Contrast is thus high.
+    // The ball covers at most 38 % of a patch as wide as the diagonal of its bounding box, 2√3. The rest of the patch
+    // is background, so the contrast is high.
     EXPECT_GT(squaredContrast(pyramid, 2 * std::sqrt(3)), 0.6);
 }
 

@@ -47,7 +47,7 @@ Integrals integralsOf(std::span<const CircularComponent> kernel) {
     Integrals sums;
     for (int i = 0; i < steps; ++i) {
         const double t = (i + 0.5) / steps;
-        const double inside = profileOf(kernel, t);  // u = t; dA = π du
+        const double inside = profileOf(kernel, t);  // inside the disk, u = t and dA = π du
         const double outside = profileOf(kernel, 1 + t * t);
         const double du = 2 * t / steps;
         const double arcs = (pi - 4 * std::atan(t)) * du;  // area of the ring at u = 1 + t², inside the square
