@@ -30,8 +30,8 @@ inline Held heldBy(pid_t process) {
     return held;
 }
 
-// Returns the number of rounds that an environment variable sets, or `standard` without the variable. scripts/soak sets
-// higher numbers.
+// Returns the number of rounds that an environment variable sets, or `standard` if the variable is not set.
+// scripts/soak sets higher numbers.
 inline int roundsOr(const char* variable, int standard) {
     const char* const text = std::getenv(variable);
     return text != nullptr ? std::atoi(text) : standard;

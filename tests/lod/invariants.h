@@ -15,8 +15,8 @@
 
 namespace defocus::engine {
 
-// Expects each cluster's bounds (sphere, normal cone, altitude) to hold for its triangles, and the clusters to tile the
-// index ranges of the primitives.
+// Expects each cluster's bounds (sphere, normal cone, altitude) to hold for its triangles. The clusters must cover the
+// index ranges of the primitives without gaps or overlaps.
 inline void expectClustersHold(const Pyramid& pyramid) {
     for (const PyramidLevel& level : pyramid.levels) {
         auto cluster = level.clusters.begin();
@@ -48,7 +48,8 @@ inline void expectClustersHold(const Pyramid& pyramid) {
 
 // Expects the selected real-valued level λ to increase without jumps, from 0 to the coarsest level, as the target (an
 // edge length or an error in px) increases. From one level to the next, edges grow by at least 5 % and errors by at
-// least 25 %, so λ has a max slope over log(target). For errors, λ is steepest where it reaches the coarser level.
+// least 25 %, which bounds the slope of λ over log(target). Between two levels, the slope for errors is largest at the
+// coarser level.
 inline void expectContinuousLevels(const Pyramid& pyramid) {
     if (pyramid.levels.size() < 2) return;
     constexpr double step = 1.0005;

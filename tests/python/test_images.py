@@ -45,7 +45,7 @@ def test_float32_arrays_are_read_where_they_lie(gradient):
     assert defocus._pixels(read_only) is read_only
     for part in (gradient[2:, ::2], gradient[..., :3]):
         assert numpy.shares_memory(defocus._pixels(part), gradient)
-    # The C++ functions reject other types and layouts, so no array is converted implicitly.
+    # The C++ functions reject doubles, reversed rows and Fortran order, so no array is converted implicitly.
     for other in (gradient.astype(numpy.float64), gradient[::-1], numpy.asfortranarray(gradient)):
         with pytest.raises(TypeError):
             defocus._defocus.compare(other, other)

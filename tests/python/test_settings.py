@@ -141,8 +141,8 @@ def test_stubs_have_the_keywords_of_the_table():
     assert outcome.returncode == 0, outcome.stderr
 
 
-# Runs with a copy of the package whose table of settings has the row of tests/new_setting.h. The row stores its value
-# in `clip`.
+# Script that runs with a copy of the package whose table of settings has the row of tests/new_setting.h. The row
+# stores its value in `clip`.
 NEW_SETTING = """
 import inspect, sys
 import defocus, pytest, python_stubs

@@ -10,9 +10,9 @@ namespace {
 
 class RefocusedError : public LightFieldTest {
 protected:
-    // Compares refocused images with renders with the same number of samples, both against a converged image at full
-    // detail. `distances` begin with the nearest and end with the farthest focus of the range, in m. The loss is the
-    // mean over three seeds, because it varies by 1 dB with the sample points.
+    // Compares the errors of refocused images and of direct renders with the same number of samples. The reference is a
+    // converged image at full detail. `distances` begin with the nearest and end with the farthest focus of the range,
+    // in m. The loss is the mean over three seeds, because it varies by 1 dB with the sample points.
     void expectSmallLoss(const Request& request, const std::vector<double>& distances) const {
         std::vector<double> losses(distances.size());
         std::vector<Image> truths;

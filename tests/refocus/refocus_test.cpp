@@ -54,7 +54,7 @@ TEST(Refocus, asRenderedMovesNothing) {
 
 // At the rendered focus, a point at distance z has a circle of confusion of diameter c. The view from lens point (u, v)
 // shows the point displaced by c/2·(u, v) from its pinhole position; in front of the focus plane, the direction is
-// reversed. If the image is refocused at z, the views' samples with the same offset from the point lie in one pixel.
+// reversed. Refocusing at z shifts the views so that all of them show the point within the same pixel.
 TEST(Refocus, bringsThePointInFocusTogether) {
     const LightFieldInfo info = describedImages();
     const double radius = 0.025 * (1 / 2.0 - 1 / 3.0) * 1000 / (2 * 0.36) / 2;

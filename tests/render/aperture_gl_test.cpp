@@ -67,7 +67,8 @@ TEST_F(ApertureBokeh, showsTheApertureImageUpright) {
     expectBokeh(view, "image");
 }
 
-// The bound on misplaced light detects wrong shapes: a rotated or curved triangle exceeds it.
+// The limit on misplaced light detects wrong shapes: a triangle that is rotated, curved or unevenly bright exceeds the
+// limit.
 TEST_F(ApertureBokeh, differsFromOtherShapes) {
     View view = wideView();
     view.lens.bladeCount = 3;

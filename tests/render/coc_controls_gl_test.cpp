@@ -262,8 +262,8 @@ TEST_F(CocControls, limitBehindLeavesFocusAndForeground) {
 }
 
 // Between the camera and the focus range, the blur equals that of a lens focused at the near end. Behind the range, the
-// blur equals that of a lens focused at the far end. If the range refocuses, the aperture is unchanged; else it is
-// multiplied by the far end's distance over the focus distance.
+// blur equals that of a lens focused at the far end. With focusRangeRefocuses, the aperture is unchanged. Otherwise it
+// is multiplied by the far end's distance over the focus distance.
 TEST_F(CocControls, focusRangePreservesNearAndFarBlur) {
     for (const bool refocuses : {false, true}) {
         const auto small = threePatches();

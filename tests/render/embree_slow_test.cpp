@@ -16,7 +16,7 @@ namespace defocus::engine {
 namespace {
 
 // If lens points of an aperture are chosen by rejection, or the aperture is an image, the bokeh has the aperture's
-// light density. The tolerance covers the noise of the 18,000 rays that hit the bright square.
+// distribution of light. The tolerance covers the noise of the 18,000 rays that hit the bright square.
 TEST(EmbreeBokehShape, MaskedAperturesShowTheirDefinition) {
     View view = bokehView(36, 36);
     view.lens.fStop = 0.03;  // with its blur of 28 px, the square just fits into the image

@@ -57,7 +57,7 @@ TEST(EmbreeFocus, PlaneOfFocusIsUnchangedByTheAperture) {
     closed.lens.dofEnabled = false;
     const Scene scene = rectangleScene(open, {{10.3, 5.1, 31.7, 20.9, open.lens.focusDistance}}, glm::vec3(1));
     // Images with open and closed aperture use the same pixel samples. A ray's hit may differ only where float rounding
-    // moves it across the edge.
+    // moves it across an edge of the surface.
     EXPECT_LE(largestDifference(traced(scene, open, 64), traced(scene, closed, 64)), 1.0 / 64);
 }
 
@@ -87,8 +87,8 @@ TEST(EmbreeFocus, BreathingNarrowsTheViewAsAThinLensDoes) {
 }
 
 // With a foreground limit on the circle of confusion C (Munkberg, Toth and Akenine-Möller 2012), a ray passes at depth
-// z through X(z) = z·d − tan(θx/2)·C(z)·(u, v). d is the pixel's axis, θx the horizontal field of view and (u, v) the
-// lens point.
+// z through X(z) = z·d − tan(θx/2)·C(z)·(u, v). d is the direction from the lens centre through the pixel, θx the
+// horizontal field of view and (u, v) the lens point.
 TEST(EmbreeLimitedForeground, raysAreThoseOfTheLimitedBlur) {
     for (const double focus : {1.5, 4.0, std::numeric_limits<double>::infinity()}) {
         View view = bokehView(200, 120);
@@ -297,8 +297,8 @@ TEST(EmbreePlanned, SamplePointsAreThoseOfThePlan) {
     EXPECT_DOUBLE_EQ(moments.mean.x, 31.5 + 4);
     EXPECT_DOUBLE_EQ(moments.mean.y, 21.5 - 6);
     sample.pixel = glm::vec2(0.4f, 0.4f);
-    // A lens point that lies 0.2 px farther out moves the image across a pixel's border only together with a pixel
-    // offset of −0.4.
+    // A lens point that lies 0.2 px farther out moves the image by another pixel only together with a pixel offset of
+    // −0.4: 4.2 − 0.4 rounds to 4, and 4.2 + 0.4 rounds to 5.
     sample.lens = glm::vec2(4.2 / radius, 6.2 / radius);
     plan.samples = {sample};
     const Moments further = momentsOf(imageOf(*makeEmbreeRenderer(world, EmbreeSampling::planned), plan));
@@ -343,8 +343,8 @@ TEST(EmbreeTexture, TexelsLieWhereGltfPutsThem) {
     EXPECT_EQ(image.at(24, 8)[1], 1);
     EXPECT_EQ(image.at(8, 24)[2], 1);
     EXPECT_NEAR(image.at(24, 24)[0], 0.5029, 1e-3);  // linear value of the sRGB code 188
-    // Filtering is bilinear between decoded texels, here about a quarter of the way between the centres of the red and
-    // the green texel.
+    // Filtering is bilinear between decoded texels. The tested pixel lies about a quarter of the way from the centre of
+    // the red texel to the centre of the green texel.
     scene.textures[0].magnification = Filter::linear;
     const Image smooth = traced(scene, view, 256);
     EXPECT_NEAR(smooth.at(12, 8)[0], 1 - (12.5 / 32 - 0.25) * 2, 0.05);

@@ -58,7 +58,7 @@ Image shiftedImage(SmallWorld& small, double cameraX) {
 }
 
 // A mesh far from its object's origin looks like the same mesh around the origin. The camera moves in steps of 0.5 mm
-// to show rounding.
+// to reveal rounding errors.
 TEST(FarMesh, looksLikeTheSameMeshAroundItsOrigin) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     for (const bool morphed : {false, true}) {

@@ -62,8 +62,8 @@ TEST_F(Furnace, noSurfaceThrowsBackMoreThanItReceivesOrLessThanNothing) {
                 }
 }
 
-// A white metal loses light only by its roughness. The model omits light that scatters several times between facets, so
-// rougher surfaces lose more light. A mirror loses none.
+// A white metal loses light only because of its roughness. The model omits light that scatters several times between
+// facets, so rougher surfaces lose more light. A mirror loses none.
 TEST_F(Furnace, aWhiteMetalLosesLightWithItsRoughnessAlone) {
     double before = 1;
     for (const float roughness : roughnesses) {

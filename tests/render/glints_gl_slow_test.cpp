@@ -80,8 +80,8 @@ double worstPixel(const Image& image, const Image& converged) {
     return worst;
 }
 
-// The error is measured against a converged image that has white pixels, too: glints are smaller than a pixel, but so
-// bright that they make entire pixels white.
+// The error is measured against a converged image. This image has white pixels, too: glints are smaller than a pixel,
+// but so bright that they make entire pixels white.
 TEST_F(Glints, convergeWithinTheFirstSamples) {
     for (const float metallic : {0.0f, 1.0f})
         for (const float roughness : {0.05f, 0.2f})

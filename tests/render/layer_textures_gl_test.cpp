@@ -1,5 +1,5 @@
-// Tests textures of the KHR_materials extensions. For each texture slot, they check which channel is read, how it is
-// decoded, and that it is multiplied by the slot's factor. Each pixel is compared with the value computed from its
+// Tests textures of the KHR_materials extensions. For each texture slot, the tests check which channel is read, how it
+// is decoded, and that it is multiplied by the slot's factor. Each pixel is compared with the value computed from its
 // texel.
 
 #include <gtest/gtest.h>
@@ -43,8 +43,6 @@ void expectSurface(const Material& material, TextureUse Material::*slot,
     });
 }
 
-// ---- transmission and volume
-
 // Adds a white sky that is visible through the wall but does not light any surface.
 void lightFromBehind(SmallWorld& small) {
     small.world.environment.zenith = glm::vec3(1);
@@ -82,8 +80,6 @@ TEST_F(LayerTextures, greenOfThicknessAbsorbs) {
     });
 }
 
-// ---- reflectance
-
 Material glossyMaterial() {
     // an index of refraction of 2 means a reflectance of 1/9 at normal incidence
     return {.baseColorFactor = {0.2f, 0.1f, 0.3f, 1},
@@ -113,8 +109,6 @@ TEST_F(LayerTextures, specularColourIsDecodedAndScaled) {
         },
         true);
 }
-
-// ---- coat
 
 Material coatedMaterial() {
     Material result = blackMaterial();
@@ -161,8 +155,6 @@ TEST_F(LayerTextures, theClearcoatNormalTiltsTheCoat) {
         expectLitRadiance(image, point, litRadiance(coat, point, normal, small->world.lights), 0.6);
     });
 }
-
-// ---- sheen
 
 // Expects a wall of cloth to have, at each texel, the radiance of the sheen whose colour and roughness `sheenOfTexel`
 // computes from the texel.

@@ -21,8 +21,6 @@ protected:
     static Material metal(float roughness) { return {.roughnessFactor = roughness}; }
 };
 
-// ---- multiple scattering
-
 // The reference `single` is the single-scattering albedo of GGX with height-correlated masking at normal incidence,
 // integrated by independent code.
 TEST_F(MaterialExtensions, roughWhiteMetalKeepsItsLightWithMultipleScattering) {
@@ -42,8 +40,6 @@ TEST_F(MaterialExtensions, whiteDielectricsKeepTheirLightWithMultipleScattering)
         EXPECT_NEAR(middleOf(furnaceImage(white, 0.7, true)).x, 1, 1e-5) << roughness;
     }
 }
-
-// ---- anisotropy
 
 struct Widths {
     double along, across;
@@ -133,8 +129,6 @@ TEST_F(MaterialExtensions, stretchedMetalReflectsItsIntegralOfAFurnacesLight) {
                 }
 }
 
-// ---- iridescence
-
 // Returns the reflectance of a film in air on a dielectric with reflectance `base`, as linear Rec.709 relative to a
 // white surface: Fresnel amplitudes of both polarisations, Airy's sum over all reflections, and the CIE 1931 observer
 // as fitted by Wyman, Sloan and Shirley 2013.
@@ -180,7 +174,7 @@ Material filmed(float base, float ior, float thickness, float roughness = 0) {
 }
 
 // KHR_materials_iridescence approximates spectra by Gaussians and Fresnel's equations by Schlick's. The reflectance
-// differs from the spectral sum by up to 0.035 facing the eye, and by up to 0.09 at 53°.
+// differs from the spectral sum by up to 0.035 at normal incidence, and by up to 0.09 at 53°.
 TEST_F(MaterialExtensions, filmsReflectTheColoursOfInterference) {
     for (const float base : {0.04f, 0.3f, 0.8f})
         for (const float ior : {1.3f, 1.8f})
@@ -212,8 +206,6 @@ TEST_F(MaterialExtensions, filmsOnWhiteDielectricsKeepAllLight) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], 1, 0.01);
 }
 
-// ---- diffuse transmission
-
 Material sheet(float share) {
     return {.metallicFactor = 0, .diffuseTransmissionFactor = share};
 }
@@ -240,8 +232,6 @@ TEST_F(MaterialExtensions, aSheetDividesTheLightOfASunBetweenItsSides) {
                 EXPECT_NEAR(seen[c], expected[c] * 3 * 0.8 / std::numbers::pi, 1e-5) << side << ' ' << share << c;
         }
 }
-
-// ---- dispersion
 
 // Each colour channel is refracted with its own index: n for green, and n ∓ (n − 1)·dispersion/40 for red and blue.
 TEST_F(MaterialExtensions, dispersionRefractsEachChannelByItsIndex) {

@@ -98,8 +98,6 @@ TEST_F(MaterialLayers, whiteLayersOnWhiteThrowBackAllOfTheLight) {
         }
 }
 
-// ---- sheen --------------------------------------------------------------------------------------
-
 // Returns the albedo of sheen for the view cosine `nv`: ∫ D·V·(n·l) dl over the hemisphere, by the midpoint rule in
 // √(n·l) and the azimuth.
 double sheenAlbedo(double nv, double roughness) {

@@ -27,7 +27,7 @@ TEST_F(Shadowed, multirateAndPostProcessDrawThemToo) {
     const RenderSettings settings = settingsFor(64, Shadows::on);
     const Image accumulated = shadowImage(*small, settings);
     EXPECT_GT(compareImages(accumulated, shadowImage(*small, settings, "multirate")).psnr,
-              35);  // multirate samples the lights at other points
+              35);  // multirate uses other sample points on the lights
     const auto edge = wall();
     addSun(*edge, {1, 0, 1}, glm::radians(20.0));
     addEdge(*edge, 1, 1);

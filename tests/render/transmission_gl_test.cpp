@@ -91,8 +91,8 @@ TEST_F(Transmission, panesAndBlendedSurfacesBehindEachOtherAreAllSeen) {
     }
 }
 
-// Each of the eight nearest panes shows the panes behind it. Farther panes show only the opaque background. Of these,
-// only the pane that is drawn last is visible.
+// Each of the eight nearest panes shows the panes behind it. Farther panes show only the opaque background. Of the
+// farther panes, only the one that is drawn last is visible.
 TEST_F(Transmission, behindManyPanesTheBackgroundIsStillSeen) {
     const auto small = litWall(clear(glm::vec3(0.9f)));
     light(*small);

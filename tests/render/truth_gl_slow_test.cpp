@@ -43,8 +43,8 @@ void writeForPeople(const std::string& name, const Image& reference, const Image
 }
 
 // Expects the difference between rasterizer and ray tracer at equal lens points to have no structure: the images are
-// not shifted, scaled or blurred by different widths. The bounds are far below the noise of 256 samples with different
-// lens points.
+// neither shifted nor scaled against each other, and their blur has the same width. The bounds are far below the noise
+// of 256 samples with different lens points.
 void expectNoStructure(const std::string& name, const TruthScene& baked, const Image& image,
                        const RenderSettings& settings) {
     const Image planned = traced(baked.world, baked.view, settings, EmbreeSampling::planned);

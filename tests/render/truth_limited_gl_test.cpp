@@ -1,5 +1,5 @@
-// Tests the foreground blur limit against an independent ray tracer that puts a separate lens in front of each pixel,
-// at the depth α (Munkberg, Toth and Akenine-Möller 2012, Figure 9).
+// Tests the foreground blur limit against an independent ray tracer that puts a separate lens in front of each pixel
+// (Munkberg, Toth and Akenine-Möller 2012, Figure 9).
 
 #include <gtest/gtest.h>
 

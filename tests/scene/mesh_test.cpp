@@ -81,7 +81,8 @@ TEST(Tangents, withoutTextureCoordinatesAreStillPerpendicular) {
     }
 }
 
-// The tangents of a torus follow ∂p/∂u, which is known: u runs about the axis and v down around the ring.
+// The tangents of a torus follow ∂p/∂u, which is known: u runs around the axis of the torus, and v runs around the
+// tube.
 TEST(Tangents, ofATorusFollowItsFirstCoordinate) {
     constexpr int around = 64, ring = 32;
     VertexBlock block;
@@ -107,8 +108,8 @@ TEST(Tangents, ofATorusFollowItsFirstCoordinate) {
     ASSERT_EQ(made.vertices.tangents.size(), made.vertices.count());
     for (std::size_t i = 0; i < indices.size(); ++i) {
         const glm::vec4& tangent = made.vertices.tangents[indices[i]];
-        // Chords of the outermost circle deviate from the tangent by π/64. At a seam, a vertex has a chord on one side
-        // only.
+        // A chord between neighbouring vertices of a circle deviates from the tangent by π/64. At a seam, a vertex has
+        // a chord on one side only, so the deviations of two chords do not cancel.
         ASSERT_GT(glm::dot(glm::vec3(tangent), along[original[i]]), std::cos(2 * std::numbers::pi / around)) << i;
         ASSERT_EQ(tangent.w, 1) << i;
     }

@@ -128,8 +128,6 @@ TEST(Pose, unknownNamesListTheKnownOnes) {
     }
 }
 
-// ---- key frames ---------------------------------------------------------------------------------
-
 AnimationChannel channelOf(Interpolation interpolation, ChannelPath path, std::vector<float> times,
                            std::vector<float> values) {
     return {0, path, interpolation, std::move(times), std::move(values), ""};

@@ -71,8 +71,8 @@ void expectSameMeshes(const Scene& scene, const Scene& wanted) {
 }
 
 TEST(SceneFromData, meshesAreFinishedAsThoseOfFiles) {
-    // The glTF file has the same arrays as the data. A normal map needs tangents, and a mesh without normals is
-    // flat-shaded.
+    // The glTF file has the same arrays as the data. Both scenes need computed attributes: tangents for the normal map,
+    // and flat normals for a mesh without normals.
     const ScratchFolder folder;
     Image blank(2, 2, 3);
     writeImage(folder / "blank.png", blank);

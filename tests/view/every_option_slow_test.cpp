@@ -1,5 +1,6 @@
-// Tests that every option of `defocus view` affects the window's initial state: its own options, the settings of the
-// table, and those of the methods. option_cases_test.cpp checks that each option has a case or a test.
+// Tests that every option of `defocus view` affects the window's initial state: the command's own options, and the
+// options for the table of settings and for the methods. option_cases_test.cpp checks that each option has a case or a
+// test.
 
 #include <map>
 

@@ -166,8 +166,6 @@ TEST(RenderCommandText, namesWhatDiffersFromTheStandard) {
     EXPECT_EQ(command.find("--blades"), std::string::npos);
 }
 
-// ---- random views
-
 // Expects equal options, except options of camera, lens and exposure, which the command takes from the view.
 void expectSameOptions(const Request& a, const Request& b) {
     for (const Setting& setting : settings()) {

@@ -56,7 +56,8 @@ TEST(BlurredError, aBrighterLevelAndTheSamplesShareTheLight) {
         EXPECT_NEAR(squaredError(pyramid, 1, side) / (more * more) + squaredContrast(pyramid, side), all, 1e-3 * all)
             << "side " << side;
     }
-    // The ball covers at most 38 % of a patch as wide as the diagonal of its bounding box, 2√3. Contrast is thus high.
+    // The ball covers at most 38 % of a patch as wide as the diagonal of its bounding box, 2√3. The rest of the patch
+    // is background, so the contrast is high.
     EXPECT_GT(squaredContrast(pyramid, 2 * std::sqrt(3)), 0.6);
 }
 
@@ -190,7 +191,7 @@ TEST(BlurredError, anOutlineCountsByTheAreaThatItLoses) {
     };
     const double lost = shrunk(0.96f);
     EXPECT_NEAR(lost / shrunk(0.98f), 2, 0.3);
-    // The rim's radiance and the mean radiance both lie between 0.2 and 1.
+    // The radiance of the removed rim and the mean radiance both lie between 0.2 and 1.
     EXPECT_GT(lost, 0.2 * 0.2 * 2 * 0.04);
     EXPECT_LT(lost, 5 * 5 * 2 * 0.04);
 }
@@ -240,7 +241,7 @@ TEST(BlurredError, theLevelMeetsItsLimit) {
     ASSERT_GT(pyramid.levels.size(), 4u);
     const std::array sides{0.05, 0.4};
     const auto mean = [&](const auto& squared) { return std::sqrt(squared(sides[0]) + squared(sides[1])); };
-    // Returns the larger of the error-to-contrast ratios in front of the two backgrounds.
+    // Returns the larger of level l's ratios of error to contrast in front of the two backgrounds.
     const auto error = [&](std::size_t l) {
         double worst = 0;
         for (const Surround surround : surrounds)

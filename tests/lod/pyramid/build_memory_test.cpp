@@ -58,8 +58,8 @@ TEST(BuildMemory, boundHolds) {
     }
 }
 
-// The bound is at most a few times the memory of the mesh and its levels, so that no mesh is rejected under a plausible
-// memory limit.
+// The bound on a pyramid's memory is at most a few times the memory of the mesh and its levels, so that no mesh is
+// rejected under a plausible memory limit.
 TEST(BuildMemory, boundIsProportionalToTheMesh) {
     const Mesh small = sphere(100, 50), large = sphere(200, 100);
     const PyramidOptions full = fullDetailOnly();

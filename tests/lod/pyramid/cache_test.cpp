@@ -156,8 +156,6 @@ void expectSound(const Pyramid& pyramid, const Mesh& mesh) {
     }
 }
 
-// ---- writing and reading a file ----------------------------------------------------------------
-
 TEST(PyramidFile, comesBackBitForBit) {
     std::map<std::string, Mesh> meshes = {{"decorated", decoratedTorus(40, 30)}, {"plain", sphere(32, 16, 0.2)}};
     meshes["smoothed"] = meshes["plain"];
@@ -181,8 +179,6 @@ TEST(PyramidFile, leavesOutWhatTheMeshHas) {
     const Encoded file(decoratedTorus());
     EXPECT_EQ(sectionBorders(file).back(), file.bytes.size());
 }
-
-// ---- cache keys --------------------------------------------------------------------------------
 
 TEST(PyramidKey, everyInputCounts) {
     const Mesh mesh = decoratedTorus();
@@ -243,8 +239,6 @@ TEST(PyramidFile, anotherKeyIsAMiss) {
     EXPECT_FALSE(decodePyramid(file.bytes, torus(24, 16), file.key));
     EXPECT_FALSE(decodePyramid(file.bytes, Mesh{}, file.key));
 }
-
-// ---- damaged files -----------------------------------------------------------------------------
 
 TEST(PyramidFile, aFlippedBitAnywhereInTheHeaderIsAMiss) {
     Encoded file(decoratedTorus());
@@ -341,7 +335,7 @@ TEST(PyramidFile, wrongCountsUnderARightChecksumAreMisses) {
             }
 }
 
-// All ranges are valid, but a triangle would be drawn with the material of the wrong primitive.
+// In the tested file, all ranges are valid, but a triangle would be drawn with the material of the wrong primitive.
 TEST(PyramidFile, aTriangleThatChangedPrimitivesIsAMiss) {
     const Encoded file(decoratedTorus());
     const std::size_t ranges = sectionBorders(file)[2];
@@ -408,10 +402,8 @@ TEST(PyramidFile, randomWordsUnderARightChecksumGiveNothingOrSomethingSound) {
         ++sound;
         expectSound(*decoded, file.mesh);
     }
-    EXPECT_GT(sound, 100u);  // most words are coordinates, in which any value is valid
+    EXPECT_GT(sound, 100u);  // most words of the file are coordinates, for which any value is valid
 }
-
-// ---- cache folder ------------------------------------------------------------------------------
 
 std::vector<Mesh> someMeshes() {
     return {decoratedTorus(), Mesh{}, sphere(24, 16), flatGrid(2), torus(16, 12)};
@@ -438,7 +430,7 @@ TEST(PyramidCache, storesAtFirstAndLoadsAfterwards) {
     expectBuilt(first, meshes);
     EXPECT_EQ(first.loaded, 0u);
     EXPECT_EQ(first.failure, "");
-    EXPECT_EQ(fileCount(folder), 3u);  // no file exists for the empty mesh and for the mesh of 8 triangles
+    EXPECT_EQ(fileCount(folder), 3u);  // the empty mesh and the mesh of 8 triangles have no file
 
     std::uint64_t left = 1;
     const CachedPyramids second = cachedPyramids(

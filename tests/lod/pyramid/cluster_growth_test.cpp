@@ -109,7 +109,7 @@ TEST(ClusterGrowth, clustersAreCompactAndDontGoRoundACrease) {
     const Soup sheet = foldedSheet(80);
     const GrownClusters grown = grow(sheet);
     expectPartition(sheet, grown);
-    // A cluster's 64 triangles are 32 unit squares; as a disk, they would have a radius of 3.2.
+    // A cluster has at most 64 triangles, which fill 32 unit squares. A disk of that area has a radius of 3.2.
     const double fewest = static_cast<double>(grown.triangles.size()) / max;
     EXPECT_LT(static_cast<double>(grown.sizes.size()), 1.1 * fewest);
     std::size_t begin = 0;

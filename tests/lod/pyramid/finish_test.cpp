@@ -135,7 +135,7 @@ TEST(Finish, smoothMetalsShowFineNormals) {
     }
 }
 
-// Radiance above white is clamped: a part that glows a hundred times as bright as the mean looks the same at twice its
+// Radiance above white is clamped: a surface whose radiance is a hundred times the mean looks the same at twice that
 // radiance.
 TEST(Finish, lightBeyondWhiteIsWhite) {
     Mesh mesh = sphere(96, 48);

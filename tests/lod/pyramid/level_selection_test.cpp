@@ -161,7 +161,7 @@ TEST(DefaultThresholds, ShrinkSteadilyToNothingAndStayModestForFewSamples) {
             EXPECT_GT(thresholds.blur, 0);
             last = thresholds;
         }
-        EXPECT_NEAR(last.size / at64.size, 0.0098, 1e-4);  // (65,536 / 64)^(−2/3)
+        EXPECT_NEAR(last.size / at64.size, 0.0098, 1e-4);  // size falls by (65,536 / 64)^(−2/3)
     }
 }
 

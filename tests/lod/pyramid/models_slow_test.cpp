@@ -144,7 +144,7 @@ TEST(RealModels, LeatherCapOutlastsItsStraps) {
 }
 
 TEST(RealModels, OpenMountainKeepsItsOutline) {
-    // Each end of the mountain's outline recedes by at most the stored error.
+    // Each side of the mountain's bounding box moves inwards by at most the stored error.
     DEFOCUS_MODEL_OR_SKIP(path, "mountain.glb");
     const Pyramid& pyramid = built(path).pyramids.at(0);
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {

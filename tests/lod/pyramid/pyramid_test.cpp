@@ -279,8 +279,8 @@ TEST(Pyramid, SoupOfLooseTrianglesComesDownToTheFloor) {
     const Mesh mesh = singlePrimitive(vertices, indices);
     const Pyramid pyramid = buildPyramid(mesh);
     expectPyramidInvariants(mesh, pyramid);
-    // The 100 triangles share no vertices, so only complete triangles can be removed. Level 1 keeps the min count of
-    // 64, since half of the triangles would be fewer.
+    // The 100 triangles share no vertices, so only complete triangles can be removed. Level 1 has 64 triangles, the min
+    // count of a level, since half of the triangles would be fewer.
     ASSERT_EQ(pyramid.levels.size(), 2u);
     EXPECT_EQ(pyramid.levels[1].triangleCount, 64u);
 }
@@ -354,8 +354,8 @@ TEST(Pyramid, SameMeshGivesTheSameBitsAloneAndAmongOthers) {
     std::vector<Pyramid> many = buildPyramids({torus(24, 12), mesh, Mesh{}, mesh, sphere(16, 8)});
     ASSERT_EQ(many.size(), 5u);
     EXPECT_EQ(many[0].levels[0].triangleCount, 576u);
-    // The pyramid is also built without other meshes: once by buildPyramids(), and once with several threads for its
-    // levels.
+    // The mesh's pyramid is built twice more, without other meshes: by buildPyramids(), and by buildPyramid() with
+    // several threads.
     many.push_back(std::move(buildPyramids({mesh}).front()));
     many.push_back(buildPyramid(mesh, {}, 3));
     for (const std::size_t i : {1u, 3u, 5u, 6u}) {

@@ -76,8 +76,8 @@ TEST(SurfaceDistance, CylinderAgainstItsInscribedPrism) {
 }
 
 TEST(SurfaceDistance, SphereAgainstItsInscribedTessellation) {
-    // A face whose plane is h from the centre is at most 1 − h from the unit sphere, if the circumcentre lies inside
-    // the face.
+    // If a face's plane lies at the distance h from the unit sphere's centre, no point of the face is farther than
+    // 1 − h from the sphere. A circumcentre inside the face has exactly this distance.
     const Mesh coarse = sphere(16, 8);
     const auto& p = coarse.vertices.positions;
     const auto& indices = coarse.primitives[0].indices;
@@ -119,8 +119,8 @@ TEST(SurfaceDistance, SurfaceIsNowhereApartFromItself) {
 }
 
 TEST(SurfaceDistance, ShiftedTriangle) {
-    // The first triangle is a copy shifted by 2 along the normal, the second a copy shifted by (−1, 0) in the plane.
-    // After the second shift, points right of x = 0 stay inside the triangle.
+    // The triangle is shifted twice: first by 2 along its normal, then by (−1, 0) in its plane. After the second shift,
+    // only points left of x = 0 lie outside the original triangle.
     const Surface still = triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0});
     expectAll(surfaceDistance(still, triangle({0, 0, 2}, {4, 0, 2}, {0, 4, 2}), 500).both, 2, 1e-12);
     const SurfaceDistance d = surfaceDistance(triangle({-1, 0, 0}, {3, 0, 0}, {-1, 4, 0}), still, 4096);

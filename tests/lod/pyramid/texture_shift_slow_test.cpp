@@ -51,7 +51,7 @@ double unitsPerCoordinate(const Pyramid& pyramid) {
 
 struct Shift {
     double mean = 0;  // mean distance, in object units
-    // fraction of pixels whose distance is too large for a shift, because they show different UV charts or parts
+    // fraction of pixels in which the two levels show different UV charts or different parts of the surface
     double elsewhere = 0;
 };
 

@@ -37,7 +37,7 @@ Mesh slantedWires() {
     return mesh;
 }
 
-// Seen along z, each wire covers its width 2r times its height 1 for any slant.
+// Seen along z, each wire covers an area of its width 2r times its height 1, at any slant.
 TEST(ThinWires, aLevelCoversTheirArea) {
     const Pyramid pyramid = buildPyramid(slantedWires(), {.maxLevels = 2});
     ASSERT_EQ(pyramid.levels.size(), 2u);

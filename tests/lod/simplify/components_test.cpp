@@ -1,4 +1,4 @@
-// Tests the simplification of meshes of many separate parts. It continues after each part has reached its min size.
+// Tests the simplification of meshes of many separate parts, which continues after each part has reached its min size.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ Mesh tetrahedra(std::uint32_t count, const SizeOf& sizeOf) {
     return singlePrimitive(std::move(vertices), std::move(indices));
 }
 
-// Returns scattered squares with sides of `size` that face +z.
+// Returns scattered squares of side `size`. All squares face +z.
 Mesh leaves(std::uint32_t count, float size) {
     Vertices vertices;
     std::vector<std::uint32_t> indices;
@@ -44,14 +44,15 @@ Mesh leaves(std::uint32_t count, float size) {
     return singlePrimitive(std::move(vertices), std::move(indices));
 }
 
-// Returns the indices of the parts that a level contains; each part of the mesh has `cornersEach` vertices.
+// Returns the indices of the parts (connected components of the mesh) that a level contains. Each part of the mesh has
+// `cornersEach` vertices.
 std::set<std::uint32_t> partsOf(const Pyramid& pyramid, std::size_t level, std::uint32_t cornersEach) {
     std::set<std::uint32_t> parts;
     for (const std::uint32_t v : levelIndices(pyramid, level)) parts.insert(pyramid.source[v] / cornersEach);
     return parts;
 }
 
-// Returns the largest distance from a corner of a removed part to the level.
+// Returns the largest distance from a vertex of a removed part (connected component of the mesh) to the level.
 double lackedDistance(const Mesh& mesh, const Pyramid& pyramid, std::size_t level, std::uint32_t cornersEach) {
     const std::set<std::uint32_t> parts = partsOf(pyramid, level, cornersEach);
     const Surface surface = prepareSurface(pyramid.levels[level].positions, levelIndices(pyramid, level));

@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 using Face = std::array<int, 3>;
 
-// A mesh with its Simplifier. Objects cannot be moved.
+// A mesh with its Simplifier. Objects of this type cannot be copied or moved.
 struct DrawnSurface {
     Vertices vertices;
     TriangleSet<MeshVertexNumber> triangles;

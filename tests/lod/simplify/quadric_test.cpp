@@ -28,7 +28,7 @@ Gradients gradientsOf(const glm::dvec3& third) {
     return attributeGradients(p, s);
 }
 
-// Returns the quadric of a single face at its corner 0.
+// Returns the quadric, at corner 0, of a single face whose corner 2 is `third`.
 FullQuadric quadricOf(const glm::dvec3& third) {
     FullQuadric quadric;
     quadric.addFace(gradientsOf(third), area);

@@ -105,9 +105,9 @@ TEST(WedgeModule, whereACreaseBeginsCornersTakeTheMostSimilarNormal) {
     }
 }
 
-// A wedge is a vertex with its attributes. After a collapse, the wedge of the surviving vertex has the cost of the
-// faces of both vertices: area times squared attribute difference. Three faces meet at vertex 5, and six more at vertex
-// 4.
+// A wedge is a vertex with its attributes. After a collapse, the cost of the surviving vertex's wedge covers the faces
+// of both vertices: area times squared attribute difference. Three faces meet at vertex 5 and six at vertex 4; the two
+// faces at their common edge count twice.
 TEST(WedgeModule, theSurvivorsWedgeStandsForTheFacesOfBoth) {
     DrawnSurface surface(grid(), {together(leftTriangles, rightTriangles)});
     const WedgeTable& wedges = surface.mesh().wedges;

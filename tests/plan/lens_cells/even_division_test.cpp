@@ -46,11 +46,12 @@ TEST(EvenDivision, pointsBesideACentreBelongToIt) {
     for (std::uint32_t i = 0; i < 64; ++i) EXPECT_EQ(order[i] % 16, i / 4);
 }
 
-// Lens points lie near the centre to which they are assigned: the mean squared distance is below 0.3 times the spread,
-// which is the points' mean squared distance from their common mean. A random assignment would give twice the spread.
-// For an ideal division of the disk into sixteen squares, the mean squared distance from a square's middle would be
-// 1/16 · (π/6)/(1/2) = 6.5 % of the spread, and between two random points of a square twice that. Apertures with
-// corners add a small error, because points and centres are halved separately.
+// Lens points lie near the centre to which they are assigned: their mean squared distance from it is below 0.3 times
+// the spread, which is the points' mean squared distance from their common mean. A random assignment would give twice
+// the spread. For an ideal division of the disk into sixteen squares, the mean squared distance from a square's middle
+// would be 1/16 · (π/6)/(1/2) = 6.5 % of the spread, and two random points of a square would have twice this mean
+// squared distance. Apertures with corners add a small error, because points and centres are divided in halves
+// independently.
 TEST(EvenDivision, pointsLieNearTheirCentre) {
     for (const ApertureShape& shape : apertureShapes)
         for (const std::uint32_t first : {0u, 64u, 640u}) {

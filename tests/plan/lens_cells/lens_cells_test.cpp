@@ -47,9 +47,9 @@ Moments momentsOf(const Points& points) {
 }
 
 // Lens cells, regions of the lens with one sample each, preserve the position and size of blurred objects at every
-// sample count. The cells' centres have the lens's mean, and the covariances of the centres and of the blur add up to
-// the lens's covariance. For a circle of confusion of c px, an image blur of σ = b·c px corresponds to σ = 2b lens
-// radii.
+// sample count. The mean of the cells' centres is the lens's mean, and the covariances of the centres and of the blur
+// add up to the lens's covariance. For a circle of confusion of c px, an image blur of σ = b·c px corresponds to σ = 2b
+// lens radii.
 TEST(LensCells, middlesAndBlurHaveTheSpreadOfTheLens) {
     const auto small = muchBlurred();
     const auto check = [&](const char* what, double tolerance) {
@@ -99,7 +99,7 @@ TEST(LensCells, middlesKeepApart) {
     const std::vector<LensSample> samples = lensSamples(small->view.lens, Sequence::sobol, 0, 64, 0);
     const double apart = nearest(lensCellsOf(*small, 64).middles, [](const glm::vec2& p) { return p; });
     EXPECT_GT(apart, 1.5 * nearest(samples, [](const LensSample& s) { return s.lens; }));
-    EXPECT_GT(apart, 1.0 / 8);  // half the width of 64 equal disks with the lens's total area, in lens radii
+    EXPECT_GT(apart, 1.0 / 8);  // radius, in lens radii, of 64 equal disks with the lens's total area
 }
 
 // In a frame that is drawn in blocks, the cells of all blocks together divide the lens about as finely as the cells of
@@ -115,7 +115,7 @@ TEST(LensCells, blocksHaveDifferentMiddles) {
         middles.insert(middles.end(), cells.middles.begin(), cells.middles.end());
     }
     ASSERT_EQ(middles.size(), 1024u);
-    // A quarter of the squares of side 1/20 lens radius inside the lens would stay empty for 1,024 random points.
+    // 1,024 random points would lie in only about 700 of the squares of side 1/20 lens radius.
     std::set<std::pair<int, int>> squares;
     for (const glm::vec2& middle : middles) squares.emplace(std::lround(20 * middle.x), std::lround(20 * middle.y));
     EXPECT_GT(squares.size(), 700u);
@@ -163,7 +163,8 @@ TEST(LensCells, edgesAreBlurredAsByADisk) {
 }
 
 // A subset of a planned frame's samples has the same lens cells (regions of the lens) as the entire frame. Samples that
-// are planned separately have different cells, whose blur follows from the frame's number of samples so far.
+// are planned separately have different cells. The blur of these cells follows from the frame's number of samples up to
+// their last sample.
 TEST(LensCells, belongToWhatIsPlannedTogether) {
     const auto small = muchBlurred();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(192));

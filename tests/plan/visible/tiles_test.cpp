@@ -1,5 +1,5 @@
-// Tests the division of an image: rasterization cells and ranges of rows cover each pixel once, and a tile's plan keeps
-// all objects that may be visible in the tile.
+// Tests the division of an image. Rasterization cells (parts with separate viewports) and ranges of rows cover each
+// pixel once, and a tile's plan keeps all objects that may be visible in the tile.
 
 #include "plan/visible/tiles.h"
 

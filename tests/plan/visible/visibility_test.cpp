@@ -182,8 +182,8 @@ TEST(Visibility, randomTrianglesThroughAThinLens) {
     }
 }
 
-// For a thin lens, the max facing determinant of a triangle equals that of an eye that moves over a disk of the lens's
-// radius in metres (Munkberg et al. 2012, Eq. 6).
+// For a thin lens, the max facing determinant of a triangle equals the determinant for an eye that moves over a disk
+// with the lens's radius in metres (Munkberg et al. 2012, Eq. 6).
 TEST(Visibility, thinLensMovesTheEyeOverADisk) {
     Random random(2);
     const auto small = looseTriangles(random, 500, 0.3);
@@ -219,7 +219,7 @@ TEST(Visibility, randomTrianglesUnderControlsOfTheBlur) {
         SCOPED_TRACE(variant);
         const FramePlan plan = planFrame(small->world, small->view, settingsFor(64));
         const Counts counts = checkTriangles(*small, plan);
-        if (variant == 5) continue;  // C of a curved focus surface has no linear piece
+        if (variant == 5) continue;  // with a curved focus surface, clusters are culled only outside the frustum
         away += counts.away;
         could += counts.couldBeAway;
     }
@@ -269,8 +269,6 @@ TEST(Visibility, anObjectBlurredMoreThanTheLensBlursIsSeenFromFarther) {
     finish(*small);
     EXPECT_EQ(planFrame(small->world, small->view, settingsFor(16)).objects.size(), 1u);
 }
-
-// ---- clusters -----------------------------------------------------------------------------------
 
 std::unique_ptr<SmallWorld> oneSphere(const glm::dmat4& worldFromObject, bool doubleSided = false) {
     auto small = std::make_unique<SmallWorld>();

@@ -272,8 +272,8 @@ TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
     EXPECT_GT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);
 }
 
-// Interpolated normals that face away from the eye cause no overly bright highlights: shading clamps the cosine of the
-// half vector to [0, 1].
+// Interpolated normals that face away from the eye cause no overly bright highlights: shading clamps the cosine between
+// the normal and the half vector to [0, 1].
 TEST_F(Accumulation, normalsThatLookAwayDoNotGlare) {
     const auto small = wall(1, 4);
     small->scene.materials[0] = Material{};

@@ -131,7 +131,7 @@ TEST_F(BlendedLayer, countsAtBordersAreUnbiased) {
     EXPECT_LT(errorOf(errors).rms, 0.045);
 }
 
-// With stochastic transparency, a sample's data layers count the surface that the sample's image shows.
+// With stochastic transparency, the data layers of a sample show the same surface as the sample's image.
 TEST_F(BlendedLayer, countsOfStochasticPanesAreThePicturesAlpha) {
     const auto small = sceneOf({turned(0.4f, 0.6), turned(0.7f, -0.6)});
     RenderSettings settings = settingsFor(64, LodMode::off);

@@ -130,7 +130,7 @@ TEST_F(LensLayer, ofAWallAreItsPlaceAndBlur) {
     }
 }
 
-// In pixels without a surface, all layers are 0, and the nearest depth is infinite.
+// In pixels without a surface, all layers are 0, except the nearest depth, which is infinite.
 TEST_F(LensLayer, ofNothingAreEmpty) {
     const auto small = threeSquares();
     small->world.pose.objects.resize(1);

@@ -47,7 +47,7 @@ Integrals integralsOf(std::span<const CircularComponent> kernel) {
     Integrals sums;
     for (int i = 0; i < steps; ++i) {
         const double t = (i + 0.5) / steps;
-        const double inside = profileOf(kernel, t);  // u = t; dA = π du
+        const double inside = profileOf(kernel, t);  // inside the disk, u = t and dA = π du
         const double outside = profileOf(kernel, 1 + t * t);
         const double du = 2 * t / steps;
         const double arcs = (pi - 4 * std::atan(t)) * du;  // area of the ring at u = 1 + t², inside the square
@@ -114,8 +114,8 @@ TEST(CircularKernel, publishedKernelIsThatOfTheSlides) {
     EXPECT_NEAR(profileOf(kernel, 1), 0.9245, 1e-4);
 }
 
-// Rescaled kernels are the published ones in units of the radius of the disk that they approximate. With the extent
-// fixed, a radius 3 % larger or smaller fits a disk worse. The fitted kernels approximate the disk at least as well.
+// Rescaled kernels are the published ones in units of the radius of the disk that they approximate. Kernels scaled to a
+// radius 3 % larger or smaller approximate the disk worse. The fitted kernels approximate the disk at least as well.
 TEST(CircularKernel, rescaledKernelsAreInRadiiOfTheirDisk) {
     EXPECT_THROW(publishedCircularKernel(0), Error);
     EXPECT_THROW(rescaledCircularKernel(publishedKernelLimit + 1), Error);
@@ -175,8 +175,6 @@ TEST(CircularKernel, noSmallChangeComesCloser) {
         }
     }
 }
-
-// ---- separable passes, tap by tap -------------------------------------------------------------------------------
 
 constexpr int blurRadius = 40;  // radius of the disk, px
 constexpr int side = 100;       // side of the image, px

@@ -8,7 +8,8 @@ namespace defocus::engine {
 namespace {
 
 // Each spoke (line through the centre) of a polygonal aperture represents an equal fraction of the aperture's area. The
-// mean light of the spokes beyond a straight cut is therefore the fraction of the area beyond the cut.
+// fraction of a spoke's area beyond a straight cut, averaged over all spokes, is therefore the fraction of the
+// aperture's area beyond the cut.
 TEST(LineSets, weighASquareByItsArea) {
     FramePlan plan;
     plan.view.lens.bladeCount = 4;

@@ -145,7 +145,7 @@ TEST_P(PostProcesses, whatLiesBehindABlendedSurfaceIsBlurredAsThatSurface) {
     std::vector<Board> list = {{2, {-0.4, 0}, {0.4, 1}, {0.2f, 0.6f, 0.3f, 0.5f}}};
     for (int i = -8; i < 8; ++i) list.push_back({9, {0.8 * i, 0}, {0.2, 9}, {0.9f, 0.2f, 0.1f, 1}});
     const auto small = boards(list, glm::vec3(0.5f));
-    // Blur the background by 10 px. Methods that blur at a quarter of the resolution can still represent this blur.
+    // The background is blurred by 10 px, which methods that blur at a quarter of the resolution can still represent.
     small->view.lens.blurScale = 4;
     std::string method = GetParam();
     if (method.find("transparency-buckets") != std::string::npos) GTEST_SKIP() << "buckets blur the pane separately";

@@ -103,7 +103,8 @@ TEST(TransparencyBuckets, reachAsFarAsTheirBlur) {
     EXPECT_EQ(reach.width, 500 + 2 * (10 + 24));
     EXPECT_EQ(reach.y, 0);
     EXPECT_EQ(reach.height, 500);
-    plan.objects[1].coc.nearest = -60;  // in front of the focal plane, the largest blur of all objects counts
+    // In front of the focal plane, a method may gather with the largest blur of all objects, here 60 px.
+    plan.objects[1].coc.nearest = -60;
     EXPECT_EQ(reachOf({0}, plan).x, 250 - 30 - 24);
     moveRight(plan.objects[0]);
     moveRight(plan.objects[0]);

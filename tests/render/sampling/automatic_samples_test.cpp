@@ -47,8 +47,8 @@ TEST(SamplesForBlur, areWholeBlocksWhereTheyAreMoreThanOne) {
                 EXPECT_TRUE(samples == 16 || samples == 32 || samples % 64 == 0) << samples;
 }
 
-// Better qualities aim at smaller errors and begin with at least as many samples. With an error estimate, samples can
-// be added later, so the first count is at most the count that is used without an estimate.
+// Higher quality settings aim at smaller errors and begin with at least as many samples. With an error estimate,
+// samples can be added later, so the first count is at most the count that is used without an estimate.
 TEST(SamplesForBlur, followTheQuality) {
     EXPECT_GT(flipOf(Quality::draft), flipOf(Quality::good));
     EXPECT_GT(flipOf(Quality::good), flipOf(Quality::fine));
@@ -63,8 +63,8 @@ TEST(SamplesForBlur, followTheQuality) {
     }
 }
 
-// Returns a plan of one object with a blur of up to `blur` px. In each sample, it draws half as many triangles as
-// pixels.
+// Returns a plan of one object with a blur of up to `blur` px. Each sample draws half as many triangles as the image
+// has pixels.
 FramePlan detailedPlanOf(double blur) {
     FramePlan plan = planOf(blur);
     plan.largestBlur = blur;

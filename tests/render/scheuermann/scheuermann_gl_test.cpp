@@ -110,8 +110,8 @@ TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
 }
 
 // At max blur, the published method reads only the low-resolution image, at taps in a disk of 0.4 · 4 = 1.6 times the
-// radius. The variance of a blurred square is then that of the taps plus that of the low-resolution image: pixels 4 px
-// wide (16/12), linear interpolation (16/6) and the Gaussian (8).
+// blur's radius. The variance of a blurred square is then that of the taps plus that of the low-resolution image:
+// pixels 4 px wide (16/12), linear interpolation (16/6) and the Gaussian (8).
 TEST_F(ScheuermannImage, asPublishedReadsTheSmallImageAtItsOwnRadius) {
     View view = bokehView(192, 144);
     const Image image = bokehOf(view, 6, "scheuermann:far-blur-depth=5,blurriness-cutoff=1");
@@ -130,14 +130,14 @@ TEST_F(ScheuermannImage, asPublishedReadsTheSmallImageAtItsOwnRadius) {
         EXPECT_NEAR(moments.variance[axis], ofTheTaps[axis] + 12 + ofTheLight, 0.03 * ofTheTaps[axis]) << axis;
 }
 
-// With multisampling, an edge in focus has the colours of a resolved multisampled image, which are quarters of the
-// display-encoded white.
+// With four multisamples per pixel, an edge in focus has the grey levels of a resolved image: quarters of white,
+// because display-encoded values are averaged.
 TEST_F(ScheuermannImage, multisamplingSmoothsEdgesBeforeTheBlur) {
     const auto small = boards({{2, {-1, 0}, {1, 2}, {1, 1, 1, 1}}}, glm::vec3(0));
     small->view.worldFromCamera = glm::rotate(glm::dmat4(1), 0.3, glm::dvec3(0, 0, 1));
     small->view.lens.blurScale = 0;
     const auto greys = [&](const char* method) {
-        std::set<int> found;  // quarters of white
+        std::set<int> found;  // grey levels in quarters of white
         const Image image = postProcessed(*small, method);
         for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
             const float quarters = 4 * srgbEncode(image.pixels[i]);

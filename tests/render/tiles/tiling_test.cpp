@@ -85,7 +85,7 @@ TEST(Tiling, onePieceIsWhatFitsWithItsPicture) {
     EXPECT_TRUE(fitsInOnePiece(oneCell));
 }
 
-// The sums of data layers and their images on the host take memory beside the picture.
+// Data layers take host memory twice, in addition to the rendered image: for their sums and for their finished images.
 TEST(Tiling, dataLayersTakeMemoryTwice) {
     TilingNeeds needs = needsOf(100, 100, 10'000 * (12 + sumPixelBytes + wholePixelBytes + 2 * 96));
     needs.dataPixel = 96;

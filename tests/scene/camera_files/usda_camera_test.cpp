@@ -91,7 +91,7 @@ TEST(UsdCamera, passesOverEverythingElse) {
     EXPECT_EQ(tracked.camera.lensValue("dofEnabled"), 0) << "USD's fStop defaults to 0";
     EXPECT_LT(glm::distance(glm::dvec3(tracked.worldFromCamera[3]), 0.01 * glm::dvec3(5, 6, 7)), 1e-12)
         << "the default unit is 1 cm";
-    // A uniform scale commutes with the rotation by 90°, which the inverse rotation cancels.
+    // The rotation by 90° and its inverse cancel, because the uniform scale between them commutes with rotations.
     EXPECT_LT(glm::distance(glm::normalize(glm::dvec3(tracked.worldFromCamera[2])), glm::dvec3(1, 0, 0)), 1e-12);
     std::string warnings;
     for (const std::string& line : track.warnings) warnings += line + "\n";

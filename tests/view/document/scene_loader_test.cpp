@@ -11,8 +11,7 @@ std::optional<LoadedScene> waitedFor(SceneLoader& loader) {
     return std::nullopt;
 }
 
-// The loader returns each result (a scene or an error) exactly once, even if loading ends between two checks in one
-// call.
+// The loader returns each result (a scene or an error) exactly once, even if loading ends while take() runs.
 TEST(SceneLoader, handsOverWhatItOpenedOnce) {
     SceneLoader loader;
     Request absent;
