@@ -29,7 +29,7 @@ from figures.results import run_of
 from figures.timed import timed
 
 RUNS = 3  # number of runs of each file in MANY
-# (kind of part, number of parts of a file)
+# (kind of element, number of these elements in the test file)
 MANY = [("roots", 300_000), ("nodes in a chain", 100_000), ("materials", 65_000), ("meshes", 65_000)]
 TRIANGLE = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
 

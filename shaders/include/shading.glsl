@@ -93,10 +93,10 @@ float normalSpread(float agreement) {
 
 // Returns the mean of the normals that a coarse level's normal represents, weighted by their visible area, because
 // normals that face the eye cover more pixels: Σ n·(n·v) / Σ (n·v). Seen along the mean normal, the weighted mean has
-// the length |n| = `agreement`. In other views it is tilted towards the eye by about (1 − |n|) / mean(n·v) times the
-// component of v perpendicular to the mean normal. At grazing angles few normals are visible; an upper bound on the
-// tilt then excludes lengths that are impossible for this |n|. The bound is fitted to the von Mises–Fisher
-// distribution.
+// the length |n| = `agreement`. In other views the weighted mean is tilted towards the eye by about (1 − |n|) / mean(n·v)
+// times the component of v perpendicular to the mean normal. At grazing angles few normals are visible, and this tilt
+// would be too large. It is therefore limited to the largest tilt that is possible for this |n|; the limit is fitted to
+// the von Mises–Fisher distribution.
 vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     float nv = dot(normal, toEye);
     float seen = max(meanCosine(agreement * nv, nv, spread), 1e-3);

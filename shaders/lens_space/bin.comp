@@ -74,8 +74,9 @@ float roundingOf(vec4 p[3]) {
 // Appendix A).
 bool facesAway(vec4 p[3], float aspect) { return overLens(polarForm(p, p, p), aspect) < -roundingOf(p); }
 
-// Returns true if the entire lens sees the triangle's back while the corners and C move linearly from `p` to `q`
-// (Equations 7 and 8): each Bernstein coefficient over time is negative.
+// Returns true if the entire lens sees the triangle's back while its corners and their circles of confusion move
+// linearly from `p` to `q` (Munkberg et al. 2012, Equations 7 and 8): all Bernstein coefficients of the facing test
+// as a polynomial in time are negative.
 bool facesAway(vec4 p[3], vec4 q[3], float aspect) {
     vec3 second = (polarForm(q, p, p) + polarForm(p, q, p) + polarForm(p, p, q)) / 3.0;
     vec3 third = (polarForm(p, q, q) + polarForm(q, p, q) + polarForm(q, q, p)) / 3.0;

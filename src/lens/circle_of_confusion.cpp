@@ -67,7 +67,8 @@ Parts partsOver(const ClipCircleOfConfusion& coc, const CocBox& box) {
     return parts;
 }
 
-// Returns the range of C/w, as a fraction of the image's width, before the foreground and background blur limits apply.
+// Returns the range of the circle of confusion's diameter C/w, w being the depth, as a fraction of the image's width.
+// The limits of foreground and background blur are not applied.
 Interval unlimitedBlur(const Parts& parts, const OwnBlur& own) {
     const Interval ofLens = times({std::min(0.0, parts.front.min) + std::max(0.0, parts.behind.min),
                                    std::min(0.0, parts.front.max) + std::max(0.0, parts.behind.max)},

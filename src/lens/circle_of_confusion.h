@@ -30,15 +30,18 @@ namespace defocus::engine {
 
 struct ClipCircleOfConfusion {
     double a = 0;
-    double aBehind = 0;    // coefficient a₂ ≤ a of the blur B = a₂/w + b₂·q behind the focus plane
-    double front = 0;      // coefficient b₁ of the blur F = a/w + b₁·q in front of the focus plane
-    double behind = 0;     // coefficient b₂ ≤ b₁ of the blur B = a₂/w + b₂·q behind the focus plane
-    glm::dvec2 tilt{0};    // coefficient t of the focus term q = 1 + κ·r² + t·n
-    double curvature = 0;  // coefficient κ of the focus term q = 1 + κ·r² + t·n
+    double aBehind = 0;  // coefficient a₂ ≤ a of the blur B = a₂/w + b₂·q behind the focus plane
+    double front = 0;    // coefficient b₁ of the blur F = a/w + b₁·q in front of the focus plane
+    double behind = 0;   // coefficient b₂ ≤ b₁ of the blur B = a₂/w + b₂·q behind the focus plane
+    // The focus term is q = 1 + κ·r² + t·n at the image position n with the distance r = |n| from the image's centre.
+    glm::dvec2 tilt{0};    // coefficient t of the focus term q
+    double curvature = 0;  // coefficient κ of the focus term q
     double gain = 0;       // g of the radial blur gain 1 + g·r²
-    double foregroundLimit = std::numeric_limits<double>::infinity();  // max blur R₁ / image width
-    double backgroundLimit = std::numeric_limits<double>::infinity();  // max blur R₂ / image width
-    double aspect = 1;                                                 // k, image width / height
+    double foregroundLimit =
+        std::numeric_limits<double>::infinity();  // max CoC R₁ in front of the focus plane / image width
+    double backgroundLimit =
+        std::numeric_limits<double>::infinity();  // max CoC R₂ behind the focus plane / image width
+    double aspect = 1;                            // k, image width / height
     double shareOfMillimetre = 0;  // fraction of the image's width per mm on the sensor; scales added vertex blur
     double astigmatism = 0;        // coefficient A of the wavefront error W(l) in aberrations.h
     double coma = 0;               // coefficient B of the wavefront error W(l) in aberrations.h

@@ -345,7 +345,8 @@ void noteUnusedPaths(FramePlan& plan, const World& world) {
 }
 
 // Appends objects that no lens sample sees. Called last, so that these objects affect no other decision of the plan.
-// Omits their transmissive primitives, because only the nearest eight glass objects may copy the image.
+// Omits their transmissive primitives: each transmissive object needs a copy of the image behind it, and only the
+// nearest eight get one.
 void addUnseen(FramePlan& plan, const World& world, std::vector<ObjectPlan> unseen) {
     const std::uint32_t maxParts = plan.objects.empty() ? 1 : plan.objects.front().maxParts;
     for (ObjectPlan& object : unseen) {

@@ -15,7 +15,8 @@
 
 namespace defocus::engine {
 
-// Time of a lens sample within the exposure, between two shutter times.
+// Time of a lens sample within the exposure. The scene is posed at a few times, the shutter times; the sample
+// interpolates between two of them.
 struct SampleMoment {
     std::uint32_t moment = 0;
     float fraction = 0;  // interpolation weight of the next shutter time, [0, 1); 0 at the last shutter time
@@ -121,8 +122,8 @@ struct ShadowPlan {
     std::vector<ObjectPlan> casters;  // each caster draws one level, ObjectPlan::fine, in all samples
     // Corners of boxes that contain all casters (relative to the camera, in m, world axes).
     std::vector<glm::dvec3> corners;
-    // Corners of the volume that is visible in the entire frame, in the coordinates of `corners`. Shadow maps need not
-    // extend beyond this volume.
+    // Corners of the volume that contains all that any lens sample sees, in the coordinates of `corners`. Shadow maps
+    // need not extend beyond this volume.
     std::vector<glm::dvec3> seen;
     double casterError = 0;  // max deviation of the casters' levels from full detail, m
 };

@@ -10,7 +10,7 @@ namespace defocus::engine {
 struct StrokeView {
     glm::dmat4 worldFromCamera{1.0};
     double pixelTangent = 0;  // width of a pixel at depth 1
-    double nearPlane = 0;     // depth in m; nearer points get the width of this depth
+    double nearPlane = 0;     // depth in m; points nearer than this are as wide as points at this depth
 };
 
 [[nodiscard]] bool hasStrokes(const Scene& scene);

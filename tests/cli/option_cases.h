@@ -26,9 +26,9 @@ inline Words joined(Words words, const Words& more) {
     return words;
 }
 
-// Test case of an option. `words` are the option and its value, and `with` are further options that the case needs;
-// commands ignore those that they lack. `against` is the option with another value to compare with; if empty, the
-// comparison is with a command line without the option.
+// Test case of an option. `words` are the option and its value. `with` are further options that the case needs; the
+// test leaves out those that the tested command does not have. `against` is the option with another value to compare
+// with; if empty, the comparison is with a command line without the option.
 struct OptionCase {
     Words words;
     Words with;

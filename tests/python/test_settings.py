@@ -141,8 +141,8 @@ def test_stubs_have_the_keywords_of_the_table():
     assert outcome.returncode == 0, outcome.stderr
 
 
-# Script that runs with a copy of the package whose table of settings has the row of tests/new_setting.h. The row
-# stores its value in `clip`.
+# Script that runs with a copy of the package whose table of settings also contains the setting of tests/new_setting.h.
+# The value of this setting is stored in the member `clip` of Request.
 NEW_SETTING = """
 import inspect, sys
 import defocus, pytest, python_stubs

@@ -16,11 +16,11 @@ const char* lodModeName(LodMode mode);
 const char* lodMetricName(LodMetric metric);
 
 // Thresholds set by the user. Unset thresholds have defaults that depend on the sample count, so that long renders
-// converge to full detail. For the metrics `size` and `error`, the target is max(blur · c, size) px for a circle of
-// confusion of c px. For `proportional`, `blur` is the level of an object whose circle of confusion is as large as its
-// bounding box. For `measured`, a level's error is at most light / edge for edges of `edge` px. This error is
-// dimensionless, because it is relative to the standard deviation of the object's radiance within its blur. `light` is
-// therefore in px.
+// converge to full detail. For the metrics `size` and `error`, the target edge length or error is max(blur · c, size)
+// px for a circle of confusion of c px. For `proportional`, `blur` is the level of an object whose circle of confusion
+// is as large as its bounding box. For `measured`, a level whose edges are `edge` px long may have an error of at most
+// light / edge. The error is relative to the standard deviation of the object's radiance within its blur, so it has no
+// unit, and `light` is a length in px.
 struct GivenThresholds {
     std::optional<double> blur = {};   // target edge length or error per CoC diameter; levels for `proportional`; ≥ 0
     std::optional<double> size = {};   // min target edge length or error in px, ≥ 0; for LodMetric::size and ::error

@@ -86,7 +86,8 @@ inline std::vector<DistantLight> lightsFor(const Eye& eye) {
     return lights;
 }
 
-// Visible normals of a distribution of normals that is stored as a single mean normal.
+// The visible part of a distribution of normals. The distribution is stored as its mean normal, whose length gives the
+// spread.
 struct SeenNormals {
     float spread = 0;              // spread of the distribution, from normalSpread()
     float shown = 0;               // mean cosine between eye direction and visible normals

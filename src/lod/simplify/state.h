@@ -36,7 +36,8 @@ struct Component {
     double area = 0;
     PrimitiveNumber primitive;  // primitive of one of the component's faces
     std::size_t faces = 0;      // number of remaining faces of the component
-    // Number of vertices with a good or poor collapse (classes of simplify.h), according to the tests made so far.
+    // Number of vertices that have a collapse of class `good` or `poor` (simplify.h), as far as collapses were
+    // examined.
     std::size_t harmless = 0;
     bool spent = false;     // true as soon as `harmless` has reached 0
     bool standsIn = false;  // the component grows to replace removed components

@@ -23,8 +23,8 @@ constexpr double cellWidth = 0.35;
 constexpr std::uint32_t fewestSamples = 4;  // with fewer samples, the image of each sample stays unblurred
 constexpr std::uint32_t maxPointsOfCell = 16;
 constexpr std::uint32_t maxPoints = 1u << 14;  // max number of lens points, summed over all cells
-// Min number of cells into which the lens is divided for all batches of samples but the first.
-constexpr std::uint32_t cellsOfBatches = maxPoints / maxPointsOfCell;
+// Min number of cells into which the lens is divided for all blocks of samples but the first.
+constexpr std::uint32_t cellsOfBlocks = maxPoints / maxPointsOfCell;
 
 // Mean and covariance of lens points, and the fraction of the unit disk that they cover. The default values describe a
 // uniform unit disk.
@@ -168,10 +168,10 @@ LensCells lensCells(const FramePlan& plan) {
     cells.behind = classesFor(blur, behind);
     cells.blur = blur;
     cells.firstSample = plan.frameFirst;
-    // All later batches share one division of the lens. If each batch had its own division, the cells of different
-    // batches would have nearly the same centres, and many batches would show a light as the same few dots.
+    // All later blocks share one division of the lens. If each block had its own division, the cells of different
+    // blocks would have nearly the same centres, and many blocks would show a light as the same few dots.
     const std::uint32_t count =
-        plan.frameFirst == 0 ? plan.frameSamples : std::max(cellsOfBatches, std::bit_ceil(plan.frameSamples));
+        plan.frameFirst == 0 ? plan.frameSamples : std::max(cellsOfBlocks, std::bit_ceil(plan.frameSamples));
     std::vector<LensSample> samples = lensSamples(plan.view.lens, plan.settings.sequence, 0, count, plan.settings.seed);
     moveToMeans(samples, plan);
     samples.resize(plan.frameSamples);

@@ -11,8 +11,8 @@
 // covariance of the blur. Blurred points keep their position and size for any N; plain sequence points would shift them
 // by their mean. σ falls as 1/√N, so the result converges to that of plain accumulation.
 //
-// Blurring is linear. Pixels are therefore sorted by σ into a few classes and summed over a batch of samples; each
-// class is then blurred once per batch (render/accumulation/cell_sums.h). A pixel contributes to the two classes with
+// Blurring is linear. Pixels are therefore sorted by σ into a few classes and summed over a block of samples; each
+// class is then blurred once per block (render/accumulation/cell_sums.h). A pixel contributes to the two classes with
 // the nearest variances, with weights that preserve its own variance; this avoids popping. Pixels with hardly any blur
 // stay unblurred. Pixels with an alpha-blended surface also stay unblurred, because the surface and its background
 // differ in blur.
@@ -48,9 +48,9 @@ struct LensCells {
 // Returns why the images of the plan's samples cannot be blurred by lens cells; empty if they can be.
 std::string reasonForNoCells(const FramePlan& plan);
 
-// Returns the lens cells of the plan's samples. In a frame whose samples are added batch by batch, the samples of the
-// first batch divide the lens into cells. All later batches belong to one finer division, and the blur of their cells
-// depends on the number of all samples up to the end of the batch.
+// Returns the lens cells of the plan's samples. A frame may consist of several blocks of samples, each with a plan. The
+// first block divides the lens into as many cells as the block has samples. All later blocks take their cells from one
+// finer division of the lens. The blur of a later block follows from the number of all samples up to its end.
 LensCells lensCells(const FramePlan& plan);
 
 // Moves each sample of the plan to the centre of its lens cell, and shifts its position in the pixel by

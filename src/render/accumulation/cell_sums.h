@@ -40,9 +40,9 @@ public:
     // sum. `to`: index in `blockSums` of the texture that receives the block's sum.
     void bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur, bool startsBlock,
                        int to) const;
-    // Blurs each blur class of the block's sum and writes the result to `target`; the target's compensation attachment
-    // becomes 0. `sum` is the block's sum without blur. The result is divided by `samples` if > 0, and by the pixel's
-    // alpha if `samples` is 0. A negative value leaves it undivided.
+    // Blurs the block's sum, each blur class by its own blur, and writes the result to `target`. Sets the target's
+    // second attachment, which holds rounding errors, to 0. `sum` is the block's sum without blur. The result is
+    // divided by `samples` if `samples` > 0, by the pixel's alpha if 0, and by nothing if negative.
     void blurInto(const Target& target, const GlTexture& sum, float samples = -1);
     [[nodiscard]] bool fits(const LensCells& cells) const {
         return cells.inFront == inFront_ && cells.behind == behind_;

@@ -18,8 +18,9 @@ constexpr std::uint32_t maxSortedAtOnce = 65'536;  // max list length per dispat
 constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // per vertex; see LightBlock of shade_vertices.comp
 constexpr std::size_t attributeBytes = 20 * sizeof(float);   // per vertex; output of shaders/lens_space/attributes.vert
 
-// Returns the end of the range of rays for which a level of an object is drawn. If two levels share a boundary sample,
-// the level with more of the sample's pixels gets the sample's ray.
+// Returns the end of the range of rays for which a level of an object is drawn. Rays and lens samples correspond. In a
+// lens sample between two levels, each level may cover some of the pixels. A ray is not divided between levels: the
+// level that covers more of the sample's pixels gets it.
 std::uint32_t endOf(const ObjectPlan& object, const LevelDraw& level, bool coarse) {
     const std::uint32_t end = level.firstSample + level.sampleCount;
     const bool shared = boundarySample(object).has_value();

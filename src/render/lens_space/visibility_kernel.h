@@ -31,8 +31,8 @@ public:
     [[nodiscard]] virtual const char* addShader() const { return "lens_space/add.comp"; }
     // Returns the min bytes of the records (hits) of one ray.
     [[nodiscard]] virtual std::uint64_t rayBytes() const = 0;
-    // Prepares a frame; called before the frame's first rays are traced. `defines`: shader defines of LensFront and of
-    // the rays.
+    // Prepares a frame; called before the frame's first rays are traced. `defines`: the preprocessor
+    // macros that LensFront and RaySets need in shaders.
     virtual void start(const FramePlan& plan, const RaySets& rays, const ShaderDefines& defines) = 0;
     // Finds the hits of a batch (wave) of rays and returns their number. Reduces `wave.count` if the records of the
     // hits would exceed the max buffer size. The frame's uniforms and the rays must be bound.

@@ -6,7 +6,7 @@
 namespace defocus::engine::gltf {
 
 struct Textures {
-    std::vector<Texture> textures;     // one per glTF texture; `image` is −1 unless a material draws the texture
+    std::vector<Texture> textures;     // one per glTF texture; `image` is −1 if no material uses the texture
     std::vector<TextureImage> images;  // images that materials use
     std::vector<std::string> names;    // one name per entry of `images`
 };

@@ -137,7 +137,7 @@ TEST_F(ScheuermannImage, multisamplingSmoothsEdgesBeforeTheBlur) {
     small->view.worldFromCamera = glm::rotate(glm::dmat4(1), 0.3, glm::dvec3(0, 0, 1));
     small->view.lens.blurScale = 0;
     const auto greys = [&](const char* method) {
-        std::set<int> found;  // grey levels in quarters of white
+        std::set<int> found;  // grey levels in the image, in units of white / 4
         const Image image = postProcessed(*small, method);
         for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
             const float quarters = 4 * srgbEncode(image.pixels[i]);
