@@ -16,15 +16,19 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, double>, 9> units = {{{"B", 1},
-                                                                       {"kB", 1e3},
-                                                                       {"MB", 1e6},
-                                                                       {"GB", 1e9},
-                                                                       {"TB", 1e12},
-                                                                       {"KiB", 0x1p10},
-                                                                       {"MiB", 0x1p20},
-                                                                       {"GiB", 0x1p30},
-                                                                       {"TiB", 0x1p40}}};
+constexpr auto units = std::to_array<std::pair<std::string_view, double>>({{"B", 1},
+                                                                           {"kB", 1e3},
+                                                                           {"MB", 1e6},
+                                                                           {"GB", 1e9},
+                                                                           {"TB", 1e12},
+                                                                           {"K", 0x1p10},
+                                                                           {"M", 0x1p20},
+                                                                           {"G", 0x1p30},
+                                                                           {"T", 0x1p40},
+                                                                           {"KiB", 0x1p10},
+                                                                           {"MiB", 0x1p20},
+                                                                           {"GiB", 0x1p30},
+                                                                           {"TiB", 0x1p40}});
 
 // Returns the number in a file; nullopt if the file is missing or contains other text, such as "max".
 std::optional<std::uint64_t> numberIn(const std::string& path) {

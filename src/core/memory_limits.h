@@ -19,8 +19,8 @@ std::optional<std::uint64_t> leftByControlGroup(const std::string& folder, bool 
 // Returns the resident memory of this process in bytes.
 std::uint64_t residentMemory();
 
-// Parses a memory size such as "2GiB" or "1500 MB". Units: B, kB, MB, GB, TB (powers of 1000), KiB, MiB, GiB, TiB
-// (powers of 1024). Throws Error for other text, and for sizes below 1 byte or above 2⁶² bytes.
+// Parses a memory size such as "2GiB" or "1500 MB". Units: B, kB, MB, GB, TB (powers of 1000), K, M, G, T or
+// KiB, MiB, GiB, TiB (powers of 1024). Throws Error for other text, and for sizes below 1 byte or above 2⁶² bytes.
 std::uint64_t parseBytes(std::string_view text);
 
 // Formats a size as "2 GiB" or "1.5 MiB".

@@ -15,6 +15,7 @@ TEST(MemoryLimits, amountsHaveDecimalAndBinaryUnits) {
     EXPECT_EQ(parseBytes("2GiB"), std::uint64_t{2} << 30);
     EXPECT_EQ(parseBytes("2 GB"), 2'000'000'000u);
     EXPECT_EQ(parseBytes("1.5MiB"), 1'572'864u);
+    EXPECT_EQ(parseBytes("300M"), std::uint64_t{300} << 20);
     EXPECT_EQ(parseBytes("7B"), 7u);
     for (const char* wrong : {"", "GiB", "2", "2 gib", "-1GiB", "0B", "1e30GiB", "nan GiB", "2GiBs", "2 GiB "})
         EXPECT_THROW(parseBytes(wrong), Error) << wrong;
