@@ -14,14 +14,6 @@
 
 namespace defocus::engine {
 
-namespace {
-
-// Min number of pixel positions, summed over all samples, for which the error of a trial (a frame of fewer than 64
-// samples) is estimated. With fewer positions, the image of half the samples is too rough for an estimate.
-constexpr std::uint32_t minAssessed = 32;
-
-}  // namespace
-
 void checkStop(const StopSettings& stop, const Method& method, const ShutterSettings& shutter) {
     if (!stop.given()) return;
     const char* what = stop.targetError ? "a target error" : "a time limit";
@@ -136,8 +128,7 @@ bool FrameRun::advance() {
     if (schedule_ && schedule_->stopped()) return false;
     if (advanceRenderer()) {
         const bool isHalf = 2 * samples() == plan_.samples.size();
-        if (trial_ && isHalf && positionCount(plan_.settings) >= minAssessed)
-            trial_->add(renderer_->image(), samples());
+        if (trial_ && isHalf) trial_->add(renderer_->image(), samples());
         if (schedule_ && schedule_->wantsImage(samples())) schedule_->addImage(renderer_->image(), samples());
         if (!timed_ || !schedule_->outOfTime(millisecondsSince(begin_) / 1000)) return true;
         schedule_->endWithinBlock(renderer_->samples() - schedule_->samples());

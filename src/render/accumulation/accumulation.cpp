@@ -56,10 +56,10 @@ std::uint64_t maxLayers(const Scene& scene, const FramePlan& plan, const Rendere
 WaveShape chosenShape(const FramePlan& plan, const RendererOptions& options, const WaveLimit& limit,
                       std::uint64_t layers) {
     const std::uint64_t samples = std::max<std::uint64_t>(1, plan.samples.size());
-    std::uint64_t longest = limit.perWave > 0 ? limit.perWave : maxWave;
-    // With several pixel positions per sample, a frame may have few samples. Its error is estimated after half of the
-    // samples, so a batch has at most half of them.
-    if (plan.settings.positions > 1) longest = std::min(longest, std::max<std::uint64_t>(1, samples / 2));
+    // The error of a frame with few samples is estimated after half of the samples, so a batch has at most half of
+    // them.
+    std::uint64_t longest =
+        std::min<std::uint64_t>(limit.perWave > 0 ? limit.perWave : maxWave, std::max<std::uint64_t>(1, samples / 2));
     if (currentIsSoftware()) {
         const std::uint64_t triangles = std::max<std::uint64_t>(1, plan.trianglesDrawn);
         longest = std::min(longest, std::max(minWaveOfTriangles, maxWaveTriangles * samples / triangles));

@@ -19,38 +19,48 @@ constexpr int maxDoubledSide = 4096;
 constexpr double maxDoubledPixels = 4 << 20;
 constexpr std::uint32_t minSpread = 64;  // min samples for smooth penumbrae and motion blur
 
-struct QualityLimits {
-    double flip;        // target error, as FLIP
-    double firstGap;    // max distance in px between a blurred point's images in neighbouring samples
-    double gap;         // like firstGap, for frames whose error is not estimated while they are drawn
+// Returns the number of samples, rounded up to a power of two or, above 64, to complete blocks of 64.
+std::uint32_t wholeCount(std::uint32_t samples) {
+    return samples <= blockSamples ? std::bit_ceil(samples)
+                                   : (samples + blockSamples - 1) / blockSamples * blockSamples;
+}
+
+// Limits of a number of samples.
+struct SampleLimits {
     std::uint32_t min;  // min number of samples
+    double gap;         // max distance in px between a blurred point's images in neighbouring samples
+};
+
+struct QualityLimits {
+    double flip;             // target error, as FLIP
+    SampleLimits first;      // for the first number of samples of frames whose error is then estimated
+    SampleLimits unchecked;  // for frames whose error is not estimated while they are drawn
 };
 
 QualityLimits limitsOf(Quality quality) {
     switch (quality) {
         case Quality::draft:
-            return {0.03, 8, 3.5, 16};
+            return {0.03, {16, 8}, {16, 3.5}};
         case Quality::good:
-            return {0.01, 4.5, 2, 32};
+            return {0.01, {16, 4.5}, {32, 2}};
         case Quality::fine:
-            return {0.005, 3, 1.4, 64};
+            return {0.005, {32, 3}, {64, 1.4}};
     }
     return {};
 }
 
-// Returns the number of samples, at least `min`, at which the images of a point blurred over `blur` px are at most
-// `gap` px apart.
-std::uint32_t samplesForGap(double blur, double gap, std::uint32_t min) {
-    const double filling = std::numbers::pi / 4 * blur * blur / (gap * gap);
-    if (!(filling > min)) return min;
-    const double blocks = std::ceil(std::min(filling, double{maxAutomaticSamples}) / blockSamples);
-    return static_cast<std::uint32_t>(blocks) * blockSamples;
+// Returns a number of samples within `limits` for a point that is blurred over `blur` px.
+std::uint32_t samplesWithin(const SampleLimits& limits, double blur) {
+    const double filling = std::numbers::pi / 4 * blur * blur / (limits.gap * limits.gap);
+    if (!(filling > limits.min)) return limits.min;
+    const auto samples = static_cast<std::uint32_t>(std::ceil(std::min(filling, double{maxAutomaticSamples})));
+    return wholeCount(samples);
 }
 
-std::uint32_t samplesForGap(const FramePlan& plan, const QualityLimits& limits, double gap) {
-    const double blur = plan.view.lens.dofEnabled ? largestBoundedBlur(plan) : 0;
+std::uint32_t samplesWithin(SampleLimits limits, const FramePlan& plan) {
     const bool spreads = !plan.shadows.maps.empty() || !plan.moments.empty();
-    return samplesForGap(blur, gap, spreads ? std::max(limits.min, minSpread) : limits.min);
+    if (spreads) limits.min = std::max(limits.min, minSpread);
+    return samplesWithin(limits, plan.view.lens.dofEnabled ? largestBoundedBlur(plan) : 0);
 }
 
 }  // namespace
@@ -81,13 +91,11 @@ double largestBoundedBlur(const FramePlan& plan) {
 }
 
 std::uint32_t firstSamples(const FramePlan& plan, Quality quality) {
-    const QualityLimits limits = limitsOf(quality);
-    return samplesForGap(plan, limits, limits.firstGap);
+    return samplesWithin(limitsOf(quality).first, plan);
 }
 
 std::uint32_t firstSamples(double blur, Quality quality) {
-    const QualityLimits limits = limitsOf(quality);
-    return samplesForGap(blur, limits.firstGap, limits.min);
+    return samplesWithin(limitsOf(quality).first, blur);
 }
 
 bool fourPositionsSuffice(const FramePlan& plan, double samples) {
@@ -104,15 +112,12 @@ bool fourPositionsSuffice(const FramePlan& plan, double samples) {
 
 RenderSettings withSamples(RenderSettings settings, const FramePlan& plan, double samples, bool choosesPositions) {
     if (choosesPositions && fourPositionsSuffice(plan, samples)) settings.positions = 4;
-    const auto count = static_cast<std::uint32_t>(std::ceil(samples / settings.positions));
-    settings.sampleCount =
-        count <= blockSamples ? std::bit_ceil(count) : (count + blockSamples - 1) / blockSamples * blockSamples;
+    settings.sampleCount = wholeCount(static_cast<std::uint32_t>(std::ceil(samples / settings.positions)));
     return settings;
 }
 
 std::uint32_t samplesForBlur(const FramePlan& plan, Quality quality) {
-    const QualityLimits limits = limitsOf(quality);
-    return samplesForGap(plan, limits, limits.gap);
+    return samplesWithin(limitsOf(quality).unchecked, plan);
 }
 
 }  // namespace defocus::engine

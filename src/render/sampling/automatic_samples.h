@@ -14,10 +14,11 @@ inline constexpr std::uint32_t maxAutomaticSamples = 1024;
 // Returns the target error of the quality setting: the FLIP between the image and the converged image.
 double flipOf(Quality quality);
 
-// Returns the number of samples to begin with: 16 (draft), 32 (good) or 64 (fine), or complete blocks of 64 up to
-// 1,024. N points in a disk of c px, the largest blur diameter, are about c·√(π/(4N)) px apart. N is chosen so that
-// this distance is at most 8 (draft), 4.5 (good) or 3 px (fine). With shadow maps or motion, N is at least 64. Objects
-// that extend to the near plane have unbounded blur and are ignored, as is blur above largestSampledBlur().
+// Returns the number of samples to begin with: a power of two from 16 (draft, good) or 32 (fine) to 64, or complete
+// blocks of 64 up to 1,024. N points in a disk of c px, the largest blur diameter, are about c·√(π/(4N)) px apart. N is
+// chosen so that this distance is at most 8 (draft), 4.5 (good) or 3 px (fine). With shadow maps or motion, N is at
+// least 64. Objects that extend to the near plane have unbounded blur and are ignored, as is blur above
+// largestSampledBlur().
 std::uint32_t firstSamples(const FramePlan& plan, Quality quality);
 // Returns the number of samples to begin with for a largest blur diameter of `blur` px, without shadow maps or motion.
 std::uint32_t firstSamples(double blur, Quality quality);
@@ -36,8 +37,8 @@ bool fourPositionsSuffice(const FramePlan& plan, double samples);
 RenderSettings withSamples(RenderSettings settings, const FramePlan& plan, double samples, bool choosesPositions);
 
 // Returns the number of samples of a frame whose error cannot be estimated before it is complete, such as a frame in
-// tiles. The number is computed as in firstSamples(), but the distance between points is at most 3.5 (draft), 2 (good)
-// or 1.4 px (fine).
+// tiles. The number is computed as in firstSamples(), but it is at least 16 (draft), 32 (good) or 64 (fine), and the
+// distance between points is at most 3.5, 2 or 1.4 px.
 std::uint32_t samplesForBlur(const FramePlan& plan, Quality quality);
 
 // Returns the blur diameter in px at which the blur disk has maxAutomaticSamples times the area of the image. In wider

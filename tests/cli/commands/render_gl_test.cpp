@@ -279,8 +279,8 @@ TEST_F(Render, theNumberOfSamplesIsAutomatic) {
         return samples;
     };
     EXPECT_EQ(rendered("sharp.exr", {"--no-dof"}), 16) << "pinhole samples only smooth edges";
-    EXPECT_EQ(rendered("little.exr", {"--fstop", "4"}), 32);
-    EXPECT_EQ(rendered("little4.exr", {"--fstop", "4", "--positions", "4"}), 8) << "with 4 positions each";
+    EXPECT_EQ(rendered("little.exr", {"--fstop", "4"}), 16);
+    EXPECT_EQ(rendered("little4.exr", {"--fstop", "4", "--positions", "4"}), 4) << "with 4 positions each";
     const int many = rendered("much.exr", {"--fstop", "0.3", "--focus-distance", "1"});
     EXPECT_GE(many, 128);
     EXPECT_EQ(rendered("again.exr", {"--fstop", "0.3", "--focus-distance", "1", "--samples", "auto", "--wave", "5"}),

@@ -40,13 +40,15 @@ TEST(ChosenLevels, areDrawnInWideBlur) {
 }
 
 TEST(ChosenLevels, areDrawnWhereManyObjectsShareMeshes) {
-    EXPECT_EQ(chosenFor(smallSchool(16), 2), LodMode::fractional);
+    EXPECT_EQ(chosenFor(smallSchool(16), 3), LodMode::off);
+    EXPECT_EQ(chosenFor(smallSchool(16), 4), LodMode::fractional);
 }
 
-TEST(ChosenLevels, areDrawnWhereEachObjectIsDrawnOften) {
+TEST(ChosenLevels, areDrawnWithFewerCopiesAtAHigherQuality) {
     Request fine = smallSchool(16);
     fine.quality = Quality::fine;
-    EXPECT_EQ(chosenFor(fine), LodMode::fractional);
+    EXPECT_EQ(chosenFor(fine), LodMode::off);
+    EXPECT_EQ(chosenFor(fine, 2), LodMode::fractional);
 }
 
 TEST(ChosenLevels, areDrawnForAGivenNumberOfSamplesOrATarget) {

@@ -39,6 +39,15 @@ TEST(SamplesForBlur, bringNeighboursToTwoPixels) {
     EXPECT_EQ(before, maxAutomaticSamples);
 }
 
+// Neighbouring images of a point are at most 4.5 px apart. 16 points do this up to a blur of 4.5·√(64/π) = 20.3 px.
+TEST(FirstSamples, doubleUntilTheyFillABlock) {
+    EXPECT_EQ(firstSamples(planOf(0), Quality::good), 16u);
+    EXPECT_EQ(firstSamples(planOf(20.3), Quality::good), 16u);
+    EXPECT_EQ(firstSamples(planOf(20.4), Quality::good), 32u);
+    EXPECT_EQ(firstSamples(planOf(28.8), Quality::good), 64u);
+    EXPECT_EQ(firstSamples(planOf(40.7), Quality::good), 128u);
+}
+
 TEST(SamplesForBlur, areWholeBlocksWhereTheyAreMoreThanOne) {
     for (const Quality quality : allQualities)
         for (double blur = 1; blur < 200; blur *= 1.1)
@@ -143,7 +152,7 @@ TEST(SamplesForBlur, leaveOutWhatNoNumberResolves) {
     const double largest = largestSampledBlur(plan);
     EXPECT_NEAR(std::numbers::pi / 4 * largest * largest, 1024 * pixels, 1e-6 * pixels);
     EXPECT_EQ(firstSamples(planOf(0.99 * largest), Quality::good), maxAutomaticSamples);
-    EXPECT_EQ(firstSamples(planOf(1.01 * largest), Quality::good), 32u);
+    EXPECT_EQ(firstSamples(planOf(1.01 * largest), Quality::good), 16u);
 }
 
 TEST(SamplesForBlur, followMotion) {
