@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/enum_name.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/stopwatch.h"
@@ -309,15 +310,7 @@ private:
 }  // namespace
 
 const char* methodFormName(MethodForm form) {
-    switch (form) {
-        case MethodForm::published:
-            return "published";
-        case MethodForm::best:
-            return "best";
-        case MethodForm::standard:
-            return "standard";
-    }
-    return "";
+    return enumName<MethodForm::standard>(form, {"published", "best", "standard"});
 }
 
 double ImageError::psnr() const {
