@@ -1,7 +1,6 @@
 #include "capture/shot_json.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/json_text.h"
+#include "core/parse.h"
 #include "frame/settings/presets.h"
 #include "lens/lens_fields.h"
 #include "render/methods.h"
@@ -430,11 +430,10 @@ void failForName(const Shot& shot, const MissingName& missing) {
 
 FrameRange parseFrameRange(std::string_view text) {
     const auto frame = [&](std::string_view part) {
-        int value = -1;
-        const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), value);
-        if (fault != std::errc() || end != part.data() + part.size() || value < 0 || value > maxFrame)
+        const std::optional<int> value = wholeText<int>(part);
+        if (!value || *value < 0 || *value > maxFrame)
             fail("'{}' is not FIRST:LAST, with frame numbers from 0 to {}, such as 0:240", text, maxFrame);
-        return value;
+        return *value;
     };
     const std::size_t colon = text.find(':');
     const int first = frame(text.substr(0, colon));

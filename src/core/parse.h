@@ -2,9 +2,12 @@
 // Parses text into values. Invalid text throws Error with a one-line message such as "'0' is not an integer from 1 to
 // 65536".
 
+#include <charconv>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace defocus::engine {
@@ -14,6 +17,15 @@ struct Range {
     double max = 0;
     bool aboveMin = false;  // true: `min` itself is excluded
 };
+
+// Returns the number that the complete text represents; nullopt for other text and numbers outside the type's range.
+template <typename Number>
+std::optional<Number> wholeText(std::string_view text) {
+    Number number{};
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (fault != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
 
 // Parses the complete text as a finite number in `range`. Throws Error, with the range in its message, for other text.
 double parseNumber(const std::string& text, const Range& range);

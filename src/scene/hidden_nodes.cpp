@@ -1,9 +1,9 @@
 #include "scene/hidden_nodes.h"
 
 #include <algorithm>
-#include <charconv>
 #include <string_view>
 
+#include "core/parse.h"
 #include "scene/posed_mesh.h"
 
 namespace defocus::engine {
@@ -38,10 +38,8 @@ int nodeCalled(const Scene& scene, const std::string& nameOrNumber) {
     if (std::ranges::find(scene.nodes, nameOrNumber, &Node::name) != scene.nodes.end())
         return nodeNamed(scene, nameOrNumber);
     const std::string_view digits = std::string_view(nameOrNumber).substr(nameOrNumber.starts_with('#') ? 1 : 0);
-    std::size_t number = 0;
-    const auto [stop, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    const bool isNumber = fault == std::errc() && stop == digits.data() + digits.size();
-    return isNumber && number < scene.nodes.size() ? static_cast<int>(number) : nodeNamed(scene, nameOrNumber);
+    const std::optional<std::size_t> number = wholeText<std::size_t>(digits);
+    return number && *number < scene.nodes.size() ? static_cast<int>(*number) : nodeNamed(scene, nameOrNumber);
 }
 
 std::string callingOf(const Scene& scene, int node) {

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "cli/options/option_text.h"
+#include "core/parse.h"
 #include "lens/circle_of_confusion.h"
 #include "lens/depth_of_field.h"
 #include "lens/photographic_exposure.h"
@@ -94,13 +93,8 @@ const char* const plainLensNote =
 
 std::vector<double> parseDepths(const std::string& text) {
     std::vector<double> depths;
-    std::size_t begin = 0;
-    while (begin <= text.size()) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const std::string part = text.substr(begin, end - begin);
+    for (const std::string& part : splitAt(text, ','))
         depths.push_back(part == "inf" ? infinity : parseNumber(part, {0, 1e12, true}));
-        begin = end + 1;
-    }
     return depths;
 }
 

@@ -33,7 +33,7 @@ namespace {
 void parseAovs(const std::string& text, AovRequest& aovs) {
     const std::vector<std::string> names = {"depth", "coc", "level", "work"};
     const std::array<bool*, 4> wanted = {&aovs.depth, &aovs.coc, &aovs.level, &aovs.work};
-    for (const std::string& part : partsOf(text)) *wanted[parseChoice(part, names)] = true;
+    for (const std::string& part : splitAt(text, ',')) *wanted[parseChoice(part, names)] = true;
 }
 
 void addOutputs(CLI::App& command, RenderArguments& arguments) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 
 #include "core/error.h"
@@ -31,11 +30,10 @@ std::string rangeText(const SampleRange& range) {
 
 SampleRange parseSampleRange(std::string_view text) {
     const auto number = [&](std::string_view part) {
-        std::uint32_t value = 0;
-        const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), value);
-        if (fault != std::errc() || end != part.data() + part.size() || value > maxSamples)
+        const std::optional<std::uint32_t> value = wholeText<std::uint32_t>(part);
+        if (!value || *value > maxSamples)
             fail("'{}' is not FIRST:END, with samples from 0 to {}, such as 64:128", text, maxSamples);
-        return value;
+        return *value;
     };
     const std::size_t colon = std::min(text.find(':'), text.size());
     const SampleRange range{number(text.substr(0, colon)), number(text.substr(std::min(colon + 1, text.size())))};
