@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ranges>
 
@@ -55,6 +56,18 @@ std::uint64_t parseInteger(const std::string& text, std::uint64_t min, std::uint
     const std::optional<std::uint64_t> number = wholeText<std::uint64_t>(withoutPlus(text));
     if (!number || *number < min || *number > max) fail("'{}' is not an integer from {} to {}", text, min, max);
     return *number;
+}
+
+Share parseShare(std::string_view text, std::string_view noun, int maxCount) {
+    const std::size_t slash = std::min(text.find('/'), text.size());
+    const std::optional<int> index = wholeText<int>(withoutPlus(text.substr(0, slash)));
+    const std::optional<int> count = wholeText<int>(withoutPlus(text.substr(std::min(slash + 1, text.size()))));
+    if (!index || !count || *index < 0 || *index >= maxCount || *count < 1 || *count > maxCount)
+        fail("'{}' is not I/N, such as 0/4: {} I (0 to N-1) of N", text, noun);
+    if (*index >= *count)
+        fail("'{}': with {} {}s, the {} must be 0 to {} (Slurm: --array=0-{})", text, *count, noun, noun, *count - 1,
+             *count - 1);
+    return {*index, *count};
 }
 
 std::vector<double> parseNumbers(const std::string& text, std::size_t count, const Range& range) {

@@ -37,6 +37,16 @@ std::vector<double> parseNumbers(const std::string& text, std::size_t count, con
 // Returns the index of `text` in `choices`. Throws Error, with all choices in its message, if `text` is not a choice.
 std::size_t parseChoice(const std::string& text, const std::vector<std::string>& choices);
 
+// Part `index` (0 … count − 1) of `count` equal parts of a task.
+struct Share {
+    int index = 0;
+    int count = 1;
+};
+
+// Parses "index/count", e.g. "1/4". Throws Error, in which `noun` names a part, unless both are integers,
+// 0 ≤ index < count and count ≤ maxCount.
+Share parseShare(std::string_view text, std::string_view noun, int maxCount);
+
 // Splits the text at each separator. Parts may be empty, and empty text gives one empty part.
 std::vector<std::string> splitAt(std::string_view text, char separator);
 

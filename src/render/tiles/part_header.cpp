@@ -6,7 +6,6 @@
 #include <iterator>
 
 #include "core/error.h"
-#include "core/parse.h"
 #include "defocus/settings.h"
 #include "render/gpu_scene/frame_uniforms.h"
 
@@ -50,20 +49,8 @@ void checkSampleRange(const SampleRange& range, std::uint32_t samples) {
              rangeText(range), blockSamples, blockSamples, samples);
 }
 
-TileShare parseTileShare(std::string_view text) {
-    const std::size_t slash = std::min(text.find('/'), text.size());
-    TileShare share;
-    try {
-        share.index = static_cast<int>(parseInteger(std::string(text.substr(0, slash)), 0, maxImageSide - 1));
-        share.count =
-            static_cast<int>(parseInteger(std::string(text.substr(std::min(slash + 1, text.size()))), 1, maxImageSide));
-    } catch (const Error&) {
-        fail("'{}' is not I/N, such as 0/4: tile I (0 to N-1) of N", text);
-    }
-    if (share.index >= share.count)
-        fail("'{}': with {} tiles, the tile must be 0 to {} (Slurm: --array=0-{})", text, share.count, share.count - 1,
-             share.count - 1);
-    return share;
+Share parseTileShare(std::string_view text) {
+    return parseShare(text, "tile", maxImageSide);
 }
 
 const std::string* textAttribute(const Metadata& metadata, const char* name) {
