@@ -17,21 +17,6 @@ bool isBelow(const Scene& scene, int node, const std::vector<bool>& hidden) {
     return false;
 }
 
-// Returns the world-space bounding box of the pose's objects except the ground. Computes the bounding box of each mesh
-// only once.
-Bounds boundsOf(const Scene& scene, const Pose& pose) {
-    Bounds result;
-    std::vector<std::optional<Bounds>> meshBounds(scene.meshes.size());
-    for (const Object& object : pose.objects) {
-        if (object.ground) continue;
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
-        std::optional<Bounds>& bounds = meshBounds[static_cast<std::size_t>(object.mesh)];
-        if (!bounds) bounds = mesh.bounds();
-        result.extend(posedBounds(mesh, *bounds, object));
-    }
-    return result;
-}
-
 }  // namespace
 
 int nodeCalled(const Scene& scene, const std::string& nameOrNumber) {
@@ -56,7 +41,7 @@ void hideNodes(const Scene& scene, std::span<const std::string> namesOrNumbers, 
     for (const std::string& text : namesOrNumbers) hidden[static_cast<std::size_t>(nodeCalled(scene, text))] = true;
     const std::size_t left =
         std::erase_if(pose.objects, [&](const Object& object) { return isBelow(scene, object.node, hidden); });
-    if (left > 0 && !pose.bounds.empty()) pose.bounds = boundsOf(scene, pose);
+    if (left > 0 && !pose.bounds.empty()) pose.bounds = posedBounds(scene, pose);
 }
 
 }  // namespace defocus::engine

@@ -31,8 +31,7 @@ struct MergeArguments {
 
 // Returns the exposure (EV) in the metadata of a part of a frame; 0 if the metadata contains none.
 double ownExposure(const Metadata& metadata) {
-    const auto found = metadata.find("defocus:exposure");
-    const double* value = found == metadata.end() ? nullptr : std::get_if<double>(&found->second);
+    const double* value = attributeOf<double>(metadata, "defocus:exposure");
     return value != nullptr ? *value : 0;
 }
 

@@ -129,7 +129,7 @@ public:
         const DrawnWave wave = waves_.next();
         latest_ = wave.layers;
         clock_.beginWave();
-        timed(sumTimer_, [&] { sum_->add(wave.layers->picture, frame_, wave.first, wave.count); });
+        sumTimer_.measure([&] { sum_->add(wave.layers->picture, frame_, wave.first, wave.count); });
         if (layers_) layers_->add(*wave.layers->data, frame_, wave.first, wave.count);
         clock_.endWave();
         stats_.trianglesDrawn += trianglesDrawn(plan_, wave.first, wave.count);
@@ -242,12 +242,6 @@ private:
         const EnvironmentType type = scene_.world().environment.type;
         return !plan_.needsAlpha &&
                (type == EnvironmentType::map || plan_.usesTransmission || (blursCells() && plan_.sortsBlending));
-    }
-
-    static void timed(GpuTimer& timer, const auto& pass) {
-        timer.begin();
-        pass();
-        timer.end();
     }
 
     // Returns whether to cull hidden triangles. On a GPU, drawing them is faster than reading back the depths for the

@@ -53,11 +53,6 @@ Share parseTileShare(std::string_view text) {
     return parseShare(text, "tile", maxImageSide);
 }
 
-const std::string* textAttribute(const Metadata& metadata, const char* name) {
-    const auto found = metadata.find(name);
-    return found == metadata.end() ? nullptr : std::get_if<std::string>(&found->second);
-}
-
 std::string settingsDifference(const Metadata& first, const Metadata& second) {
     static constexpr std::string_view prefix = "defocus:";
     // Attributes that describe a part, and thresholds, which by default follow from other settings.

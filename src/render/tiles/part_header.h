@@ -36,9 +36,6 @@ void checkSampleRange(const SampleRange& range, std::uint32_t samples);
 // Parses "index/count", a share of a frame's rows. Throws Error unless both are integers and 0 ≤ index < count.
 Share parseTileShare(std::string_view text);
 
-// Returns the text attribute with this name; nullptr if there is none.
-const std::string* textAttribute(const Metadata& metadata, const char* name);
-
 // Returns the settings that differ between two parts' metadata, such as "seed is 0 and 1": at most three, separated by
 // commas. Returns "their settings differ" if the metadata name no such setting.
 std::string settingsDifference(const Metadata& first, const Metadata& second);

@@ -293,9 +293,7 @@ void ViewPicture::growWork(double milliseconds) {
     if (!work_) work_.emplace(*world_, options_.shaderFolder);
     if (!workCurrent_) work_->begin(plan());
     workCurrent_ = true;
-    overlayTimer_.begin();
-    workGrows_ = work_->grow(milliseconds);
-    overlayTimer_.end();
+    overlayTimer_.measure([&] { workGrows_ = work_->grow(milliseconds); });
 }
 
 void ViewPicture::present(const PictureRequest& request) {
