@@ -9,6 +9,7 @@
 #include "lod/pyramid/level_selection.h"
 #include "plan/lens_cells/automatic_cells.h"
 #include "plan/lens_cells/lens_cells.h"
+#include "plan/plan_text.h"
 
 namespace defocus {
 
@@ -162,10 +163,8 @@ Plan engine::reportedPlan(const FramePlan& plan) {
     reported.sequence = plan.settings.sequence;
     reported.seed = plan.settings.seed;
     reported.cocTolerance = plan.settings.cocTolerance;
-    for (const ObjectPlan& object : objects)
-        reported.moments = std::max<std::uint64_t>(reported.moments, object.motion.size());
-    reported.movingObjects = static_cast<std::uint64_t>(
-        std::ranges::count_if(objects, [](const ObjectPlan& object) { return !object.motion.empty(); }));
+    reported.moments = engine::momentCount(plan);
+    reported.movingObjects = engine::movingCount(plan);
     reported.lod = plan.settings.lod;
     reported.lodMetric = plan.settings.metric;
     reported.lodCoc = plan.settings.lodCoc;
