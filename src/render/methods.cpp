@@ -19,6 +19,17 @@ namespace defocus::engine {
 
 namespace {
 
+// Completes the settings of the method in the options from which it makes renderers.
+Method completing(Method method) {
+    method.make = [make = std::move(method.make), name = method.name, known = method.settings](
+                      const World& world, const RendererOptions& options) {
+        RendererOptions complete = options;
+        complete.settings = completeSettings(name, known, options.settings);
+        return make(world, complete);
+    };
+    return method;
+}
+
 std::vector<Method>& table() {
     static std::vector<Method> methods = {
         {.name = automaticMethod,
@@ -49,11 +60,11 @@ std::vector<Method>& table() {
          .usesThreads = true,
          .settings = {},
          .make = makeMultirateRenderer},
-        scheuermannMethod(),
-        circularMethod(),
-        layeredMethod(),
-        stochasticMethod(),
-        lineMethod(),
+        completing(scheuermannMethod()),
+        completing(circularMethod()),
+        completing(layeredMethod()),
+        completing(stochasticMethod()),
+        completing(lineMethod()),
     };
     return methods;
 }

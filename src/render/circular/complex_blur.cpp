@@ -40,12 +40,6 @@ TextureFormat textureFormat(ComplexStorage storage) {
     return TextureFormat::rgba16f;
 }
 
-GlTexture linearTexture(TextureFormat format, int width, int height) {
-    GlTexture texture({.format = format, .width = width, .height = height});
-    texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
-    return texture;
-}
-
 int targetsFor(int components, ComplexStorage storage) {
     return storage == ComplexStorage::rgb10A2 ? 3 * components + 1 : 2 * components;
 }
@@ -122,7 +116,9 @@ ComplexBracket bracketOf(const CircularComponent& component, ComplexTaps taps) {
 }
 
 ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
-    : info_(info), result_(linearTexture(TextureFormat::rgba32f, info.width, info.height)), resultTarget_({&result_}) {
+    : info_(info),
+      result_({.format = TextureFormat::rgba32f, .width = info.width, .height = info.height, .linear = true}),
+      resultTarget_({&result_}) {
     constexpr float black[4] = {};
     glClearNamedFramebufferfv(resultTarget_.name(), GL_COLOR, 0, black);
     const int maxInHalf = info_.constants == KernelConstants::fitted ? maxFittedInHalf : maxPublishedInHalf;
@@ -137,7 +133,8 @@ ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
     const int largestGroup = groups_.front().count;
     std::vector<const GlTexture*> targets;
     for (int i = 0; i < targetsFor(largestGroup, info_.storage); ++i)
-        sums_.push_back(linearTexture(textureFormat(info_.storage), info_.width, info_.height));
+        sums_.push_back(GlTexture(
+            {.format = textureFormat(info_.storage), .width = info_.width, .height = info_.height, .linear = true}));
     for (const GlTexture& sum : sums_) targets.push_back(&sum);
     sumTarget_ = Target(targets);
     if (!bracketed()) return;

@@ -83,9 +83,8 @@ GlTexture environmentTexture(const Image& map) {
 
 GlTexture specularAlbedoTexture() {
     constexpr int side = SpecularAlbedoTable::side;
-    GlTexture texture({.format = TextureFormat::rg32f, .width = side, .height = side});
+    GlTexture texture({.format = TextureFormat::rg32f, .width = side, .height = side, .linear = true});
     texture.upload(0, side, side, specularAlbedoTable().table.data());
-    texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
     return texture;
 }
 

@@ -230,10 +230,8 @@ Method layeredMethod() {
             .drawsMotion = false,
             .settings = settings,
             .best = {{"layers", "16"}, {"pinholes", "16"}},
-            .make = [settings](const World& world, const RendererOptions& options) -> std::unique_ptr<Renderer> {
-                RendererOptions complete = options;
-                complete.settings = completeSettings("layered", settings, options.settings);
-                return std::make_unique<LayeredRenderer>(world, complete);
+            .make = [](const World& world, const RendererOptions& options) -> std::unique_ptr<Renderer> {
+                return std::make_unique<LayeredRenderer>(world, options);
             }};
 }
 

@@ -357,10 +357,8 @@ Method lineMethod() {
             .drawsShadows = false,
             .drawsMotion = false,
             .settings = settings,
-            .make = [settings](const World& world, const RendererOptions& options) {
-                RendererOptions complete = options;
-                complete.settings = completeSettings("line", settings, options.settings);
-                return makeLensSpaceRenderer(world, complete, std::make_unique<LineKernel>(complete));
+            .make = [](const World& world, const RendererOptions& options) {
+                return makeLensSpaceRenderer(world, options, std::make_unique<LineKernel>(options));
             }};
 }
 

@@ -96,16 +96,13 @@ private:
 }  // namespace
 
 Method stochasticMethod() {
-    const std::vector<MethodSetting> settings = {shadingSetting(), cocInterpolationSetting()};
     return {.name = "stochastic",
             .description = "lens space: different lens points for each pixel (Munkberg, Toth and Akenine-Möller 2012)",
             .showsThrough = false,
             .drawsShadows = false,
-            .settings = settings,
-            .make = [settings](const World& world, const RendererOptions& options) {
-                RendererOptions complete = options;
-                complete.settings = completeSettings("stochastic", settings, options.settings);
-                return makeLensSpaceRenderer(world, complete, std::make_unique<StochasticKernel>(complete));
+            .settings = {shadingSetting(), cocInterpolationSetting()},
+            .make = [](const World& world, const RendererOptions& options) {
+                return makeLensSpaceRenderer(world, options, std::make_unique<StochasticKernel>(options));
             }};
 }
 
