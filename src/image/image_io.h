@@ -100,6 +100,9 @@ void writeChannels(const std::filesystem::path& path, const std::vector<NamedCha
 void writeLayers(const std::filesystem::path& path, const std::vector<ImageLayer>& layers, const Metadata& metadata);
 std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* metadata = nullptr);
 
+// Returns whether the path's extension is .exr, in lower or upper case.
+bool isExr(const std::filesystem::path& path);
+
 // Throws Error if writeImage does not support the extension of `path`.
 void checkImageExtension(const std::filesystem::path& path);
 
