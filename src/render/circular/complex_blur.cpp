@@ -57,18 +57,6 @@ ShaderDefines definesOf(const ComplexBlurInfo& info, int components) {
             {"exactTaps", info.taps == ComplexTaps::exact ? "true" : "false"}};
 }
 
-std::span<const CircularComponent> kernelOf(const ComplexBlurInfo& info) {
-    switch (info.constants) {
-        case KernelConstants::fitted:
-            return circularKernel(info.components);
-        case KernelConstants::rescaled:
-            return rescaledCircularKernel(info.components);
-        case KernelConstants::published:
-            return publishedCircularKernel(info.components);
-    }
-    return {};
-}
-
 std::vector<double> realParts(const std::vector<std::complex<double>>& values) {
     std::vector<double> parts;
     for (const std::complex<double>& value : values) parts.push_back(value.real());
@@ -126,7 +114,7 @@ ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
     if (info_.direct) {
         direct_ = Program(
             {{fullscreenShader, "circular/direct.frag"}, definesOf(info_, info_.components), info_.shaderFolder});
-        setKernel(direct_, kernelOf(info_));
+        setKernel(direct_, circularKernel(info_.components, info_.constants));
         return;
     }
     makeGroups();
@@ -155,7 +143,7 @@ ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
 }
 
 void ComplexBlur::makeGroups() {
-    const std::span<const CircularComponent> kernel = kernelOf(info_);
+    const std::span<const CircularComponent> kernel = circularKernel(info_.components, info_.constants);
     const int atOnce = componentsAtOnce(info_.storage);
     for (int first = 0; first < info_.components; first += atOnce) {
         Group group;
