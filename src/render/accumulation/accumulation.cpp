@@ -44,8 +44,7 @@ std::uint64_t maxLayers(const Scene& scene, const FramePlan& plan, const Rendere
     const std::uint32_t asked = limit.samples > 0 ? limit.samples : options.wave;
     if (asked > 0) return asked;
     const LayerWindow window = layerWindow(plan);
-    const std::uint64_t pixels =
-        std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} * static_cast<std::uint32_t>(window.layerHeight);
+    const std::uint64_t pixels = pixelCount(window.layerWidth, window.layerHeight);
     const std::uint64_t layerBytes =
         pixels * layerPixelBytes(format) * (plan.usesTransmission ? 2 : 1) +  // transmission needs a copy of all layers
         shadowMapBytes(scene, plan) + pixels * LensLayers::layerBytes(plan.settings.layers);

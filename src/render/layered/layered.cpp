@@ -30,8 +30,7 @@ int borderOf(const FramePlan& plan) {
 // a power of two, so that it divides `run`.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked, LayerFormat format,
                          std::uint32_t run) {
-    const std::uint64_t pixels =
-        std::uint64_t{static_cast<std::uint32_t>(plan.view.width)} * static_cast<std::uint32_t>(plan.view.height);
+    const std::uint64_t pixels = pixelCount(plan.view.width, plan.view.height);
     const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / (pixels * layerPixelBytes(format));
     return std::bit_floor(static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, run)));
 }

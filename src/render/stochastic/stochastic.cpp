@@ -44,8 +44,7 @@ public:
     }
 
     std::uint64_t find(LensFront& front, RayWave& wave) override {
-        const std::uint64_t pixels =
-            std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} * static_cast<std::uint32_t>(imageSize_.y);
+        const std::uint64_t pixels = pixelCount(imageSize_.x, imageSize_.y);
         const std::uint64_t records = pixels * wave.count;
         records_.reserve(records);
         boundBlock_.update(0, wave.count * sizeof(glm::vec4), bounds_.data() + wave.first);
