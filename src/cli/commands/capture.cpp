@@ -308,11 +308,7 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     if (arguments.dryRun) return printPlan(arguments, prepared, base, film, options, use);
     if (meters) meterFilm(arguments, prepared, base, film, global);
     progress = terminalProgress(global);
-    const auto hasCurve = [](const std::string& pattern) {
-        const std::string ending = fs::path(pattern).extension().string();
-        return ending != ".exr" && ending != ".EXR";
-    };
-    if (!shot.video.empty() || std::ranges::any_of(shot.outputs, hasCurve))
+    if (!shot.video.empty() || !std::ranges::all_of(shot.outputs, isExr))
         options.firstDrawn = [&](const Image& image, const WriteOptions& write) {
             progress = {};  // end the progress line before the warnings
             warnings.print(clippingWarnings(image, write));

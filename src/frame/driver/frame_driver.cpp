@@ -289,7 +289,7 @@ void FrameDriver::fit(const FrameOrder& order) {
     renderer_->setWave(
         {.samples = limits.memory ? waveWithin(needs) : 0, .perWave = shortWave(order), .threads = threads});
     if (!limits.memory) return;
-    needs.keptBytes = std::uint64_t(needs.width) * std::uint64_t(needs.height) * options_.keptPixelBytes;
+    needs.keptBytes = pixelCount(needs.width, needs.height) * options_.keptPixelBytes;
     crowded_ = !fitsInOnePiece(needs);
 }
 
@@ -298,8 +298,7 @@ void FrameDriver::fitTiles(const FrameOrder& order, const FramePlan& plan, const
     bands_.emplace();
     if (rows.empty()) return;
     TilingNeeds needs = measuredNeeds(*world_, plan, options_.limits, *renderer_, limit_);
-    if (!order.takeRows)
-        needs.keptBytes = std::uint64_t(needs.width) * std::uint64_t(needs.height) * options_.keptPixelBytes;
+    if (!order.takeRows) needs.keptBytes = pixelCount(needs.width, needs.height) * options_.keptPixelBytes;
     const std::uint32_t threads = threadsWithin(needs, wantedThreads(options_.limits, *options_.method.method));
     reserveThreads(needs, threads);
     for (const RowRange& range : rows) {

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/error.h"
+#include "frame/report/json_values.h"
 #include "lens/lens_fields.h"
 #include "lod/pyramid/level_selection.h"
 #include "plan/lens_cells/automatic_cells.h"
@@ -80,10 +81,6 @@ LensSettings completeLens(const engine::Lens& lens) {
     return settings;
 }
 
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json();
-}
-
 Json jsonOf(const PlannedObject& object) {
     Json draws = Json::array();
     for (const PlannedDraw& draw : object.draws)
@@ -92,13 +89,13 @@ Json jsonOf(const PlannedObject& object) {
                          {"firstSample", draw.firstSample},
                          {"sampleCount", draw.sampleCount}});
     Json json = {{"name", object.name},
-                 {"depth", {number(object.nearestDepth), number(object.farthestDepth)}},
+                 {"depth", {engine::jsonNumber(object.nearestDepth), engine::jsonNumber(object.farthestDepth)}},
                  {"coc",
-                  {{"nearest", number(object.nearestCoc)},
-                   {"farthest", number(object.farthestCoc)},
-                   {"smallest", number(object.smallestCoc)},
-                   {"largest", number(object.largestCoc)}}},
-                 {"projectedEdge", number(object.projectedEdge)},
+                  {{"nearest", engine::jsonNumber(object.nearestCoc)},
+                   {"farthest", engine::jsonNumber(object.farthestCoc)},
+                   {"smallest", engine::jsonNumber(object.smallestCoc)},
+                   {"largest", engine::jsonNumber(object.largestCoc)}}},
+                 {"projectedEdge", engine::jsonNumber(object.projectedEdge)},
                  {"lambda", object.lambda},
                  {"pixelRate", object.pixelRate},
                  {"blended", object.blended},
@@ -110,7 +107,7 @@ Json jsonOf(const PlannedObject& object) {
 }
 
 Json lensNumber(const Plan& plan, const LensField& field) {
-    if (std::holds_alternative<std::monostate>(field.given)) return number(plan.focusDistance);
+    if (std::holds_alternative<std::monostate>(field.given)) return engine::jsonNumber(plan.focusDistance);
     const std::optional<double> value = engine::givenLensValue(plan.lens, field);
     return value ? Json(*value) : Json();
 }
@@ -205,10 +202,6 @@ Json engine::jsonOf(const defocus::Pyramid& pyramid) {
                                   {"meanEdge", level.meanEdge},
                                   {"error", level.error}});
     return json;
-}
-
-std::string engine::documentText(const Json& json) {
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string_view engine::endReason(PyramidEnd end) {
