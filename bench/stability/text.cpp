@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <ranges>
 
-#include "eval/json_number.h"
+#include "frame/report/json_values.h"
 
 namespace defocus::engine {
 

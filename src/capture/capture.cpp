@@ -36,7 +36,7 @@ fs::path partPath(const fs::path& frame, const SampleRange& range) {
 std::string encodingOf(const std::string& pattern, const Request& request, const WriteOptions& write, bool metered) {
     const std::string ending = fs::path(pattern).extension().string();
     const bool renamed = !request.layers.empty() && request.exrNames != ExrNames{};
-    if (holdsLayers(pattern)) return renamed ? "names of other channels" : "";
+    if (isExr(pattern)) return renamed ? "names of other channels" : "";
     const std::string exposure = metered ? "metered" : fmt::format("{}", write.exposure);
     return fmt::format("{} {} {}", ending, static_cast<int>(write.toneMap), exposure);
 }

@@ -41,7 +41,8 @@ FrameState frameState(const fs::path& path, int width, int height, const std::st
         if (image.width != width || image.height != height) return FrameState::other;
         // JPEG files hold the settings hash in their only comment.
         for (const char* name : {settingsAttribute, "comments"})
-            if (const std::string* text = textAttribute(metadata, name); text != nullptr && *text == settings)
+            if (const std::string* text = attributeOf<std::string>(metadata, name);
+                text != nullptr && *text == settings)
                 return FrameState::finished;
         return FrameState::other;
     } catch (const Error&) {

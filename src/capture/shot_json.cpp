@@ -1,7 +1,6 @@
 #include "capture/shot_json.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/json_text.h"
+#include "core/parse.h"
 #include "frame/settings/presets.h"
 #include "lens/lens_fields.h"
 #include "render/methods.h"
@@ -179,17 +179,19 @@ double lensNumberOf(const JsonReader& reader, const LensField& field) {
     return value;
 }
 
-LensTrack lensTrackOf(const JsonReader& reader, const LensField& field) {
+// Reads keyframes; `numberOf` reads the value of one.
+LensTrack trackOf(const JsonReader& reader, const auto& numberOf) {
     LensTrack track;
-    if (!reader.value().is_object()) {
-        track.keys = {{0, lensNumberOf(reader, field)}};
-        return track;
-    }
     reader.requireObject({"keys", "interpolation"});
     for (const auto& [frame, key] : keysOf(reader.at("keys"), {"frame", "value"}))
-        track.keys.push_back({frame, lensNumberOf(key.at("value"), field)});
+        track.keys.push_back({frame, numberOf(key.at("value"))});
     track.easing = easingOf(reader);
     return track;
+}
+
+LensTrack lensTrackOf(const JsonReader& reader, const LensField& field) {
+    const auto numberOf = [&](const JsonReader& value) { return lensNumberOf(value, field); };
+    return reader.value().is_object() ? trackOf(reader, numberOf) : LensTrack{.keys = {{0, numberOf(reader)}}};
 }
 
 std::map<std::string, LensTrack, std::less<>> lensOf(const JsonReader& reader) {
@@ -214,12 +216,7 @@ std::map<std::string, const MethodSetting*, std::less<>> keyedSettings() {
 // interpolated.
 LensTrack methodTrackOf(const JsonReader& reader, const MethodSetting& setting) {
     constexpr double min = 1e-6;
-    LensTrack track;
-    reader.requireObject({"keys", "interpolation"});
-    for (const auto& [frame, key] : keysOf(reader.at("keys"), {"frame", "value"}))
-        track.keys.push_back({frame, key.at("value").number(min, setting.max)});
-    track.easing = easingOf(reader);
-    return track;
+    return trackOf(reader, [&](const JsonReader& value) { return value.number(min, setting.max); });
 }
 
 std::map<std::string, LensTrack, std::less<>> methodKeysOf(const JsonReader& reader) {
@@ -418,8 +415,7 @@ Shot parseShot(std::string_view text, const fs::path& file, const std::vector<Sh
 }
 
 Shot loadShot(const fs::path& path, const std::vector<ShotOverride>& overrides) {
-    const std::vector<std::byte> bytes = readFile(path);
-    return parseShot({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path, overrides);
+    return parseShot(readText(path), path, overrides);
 }
 
 void failForName(const Shot& shot, const MissingName& missing) {
@@ -430,11 +426,10 @@ void failForName(const Shot& shot, const MissingName& missing) {
 
 FrameRange parseFrameRange(std::string_view text) {
     const auto frame = [&](std::string_view part) {
-        int value = -1;
-        const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), value);
-        if (fault != std::errc() || end != part.data() + part.size() || value < 0 || value > maxFrame)
+        const std::optional<int> value = wholeText<int>(part);
+        if (!value || *value < 0 || *value > maxFrame)
             fail("'{}' is not FIRST:LAST, with frame numbers from 0 to {}, such as 0:240", text, maxFrame);
-        return value;
+        return *value;
     };
     const std::size_t colon = text.find(':');
     const int first = frame(text.substr(0, colon));

@@ -155,7 +155,7 @@ std::vector<std::uint8_t> displayBytes(const VideoFrame& frame, const Image& fir
         fail("{} is {}x{} px, but the first frame of the video is {}x{} px", path.string(), image.width, image.height,
              first.width, first.height);
     // Images read from PNG and JPEG are already tone-mapped, so only the display encoding is applied.
-    const bool linear = path.extension() == ".exr";
+    const bool linear = isExr(path);
     image = linear ? displayEncoded(image, frame.image.toneMap, frame.image.exposure) : displayEncoded(image);
     std::vector<std::uint8_t> bytes;
     bytes.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3);
@@ -166,11 +166,6 @@ std::vector<std::uint8_t> displayBytes(const VideoFrame& frame, const Image& fir
     return bytes;
 }
 
-std::string textOf(const fs::path& path) {
-    const std::vector<std::byte> bytes = readFile(path);
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 std::string lastLine(std::string text) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
     return text.substr(text.find_last_of("\r\n") + 1);
@@ -179,7 +174,7 @@ std::string lastLine(std::string text) {
 // Returns the reason why ffmpeg failed: the last message of ffmpeg, or a text of this program if there is no message.
 std::string complaint(const Ffmpeg& ffmpeg, const fs::path& messages) {
     if (const std::string signal = ffmpeg.signalText(); !signal.empty()) return "ffmpeg " + signal;
-    const std::string said = lastLine(textOf(messages));
+    const std::string said = lastLine(readText(messages));
     return said.empty() ? "ffmpeg failed without a message" : "ffmpeg says: " + said;
 }
 
@@ -194,7 +189,7 @@ void checkFilm(const fs::path& film, std::size_t frames, const fs::path& name) {
     if (!ffmpeg.close())
         fail("cannot write {} (is the disk full?): the video cannot be read back: {}", name.string(),
              complaint(ffmpeg, messages.temporaryPath()));
-    const std::string progress = textOf(counted.temporaryPath());
+    const std::string progress = readText(counted.temporaryPath());
     constexpr std::string_view key = "frame=";
     const std::size_t last = progress.rfind(key);
     const std::size_t found =

@@ -164,6 +164,11 @@ std::vector<std::byte> readFile(const fs::path& path) {
     return allBytes(file.get(), path);
 }
 
+std::string readText(const fs::path& path) {
+    const std::vector<std::byte> bytes = readFile(path);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 std::optional<std::vector<std::byte>> readOwnFile(const fs::path& path) {
     // O_NONBLOCK: otherwise, opening a pipe would wait for its writer. The file type is read from the open descriptor,
     // so that no other process can replace the file between the check and the read.

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +18,8 @@ namespace defocus::engine {
 // Returns the bytes of a file or of an open descriptor (/dev/stdin). Throws Error, with the path in its message, if the
 // file is missing, unreadable, a directory, a device or a pipe.
 std::vector<std::byte> readFile(const std::filesystem::path& path);
+// Same as readFile, but returns the bytes as text.
+std::string readText(const std::filesystem::path& path);
 
 // Returns the bytes of a file at a path that the program chose, such as a cache entry. Returns nullopt if the file is
 // missing or isn't a regular file: links are not followed, and a pipe does not block. Throws Error if the file is

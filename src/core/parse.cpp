@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
-#include <optional>
 #include <ranges>
-#include <string_view>
-#include <system_error>
 
 #include "core/error.h"
 #include "core/suggestion.h"
@@ -23,13 +20,9 @@ std::string inWords(const Range& range) {
     return fmt::format("a number from {:g} to {:g}", range.min, range.max);
 }
 
-template <typename Number>
-std::optional<Number> wholeText(std::string_view text) {
-    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-    Number number{};
-    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (fault != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return number;
+// Removes a plus sign, which std::from_chars does not accept.
+std::string_view withoutPlus(std::string_view text) {
+    return text.substr(text.starts_with('+') && !text.starts_with("+-") ? 1 : 0);
 }
 
 bool inside(double number, const Range& range) {
@@ -47,7 +40,7 @@ std::vector<std::string> splitAt(std::string_view text, char separator) {
 }
 
 double parseNumber(const std::string& text, const Range& range) {
-    const std::optional<double> number = wholeText<double>(text);
+    const std::optional<double> number = wholeText<double>(withoutPlus(text));
     if (!number || !inside(*number, range)) fail("'{}' is not {}", text, inWords(range));
     return *number;
 }
@@ -60,15 +53,27 @@ double parseSeconds(const std::string& text) {
 }
 
 std::uint64_t parseInteger(const std::string& text, std::uint64_t min, std::uint64_t max) {
-    const std::optional<std::uint64_t> number = wholeText<std::uint64_t>(text);
+    const std::optional<std::uint64_t> number = wholeText<std::uint64_t>(withoutPlus(text));
     if (!number || *number < min || *number > max) fail("'{}' is not an integer from {} to {}", text, min, max);
     return *number;
+}
+
+Share parseShare(std::string_view text, std::string_view noun, int maxCount) {
+    const std::size_t slash = std::min(text.find('/'), text.size());
+    const std::optional<int> index = wholeText<int>(withoutPlus(text.substr(0, slash)));
+    const std::optional<int> count = wholeText<int>(withoutPlus(text.substr(std::min(slash + 1, text.size()))));
+    if (!index || !count || *index < 0 || *index >= maxCount || *count < 1 || *count > maxCount)
+        fail("'{}' is not I/N, such as 0/4: {} I (0 to N-1) of N", text, noun);
+    if (*index >= *count)
+        fail("'{}': with {} {}s, the {} must be 0 to {} (Slurm: --array=0-{})", text, *count, noun, noun, *count - 1,
+             *count - 1);
+    return {*index, *count};
 }
 
 std::vector<double> parseNumbers(const std::string& text, std::size_t count, const Range& range) {
     std::vector<double> numbers;
     for (const std::string& part : splitAt(text, ',')) {
-        const std::optional<double> number = wholeText<double>(part);
+        const std::optional<double> number = wholeText<double>(withoutPlus(part));
         if (!number || !inside(*number, range)) break;
         numbers.push_back(*number);
     }

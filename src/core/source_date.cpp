@@ -1,10 +1,9 @@
 #include "core/source_date.h"
 
-#include <charconv>
 #include <cstdlib>
-#include <string_view>
 
 #include "core/error.h"
+#include "core/parse.h"
 
 namespace defocus::engine {
 
@@ -17,11 +16,8 @@ constexpr std::time_t endOf9999 = 253'402'300'799;
 std::optional<std::time_t> sourceDate() {
     const char* const value = std::getenv("SOURCE_DATE_EPOCH");
     if (value == nullptr) return {};
-    const std::string_view text = value;
-    std::time_t seconds = 0;
-    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), seconds);
-    if (fault != std::errc() || end != text.data() + text.size() || seconds < 0 || seconds > endOf9999) return {};
-    return seconds;
+    const std::optional<std::time_t> seconds = wholeText<std::time_t>(value);
+    return seconds && *seconds >= 0 && *seconds <= endOf9999 ? seconds : std::nullopt;
 }
 
 void checkSourceDate() {

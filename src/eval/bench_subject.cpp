@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "eval/json_number.h"
+#include "frame/report/json_values.h"
 
 namespace defocus::engine {
 

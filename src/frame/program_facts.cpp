@@ -1,34 +1,27 @@
 #include "frame/program_facts.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
-#include <iterator>
 #include <string_view>
-#include <vector>
 
 #include "defocus/version.h"
 
 namespace defocus::engine {
 
-namespace {
-
-std::string quoted(const std::string& word) {
-    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.,:=/+@%";
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-    std::string text(1, '\'');
-    for (const char letter : word) {
-        if (letter == '\'')
-            text.append("'\\''");
-        else
-            text.push_back(letter);
-    }
-    text.push_back('\'');
-    return text;
-}
-
-}  // namespace
-
 std::string programVersion() {
     return DEFOCUS_VERSION_STRING;
+}
+
+std::string shellWord(const std::string& word) {
+    const auto plain = [](char letter) {
+        return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+               std::string_view("_-./,:=+@%").find(letter) != std::string_view::npos;
+    };
+    if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+    std::string quoted = "'";
+    for (const char letter : word) quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+    return quoted + "'";
 }
 
 std::string commandLine(std::vector<std::string> words) {
@@ -37,7 +30,7 @@ std::string commandLine(std::vector<std::string> words) {
     std::string line;
     for (const std::string& word : words) {
         if (!line.empty()) line.push_back(' ');
-        line.append(quoted(word));
+        line.append(shellWord(word));
     }
     return line;
 }

@@ -13,6 +13,9 @@ std::string programVersion();
 // Empty for a build outside a git checkout.
 std::string programCommit();
 
+// Quotes a word for the shell. Returns the word unchanged if it needs no quotes, else in single quotes.
+std::string shellWord(const std::string& word);
+
 // Returns program arguments as one command line in shell syntax. The program's name is written without folders.
 std::string commandLine(std::vector<std::string> words);
 

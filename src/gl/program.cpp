@@ -30,10 +30,8 @@ Stage stageOf(const std::string& path) {
 }
 
 std::string sourceOf(const std::string& path, const std::filesystem::path& overrideFolder) {
-    if (!overrideFolder.empty() && std::filesystem::exists(overrideFolder / path)) {
-        const std::vector<std::byte> bytes = readFile(overrideFolder / path);
-        return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-    }
+    if (!overrideFolder.empty() && std::filesystem::exists(overrideFolder / path))
+        return readText(overrideFolder / path);
     const auto found = embeddedShaders().find(path);
     if (found == embeddedShaders().end()) fail("shader {}: file not found", path);
     return std::string(found->second);
@@ -73,8 +71,13 @@ std::string directivesOf(const Stage& stage) {
     return text;
 }
 
-// Joins the lines of a log into one line, because the message of an Error is one line.
-std::string oneLine(std::string log) {
+// Returns the log of a shader or program, read by `read`, with its lines joined into one line, because the message of
+// an Error is one line.
+std::string logOf(GLuint name, const auto& read) {
+    std::string log(8192, '\0');
+    GLsizei length = 0;
+    read(name, static_cast<GLsizei>(log.size()), &length, log.data());
+    log.resize(static_cast<std::size_t>(length));
     while (!log.empty() && (log.back() == '\n' || log.back() == '\0')) log.pop_back();
     for (std::size_t at = log.find('\n'); at != std::string::npos; at = log.find('\n', at)) log.replace(at, 1, " | ");
     return log;
@@ -90,12 +93,9 @@ GLuint compiled(const std::string& path, const ProgramInfo& info) {
     GLint ok = 0;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
     if (ok == GL_TRUE) return shader;
-    std::string log(8192, '\0');
-    GLsizei length = 0;
-    glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
-    log.resize(static_cast<std::size_t>(length));
+    const std::string log = logOf(shader, glGetShaderInfoLog);
     glDeleteShader(shader);
-    fail("{} shader {} does not compile: {}", stage.name, path, oneLine(log));
+    fail("{} shader {} does not compile: {}", stage.name, path, log);
 }
 
 }  // namespace
@@ -119,11 +119,7 @@ Program::Program(const ProgramInfo& info) : handle_(glCreateProgram()) {
     GLint ok = 0;
     glGetProgramiv(name(), GL_LINK_STATUS, &ok);
     if (ok == GL_TRUE) return;
-    std::string log(8192, '\0');
-    GLsizei length = 0;
-    glGetProgramInfoLog(name(), static_cast<GLsizei>(log.size()), &length, log.data());
-    log.resize(static_cast<std::size_t>(length));
-    fail("shaders {} do not link: {}", names, oneLine(log));
+    fail("shaders {} do not link: {}", names, logOf(name(), glGetProgramInfoLog));
 }
 
 bool vertexShaderMayPickLayer() {

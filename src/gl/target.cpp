@@ -27,16 +27,9 @@ const char* inWords(GLenum status) {
 
 }  // namespace
 
-Target::Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth)
-    : Target(colors, depth, std::nullopt) {}
-
-Target::Target(const std::vector<const GlTexture*>& colors, const GlTexture& depth, std::uint32_t layer)
-    : Target(colors, &depth, std::optional(layer)) {}
-
-Target::Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth,
-               std::optional<std::uint32_t> layer) {
+Target::Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth) {
     create();
-    for (const GlTexture* color : colors) addColor(*color, layer);
+    for (const GlTexture* color : colors) addColor(*color, std::nullopt);
     finish(depth);
 }
 
@@ -49,11 +42,12 @@ Target Target::ofImageAndLayers(const GlTexture& image, const GlTexture& array, 
     return target;
 }
 
-Target Target::ofLayer(const std::vector<const GlTexture*>& colors, std::uint32_t layer, int level) {
+Target Target::ofLayer(const std::vector<const GlTexture*>& colors, std::uint32_t layer, int level,
+                       const GlTexture* depth) {
     Target target;
     target.create();
     for (const GlTexture* color : colors) target.addColor(*color, layer, level);
-    target.finish(nullptr);
+    target.finish(depth);
     return target;
 }
 

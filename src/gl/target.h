@@ -19,10 +19,10 @@ public:
     // Attaches a 2D texture and the first `layers` layers of an array texture of equal size, at most 8 colour
     // attachments in total.
     static Target ofImageAndLayers(const GlTexture& image, const GlTexture& array, int layers);
-    // Attaches only layer `layer` and mip level `level` of each array texture; their sizes must be equal.
-    static Target ofLayer(const std::vector<const GlTexture*>& colors, std::uint32_t layer, int level = 0);
-    // Attaches only layer `layer` of each array texture; `depth` is a 2D texture.
-    Target(const std::vector<const GlTexture*>& colors, const GlTexture& depth, std::uint32_t layer);
+    // Attaches only layer `layer` and mip level `level` of each array texture; their sizes must be equal. `depth` is a
+    // 2D texture.
+    static Target ofLayer(const std::vector<const GlTexture*>& colors, std::uint32_t layer, int level = 0,
+                          const GlTexture* depth = nullptr);
 
     // Copies all colour attachments and, if `depth` is true, the depth attachment to `to`, which has the same size and
     // formats. If this target is multisampled, a pixel gets the mean colour of its samples and the depth of one sample.
@@ -32,7 +32,6 @@ public:
     [[nodiscard]] GLuint name() const { return handle_.name(); }
 
 private:
-    Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth, std::optional<std::uint32_t> layer);
     void create();
     void addColor(const GlTexture& color, std::optional<std::uint32_t> layer, int level = 0);
     void finish(const GlTexture* depth);

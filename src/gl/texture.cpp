@@ -70,7 +70,8 @@ GlTexture::GlTexture(const TextureInfo& info) : info_(info) {
             "out of graphics memory: cannot allocate a texture of {} x {} px and {} layers; choose a smaller size or "
             "wave",
             info.width, info.height, std::max(info.layers, 1));
-    if (info.samples == 1) sampling(GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+    const GLenum filter = info.linear ? GL_LINEAR : GL_NEAREST;
+    if (info.samples == 1) sampling(filter, filter, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
 }
 
 void GlTexture::upload(int level, int width, int height, const void* pixels) {

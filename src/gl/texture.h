@@ -24,9 +24,10 @@ struct TextureInfo {
     TextureFormat format = TextureFormat::rgba32f;
     int width = 1;
     int height = 1;
-    int layers = 0;   // number of layers of a 2D array; 0: 2D texture
-    int levels = 1;   // number of mip levels
-    int samples = 1;  // samples per pixel; above 1: a multisampled 2D texture, without layers, levels and filtering
+    int layers = 0;       // number of layers of a 2D array; 0: 2D texture
+    int levels = 1;       // number of mip levels
+    int samples = 1;      // samples per pixel; above 1: a multisampled 2D texture, without layers, levels and filtering
+    bool linear = false;  // true: linear filtering; false: nearest texel; see also GlTexture::sampling
 };
 
 struct TexelRectangle {  // in texels; origin at the lower left corner
@@ -46,6 +47,7 @@ public:
     // of the format.
     void upload(int level, int width, int height, const void* pixels);
     void generateMipmaps();
+    // Replaces the filtering of TextureInfo and the wrapping, which is GL_CLAMP_TO_EDGE by default.
     void sampling(GLenum minFilter, GLenum magFilter, GLenum wrapS, GLenum wrapT);
     // Clears layer `layer` to zeros: transparent black, or depth 0.
     void clearLayer(std::uint32_t layer);

@@ -15,6 +15,12 @@ class GpuTimer {
 public:
     void begin();
     void end();
+    // Measures the GPU time of the commands that `pass` issues.
+    void measure(const auto& pass) {
+        begin();
+        pass();
+        end();
+    }
     // Waits for the GPU. Returns the total of all begin–end spans since the last reset.
     [[nodiscard]] double milliseconds();
     void reset();

@@ -15,7 +15,9 @@ namespace defocus::engine {
 // OpenEXR detects other faults.
 void checkExrHeader(std::span<const std::byte> head, std::uint64_t fileBytes, const std::string& name);
 
+inline constexpr std::size_t usualHeadBytes = std::size_t{1} << 16;
+
 // Checks the EXR header in the first `headBytes` bytes of the file `path`, or in the complete file if it is shorter.
-void checkExrHeader(const std::filesystem::path& path, std::size_t headBytes = std::size_t{1} << 16);
+void checkExrHeader(const std::filesystem::path& path, std::size_t headBytes = usualHeadBytes);
 
 }  // namespace defocus::engine

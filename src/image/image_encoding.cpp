@@ -1,8 +1,11 @@
 #include "image/image_encoding.h"
 
+#include <OpenImageIO/filesystem.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -83,9 +86,13 @@ struct MetadataWriter {
 
 }  // namespace
 
+bool isExr(const std::filesystem::path& path) {
+    return OIIO::Strutil::iequals(path.extension().string(), ".exr");
+}
+
 FileKind fileKind(const std::filesystem::path& path) {
     const std::string extension = OIIO::Strutil::lower(path.extension().string());
-    if (extension == ".exr") return FileKind::exr;
+    if (isExr(path)) return FileKind::exr;
     if (extension == ".png") return FileKind::png;
     if (extension == ".jpg" || extension == ".jpeg") return FileKind::jpeg;
     fail("{}: unknown image type \"{}\"; use .exr, .png, .jpg or .jpeg", path.string(), extension);
@@ -122,6 +129,18 @@ std::vector<std::uint8_t> displayBytes(FileKind kind, const ImageView& image, co
     };
     if (image.channels != 4) return display(image);
     return display(kind == FileKind::png ? withStraightAlpha(image) : withoutAlpha(image));
+}
+
+std::vector<unsigned char> encode(const std::string& failure, const char* format, const OIIO::ImageSpec& spec,
+                                  const std::function<bool(OIIO::ImageOutput&)>& writePixels) {
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format, &memory);
+    if (!output) fail("{}: {}", failure, firstLine(OIIO::geterror()));
+    output->set_ioproxy(&memory);
+    if (!output->open("image", spec) || !writePixels(*output) || !output->close())
+        fail("{}: {}", failure, firstLine(output->geterror()));
+    return bytes;
 }
 
 }  // namespace defocus::engine

@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "image/image_io.h"
@@ -24,5 +26,11 @@ OIIO::ImageSpec imageSpec(FileKind kind, int width, int height, int channels, co
 // file; the dither pattern depends on it.
 std::vector<std::uint8_t> displayBytes(FileKind kind, const ImageView& image, const WriteOptions& options,
                                        int firstRow);
+
+// Returns the complete encoded file, so that the caller stores it with one checked write. Image libraries report write
+// errors late or not at all. `writePixels` writes all pixels to the output and returns false on failure. Throws Error,
+// whose message begins with `failure`.
+std::vector<unsigned char> encode(const std::string& failure, const char* format, const OIIO::ImageSpec& spec,
+                                  const std::function<bool(OIIO::ImageOutput&)>& writePixels);
 
 }  // namespace defocus::engine

@@ -40,6 +40,13 @@ struct TimeCode {  // SMPTE non-drop-frame time code
 using MetadataValue = std::variant<int, double, std::string, glm::mat4, Rational, TimeCode>;
 using Metadata = std::map<std::string, MetadataValue>;
 
+// Returns the attribute with this name and type; nullptr if there is none.
+template <typename Value>
+const Value* attributeOf(const Metadata& metadata, const char* name) {
+    const auto found = metadata.find(name);
+    return found == metadata.end() ? nullptr : std::get_if<Value>(&found->second);
+}
+
 using defocus::compareImages;
 using defocus::readImage;
 using defocus::writeImage;
@@ -92,6 +99,9 @@ void writeChannels(const std::filesystem::path& path, const std::vector<NamedCha
 
 void writeLayers(const std::filesystem::path& path, const std::vector<ImageLayer>& layers, const Metadata& metadata);
 std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* metadata = nullptr);
+
+// Returns whether the path's extension is .exr, in lower or upper case.
+bool isExr(const std::filesystem::path& path);
 
 // Throws Error if writeImage does not support the extension of `path`.
 void checkImageExtension(const std::filesystem::path& path);

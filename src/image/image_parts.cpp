@@ -110,20 +110,13 @@ struct ImagePartReader::State {
 ImagePartReader::ImagePartReader(const std::filesystem::path& path) : state_(std::make_unique<State>()) {
     State& s = *state_;
     s.name = path.string();
-    std::error_code status;
-    if (!std::filesystem::is_regular_file(path, status))
-        static_cast<void>(readFile(path));  // throws Error with the reason if the file is unreadable
-    checkExrHeader(path, headBytes);
-    s.input = OIIO::ImageInput::create("openexr");
-    if (!s.input) fail("cannot read {}: {}", s.name, firstLine(OIIO::geterror()));
-    OIIO::ImageSpec spec;
-    if (!s.input->open(s.name, spec)) fail("cannot read {}: {}", s.name, firstLine(s.input->geterror()));
-    const OIIO::ImageSpec first = spec;
+    OIIO::ImageSpec first;
+    s.input = openExr(path, first, headBytes);
     const auto margin = static_cast<std::int64_t>(first.full_x) - first.x;
     if (first.full_width < 1 || first.full_height < 1 || margin < 0 || first.full_width + 2 * margin != first.width ||
         first.full_height + 2 * margin != first.height)
         fail("cannot read {}: its data window must be its display window with an equal margin on all sides", s.name);
-    if (std::uint64_t(first.width) * std::uint64_t(first.height) > maxPixels)
+    if (pixelCount(first.width, first.height) > maxPixels)
         fail("cannot read {}: {}x{} pixels are too many", s.name, first.width, first.height);
     s.size = {first.full_width, first.full_height, static_cast<int>(margin)};
     for (int part = 0; part == 0 || s.input->seek_subimage(part, 0); ++part) {

@@ -118,10 +118,10 @@ OpenImage openImage(std::span<const std::byte> encoded, std::string_view format,
     const OIIO::ImageSpec& spec = image.spec;
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) fail("cannot read {}: the image has no pixels", name);
     if (spec.deep) fail("cannot read {}: deep images are not supported", name);
-    if (std::uint64_t(spec.width) * std::uint64_t(spec.height) > maximumPixels)
+    if (pixelCount(spec.width, spec.height) > maximumPixels)
         fail("cannot read {}: {}x{} pixels exceed the maximum of {} million", name, spec.width, spec.height,
              maximumPixels / 1000000);
-    if (format == "jpeg" && std::uint64_t(spec.width) * std::uint64_t(spec.height) > maxJpegPixels * image.bytes.size())
+    if (format == "jpeg" && pixelCount(spec.width, spec.height) > maxJpegPixels * image.bytes.size())
         fail("cannot read {}: its {} bytes are too few for {}x{} pixels", name, image.bytes.size(), spec.width,
              spec.height);
     return image;
@@ -279,6 +279,19 @@ Metadata metadataOf(const OIIO::ImageSpec& spec) {
     return metadata;
 }
 
+std::unique_ptr<OIIO::ImageInput> openExr(const std::filesystem::path& path, OIIO::ImageSpec& spec,
+                                          std::size_t headBytes) {
+    const std::string name = path.string();
+    std::error_code status;
+    if (!std::filesystem::is_regular_file(path, status))
+        static_cast<void>(readFile(path));  // throws Error with the reason if the file is unreadable
+    checkExrHeader(path, headBytes);
+    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create("openexr");
+    if (!input) fail("cannot read {}: {}", name, firstLine(OIIO::geterror()));
+    if (!input->open(name, spec)) fail("cannot read {}: {}", name, firstLine(input->geterror()));
+    return input;
+}
+
 struct StripReader::State {
     int width = 0;
     int height = 0;
@@ -367,7 +380,7 @@ TextureImage decodeTexture(std::span<const std::byte> encoded, const std::string
     const auto format = formatOf(encoded);
     if (format != "png" && format != "jpeg" && format != "webp") fail("{}: not a PNG, JPEG or WebP image", name);
     OpenImage file = openImage(encoded, *format, name);
-    if (take) take(std::uint64_t(file.spec.width) * std::uint64_t(file.spec.height));
+    if (take) take(pixelCount(file.spec.width, file.spec.height));
     std::vector<int> channels = colourChannels(file.spec, name);
     if (channels.size() == 1) channels.resize(3, channels[0]);
     const std::vector<std::uint8_t> values = readChannels<std::uint8_t>(file, channels, name);

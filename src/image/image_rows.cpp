@@ -165,13 +165,7 @@ struct ImageRowReader::State {
 ImageRowReader::ImageRowReader(const std::filesystem::path& path) : state_(std::make_unique<State>()) {
     State& s = *state_;
     s.name = path.string();
-    std::error_code status;
-    if (!std::filesystem::is_regular_file(path, status))
-        static_cast<void>(readFile(path));  // throws Error with the reason if the file is unreadable
-    checkExrHeader(path);
-    s.input = OIIO::ImageInput::create("openexr");
-    if (!s.input) fail("cannot read {}: {}", s.name, firstLine(OIIO::geterror()));
-    if (!s.input->open(s.name, s.spec)) fail("cannot read {}: {}", s.name, firstLine(s.input->geterror()));
+    s.input = openExr(path, s.spec);
     const std::vector<std::string> names(s.spec.channelnames.begin(), s.spec.channelnames.end());
     const bool colours =
         names == std::vector<std::string>{"R", "G", "B"} || names == std::vector<std::string>{"R", "G", "B", "A"};

@@ -1,10 +1,7 @@
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
-#include <memory>
 #include <set>
 #include <span>
 #include <string>
@@ -31,21 +28,6 @@ void checkImage(const ImageView& image, const std::string& name) {
         fail("cannot write {}: the image has {} channels instead of 1, 3 or 4", name, image.channels);
 }
 
-// Returns the complete encoded file, so that the caller stores it with one checked write. Image libraries report write
-// errors late or not at all.
-// `writePixels` writes all pixels to the output and returns false on failure.
-std::vector<unsigned char> encode(const std::string& name, const char* format, const OIIO::ImageSpec& spec,
-                                  const std::function<bool(OIIO::ImageOutput&)>& writePixels) {
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput memory(bytes);
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format, &memory);
-    if (!output) fail("cannot write {}: {}", name, firstLine(OIIO::geterror()));
-    output->set_ioproxy(&memory);
-    if (!output->open("image", spec) || !writePixels(*output) || !output->close())
-        fail("cannot write {}: {}", name, firstLine(output->geterror()));
-    return bytes;
-}
-
 }  // namespace
 
 void checkImageExtension(const std::filesystem::path& path) {
@@ -62,7 +44,7 @@ void writeImage(const std::filesystem::path& path, const ImageView& image, const
         if (kind == FileKind::exr) return output.write_image(spec.format, image.pixels.data());
         return output.write_image(spec.format, displayBytes(kind, image, options, 0).data());
     };
-    const std::vector<unsigned char> bytes = encode(name, formatName(kind), spec, writePixels);
+    const std::vector<unsigned char> bytes = encode("cannot write " + name, formatName(kind), spec, writePixels);
     writeFile(path, std::as_bytes(std::span(bytes)));
 }
 
@@ -103,7 +85,7 @@ void writeChannels(const std::filesystem::path& path, const std::vector<NamedCha
     };
     OIIO::ImageSpec spec = imageSpec(FileKind::exr, width, height, static_cast<int>(stride), metadata);
     spec.channelnames = channels;
-    const std::vector<unsigned char> bytes = encode(name, "openexr", spec, writePixels);
+    const std::vector<unsigned char> bytes = encode("cannot write " + name, "openexr", spec, writePixels);
     writeFile(path, std::as_bytes(std::span(bytes)));
 }
 

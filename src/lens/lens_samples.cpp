@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/enum_name.h"
 #include "core/hash.h"
 
 namespace defocus::engine {
@@ -180,17 +181,7 @@ float belowOne(double value) {
 }  // namespace
 
 std::string_view sequenceName(Sequence sequence) {
-    switch (sequence) {
-        case Sequence::halton:
-            return "halton";
-        case Sequence::scrambledHalton:
-            return "scrambled-halton";
-        case Sequence::sobol:
-            return "sobol";
-        case Sequence::r2:
-            return "r2";
-    }
-    return "";
+    return enumName<Sequence::r2>(sequence, {"halton", "scrambled-halton", "sobol", "r2"});
 }
 
 SequencePoint sequencePoint(Sequence sequence, std::uint64_t index, std::uint32_t seed) {

@@ -26,18 +26,6 @@ std::string drawsText(const ObjectPlan& object) {
                        object.motion.empty() ? object.blurMoves ? "  blur changes" : "" : "  moves");
 }
 
-std::size_t movingCount(const FramePlan& plan) {
-    return static_cast<std::size_t>(std::count_if(plan.objects.begin(), plan.objects.end(),
-                                                  [](const ObjectPlan& object) { return !object.motion.empty(); }));
-}
-
-// Returns the number of shutter times; 0 if nothing moves.
-std::size_t momentCount(const FramePlan& plan) {
-    std::size_t count = 0;
-    for (const ObjectPlan& object : plan.objects) count = std::max(count, object.motion.size());
-    return count;
-}
-
 std::string thresholdsText(const FramePlan& plan) {
     const LodThresholds& thresholds = plan.thresholds;
     if (plan.settings.metric == LodMetric::measured) return fmt::format("light threshold {:.4g}", thresholds.light);
@@ -64,6 +52,17 @@ double shownCoc(double coc) {
 }
 
 }  // namespace
+
+std::size_t movingCount(const FramePlan& plan) {
+    const auto moves = [](const ObjectPlan& object) { return !object.motion.empty(); };
+    return static_cast<std::size_t>(std::ranges::count_if(plan.objects, moves));
+}
+
+std::size_t momentCount(const FramePlan& plan) {
+    std::size_t count = 0;
+    for (const ObjectPlan& object : plan.objects) count = std::max(count, object.motion.size());
+    return count;
+}
 
 std::string planTable(const FramePlan& plan) {
     const Lens& lens = plan.view.lens;

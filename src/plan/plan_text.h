@@ -9,4 +9,7 @@ namespace defocus::engine {
 
 std::string planTable(const FramePlan& plan);
 
+std::size_t movingCount(const FramePlan& plan);  // number of objects that move
+std::size_t momentCount(const FramePlan& plan);  // number of shutter times; 0 if nothing moves
+
 }  // namespace defocus::engine

@@ -59,11 +59,9 @@ int marginOf(const LightFieldInfo& info) {
 // Returns the number stored under `name` in a file's metadata; nullopt if it is missing, of another type, or not
 // finite.
 std::optional<double> numberIn(const Metadata& metadata, const char* name) {
-    const auto found = metadata.find(name);
-    if (found == metadata.end()) return {};
     std::optional<double> value;
-    if (const auto* number = std::get_if<double>(&found->second)) value = *number;
-    if (const auto* number = std::get_if<int>(&found->second)) value = *number;
+    if (const auto* number = attributeOf<double>(metadata, name)) value = *number;
+    if (const auto* number = attributeOf<int>(metadata, name)) value = *number;
     return value && std::isfinite(*value) ? value : std::nullopt;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/enum_name.h"
+
 namespace defocus::engine {
 
 namespace {
@@ -40,15 +42,7 @@ ShaderDefines layerFormatDefines(LayerFormat format) {
 }
 
 const char* layerFormatName(LayerFormat format) {
-    switch (format) {
-        case LayerFormat::automatic:
-            return "automatic";
-        case LayerFormat::rgba16f:
-            return "rgba16f";
-        case LayerFormat::rgba32f:
-            return "rgba32f";
-    }
-    return "";
+    return enumName<LayerFormat::rgba32f>(format, {"automatic", "rgba16f", "rgba32f"});
 }
 
 TextureFormat layerTextureFormat(LayerFormat format) {

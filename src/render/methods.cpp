@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <system_error>
 
 #include "core/error.h"
+#include "core/parse.h"
 #include "plan/lens_cells/automatic_cells.h"
 #include "render/accumulation/accumulation.h"
 #include "render/circular/circular.h"
@@ -19,6 +18,17 @@
 namespace defocus::engine {
 
 namespace {
+
+// Completes the settings of the method in the options from which it makes renderers.
+Method completing(Method method) {
+    method.make = [make = std::move(method.make), name = method.name, known = method.settings](
+                      const World& world, const RendererOptions& options) {
+        RendererOptions complete = options;
+        complete.settings = completeSettings(name, known, options.settings);
+        return make(world, complete);
+    };
+    return method;
+}
 
 std::vector<Method>& table() {
     static std::vector<Method> methods = {
@@ -50,11 +60,11 @@ std::vector<Method>& table() {
          .usesThreads = true,
          .settings = {},
          .make = makeMultirateRenderer},
-        scheuermannMethod(),
-        circularMethod(),
-        layeredMethod(),
-        stochasticMethod(),
-        lineMethod(),
+        completing(scheuermannMethod()),
+        completing(circularMethod()),
+        completing(layeredMethod()),
+        completing(stochasticMethod()),
+        completing(lineMethod()),
     };
     return methods;
 }
@@ -67,11 +77,9 @@ std::string accepted(const MethodSetting& setting) {
 bool takes(const MethodSetting& setting, const std::string& value) {
     if (!setting.choices.empty())
         return std::find(setting.choices.begin(), setting.choices.end(), value) != setting.choices.end();
-    double number = 0;
-    const auto [end, fault] = std::from_chars(value.data(), value.data() + value.size(), number);
-    const bool parsed = fault == std::errc() && end == value.data() + value.size() && std::isfinite(number);
-    return parsed && number >= setting.min && number <= setting.max &&
-           (!setting.integer || number == std::floor(number));
+    const std::optional<double> number = wholeText<double>(value);
+    return number && std::isfinite(*number) && *number >= setting.min && *number <= setting.max &&
+           (!setting.integer || *number == std::floor(*number));
 }
 
 const MethodSetting& settingNamed(std::string_view method, const std::vector<MethodSetting>& known,
@@ -116,14 +124,12 @@ MethodUse parseMethodUse(std::string_view text) {
     const std::size_t colon = std::min(text.find(':'), text.size());
     const Method& method = methodNamed(text.substr(0, colon));
     MethodSettings given;
-    for (std::size_t begin = colon + 1; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const std::string_view part = text.substr(begin, end - begin);
+    if (colon == text.size()) return {&method, completeSettings(method.name, method.settings, given)};
+    for (const std::string& part : splitAt(text.substr(colon + 1), ',')) {
         const std::size_t equals = part.find('=');
-        if (equals == std::string_view::npos)
+        if (equals == std::string::npos)
             fail("'{}': '{}' is not SETTING=VALUE, as in {}:setting=value,setting=value", text, part, method.name);
-        given[std::string(part.substr(0, equals))] = part.substr(equals + 1);
-        begin = end + 1;
+        given[part.substr(0, equals)] = part.substr(equals + 1);
     }
     return {&method, completeSettings(method.name, method.settings, given)};
 }
@@ -140,10 +146,7 @@ MethodSettings completeSettings(std::string_view method, const std::vector<Metho
 }
 
 double numberOf(const MethodSettings& settings, const std::string& name) {
-    const std::string& value = settings.at(name);
-    double number = 0;
-    std::from_chars(value.data(), value.data() + value.size(), number);
-    return number;
+    return wholeText<double>(settings.at(name)).value_or(0);
 }
 
 double valueAt(const View& view, const MethodSettings& settings, const std::string& name) {

@@ -63,6 +63,9 @@ struct Method {
     bool drawsShadows = true;     // false: no shadows
     bool drawsMotion = true;      // false: draws moving objects at a single time within the exposure
     ApertureShown aperture = ApertureShown::all;
+    // Returns whether the method draws levels of detail. Ray tracers trace the loaded meshes only. Post-process methods
+    // start from a sharp image, in which no blur hides a coarse level.
+    [[nodiscard]] bool drawsLevels() const { return needsGl && usesLensSamples; }
     std::vector<MethodSetting> settings;
     MethodSettings best = {};  // settings with the smallest error, at any cost; missing: default
     // Creates a renderer. Throws Error for settings that the method does not accept.

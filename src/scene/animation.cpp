@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 
 #include "core/error.h"
+#include "core/parse.h"
 #include "core/suggestion.h"
 
 namespace defocus::engine {
@@ -78,10 +78,8 @@ int clipNamed(const Scene& scene, std::string_view nameOrNumber) {
     for (const AnimationClip& clip : scene.clips) names.push_back(clip.name);
     const auto named = placeOfName(nameOrNumber, names);
     if (named && !nameOrNumber.empty()) return static_cast<int>(*named);
-    std::size_t number = 0;
-    const char* end = nameOrNumber.data() + nameOrNumber.size();
-    const auto [stop, fault] = std::from_chars(nameOrNumber.data(), end, number);
-    if (fault == std::errc() && stop == end && number < scene.clips.size()) return static_cast<int>(number);
+    const std::optional<std::size_t> number = wholeText<std::size_t>(nameOrNumber);
+    if (number && *number < scene.clips.size()) return static_cast<int>(*number);
 
     std::string help = "; the scene has no animations";
     if (const std::string nearest = nearestWord(nameOrNumber, names); !nearest.empty()) {

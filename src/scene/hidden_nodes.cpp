@@ -1,9 +1,9 @@
 #include "scene/hidden_nodes.h"
 
 #include <algorithm>
-#include <charconv>
 #include <string_view>
 
+#include "core/parse.h"
 #include "scene/posed_mesh.h"
 
 namespace defocus::engine {
@@ -17,31 +17,14 @@ bool isBelow(const Scene& scene, int node, const std::vector<bool>& hidden) {
     return false;
 }
 
-// Returns the world-space bounding box of the pose's objects except the ground. Computes the bounding box of each mesh
-// only once.
-Bounds boundsOf(const Scene& scene, const Pose& pose) {
-    Bounds result;
-    std::vector<std::optional<Bounds>> meshBounds(scene.meshes.size());
-    for (const Object& object : pose.objects) {
-        if (object.ground) continue;
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
-        std::optional<Bounds>& bounds = meshBounds[static_cast<std::size_t>(object.mesh)];
-        if (!bounds) bounds = mesh.bounds();
-        result.extend(posedBounds(mesh, *bounds, object));
-    }
-    return result;
-}
-
 }  // namespace
 
 int nodeCalled(const Scene& scene, const std::string& nameOrNumber) {
     if (std::ranges::find(scene.nodes, nameOrNumber, &Node::name) != scene.nodes.end())
         return nodeNamed(scene, nameOrNumber);
     const std::string_view digits = std::string_view(nameOrNumber).substr(nameOrNumber.starts_with('#') ? 1 : 0);
-    std::size_t number = 0;
-    const auto [stop, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    const bool isNumber = fault == std::errc() && stop == digits.data() + digits.size();
-    return isNumber && number < scene.nodes.size() ? static_cast<int>(number) : nodeNamed(scene, nameOrNumber);
+    const std::optional<std::size_t> number = wholeText<std::size_t>(digits);
+    return number && *number < scene.nodes.size() ? static_cast<int>(*number) : nodeNamed(scene, nameOrNumber);
 }
 
 std::string callingOf(const Scene& scene, int node) {
@@ -58,7 +41,7 @@ void hideNodes(const Scene& scene, std::span<const std::string> namesOrNumbers, 
     for (const std::string& text : namesOrNumbers) hidden[static_cast<std::size_t>(nodeCalled(scene, text))] = true;
     const std::size_t left =
         std::erase_if(pose.objects, [&](const Object& object) { return isBelow(scene, object.node, hidden); });
-    if (left > 0 && !pose.bounds.empty()) pose.bounds = boundsOf(scene, pose);
+    if (left > 0 && !pose.bounds.empty()) pose.bounds = posedBounds(scene, pose);
 }
 
 }  // namespace defocus::engine

@@ -298,15 +298,7 @@ Pose shutterPoseAt(const Scene& scene, double time, int clip, const Pose& expose
 
 Pose poseAt(const Scene& scene, double time, int clip) {
     Pose pose = unmeasuredPoseAt(scene, time, clip);
-    // Compute the bounding box of all objects; each mesh's own box is computed once.
-    std::vector<std::optional<Bounds>> meshBounds(scene.meshes.size());
-    for (const Object& object : pose.objects) {
-        if (object.ground) continue;
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
-        std::optional<Bounds>& bounds = meshBounds[static_cast<std::size_t>(object.mesh)];
-        if (!bounds) bounds = mesh.bounds();
-        pose.bounds.extend(posedBounds(mesh, *bounds, object));
-    }
+    pose.bounds = posedBounds(scene, pose);
     return pose;
 }
 

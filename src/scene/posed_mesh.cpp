@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_inverse.hpp>
+#include <optional>
 #include <span>
 
 namespace defocus::engine {
@@ -83,6 +84,19 @@ Bounds posedBounds(const Mesh& mesh, const Bounds& meshBounds, const Object& obj
     for (const Primitive& primitive : mesh.primitives)
         for (const std::uint32_t index : primitive.indices) bounds.extend(positions[index]);
     return bounds;
+}
+
+Bounds posedBounds(const Scene& scene, const Pose& pose) {
+    Bounds result;
+    std::vector<std::optional<Bounds>> meshBounds(scene.meshes.size());
+    for (const Object& object : pose.objects) {
+        if (object.ground) continue;
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
+        std::optional<Bounds>& bounds = meshBounds[static_cast<std::size_t>(object.mesh)];
+        if (!bounds) bounds = mesh.bounds();
+        result.extend(posedBounds(mesh, *bounds, object));
+    }
+    return result;
 }
 
 }  // namespace defocus::engine

@@ -29,4 +29,8 @@ Bounds posedBounds(const Mesh& mesh, const Object& object);
 // Same as posedBounds(mesh, object), where `meshBounds` is mesh.bounds(), computed in advance.
 Bounds posedBounds(const Mesh& mesh, const Bounds& meshBounds, const Object& object);
 
+// Returns the world-space bounding box of the pose's objects except the ground. Computes the bounding box of each mesh
+// only once.
+Bounds posedBounds(const Scene& scene, const Pose& pose);
+
 }  // namespace defocus::engine

@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "cli/commands/render.h"
+#include "frame/program_facts.h"
 #include "frame/settings/presets.h"
 #include "frame/settings/settings.h"
 #include "frame/setup/exposure.h"

@@ -68,11 +68,6 @@ void makeFolders(const ConvergenceArguments& arguments) {
     makeOutputFolder(arguments.report, {"index.html", "results.csv", "results.json"});
 }
 
-std::string textIn(const fs::path& path) {
-    const std::vector<std::byte> bytes = readFile(path);
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 // Returns the hash of the reference image, the program, the device and the settings that affect the plan. All frames of
 // a journal (runs.csv) have the same hash.
 std::uint64_t subjectHash(std::uint64_t reference, const BenchSubject& bench, const Request& request) {
@@ -93,7 +88,7 @@ std::vector<ConvergenceRun> earlierRuns(const ConvergenceArguments& arguments, s
     const fs::path folder = resultsFolder(arguments);
     const fs::path journal = folder / "runs.csv";
     std::vector<ConvergenceRun> runs;
-    if (fs::exists(journal)) runs = readRunsCsv(textIn(journal), subject, journal.string());
+    if (fs::exists(journal)) runs = readRunsCsv(readText(journal), subject, journal.string());
     if (!runs.empty() && !arguments.resume)
         fail("{} has {} frames of an earlier run; continue with --resume, or start over with --overwrite",
              journal.string(), runs.size());
@@ -117,7 +112,7 @@ public:
         runs_ = std::move(runs);
         const fs::path results = folder_ / "results.json";
         if (!fs::exists(results)) return;
-        const nlohmann::json document = nlohmann::json::parse(textIn(results), nullptr, false);
+        const nlohmann::json document = nlohmann::json::parse(readText(results), nullptr, false);
         if (!document.is_object() || !document.contains("commands") || !document["commands"].is_array()) return;
         std::vector<std::string> commands;
         for (const nlohmann::json& command : document["commands"])

@@ -13,7 +13,7 @@
 #include "cli/options/option_text.h"
 #include "cli/options/request_options.h"
 #include "core/file.h"
-#include "eval/json_number.h"
+#include "frame/report/json_values.h"
 #include "gl/context.h"
 #include "view/bench/refocus_bench.h"
 #include "view/bench/view_bench.h"
@@ -119,7 +119,7 @@ void runViewBench(const ViewBenchArguments& arguments, const GlobalOptions& glob
         fmt::print("{}", line);
         std::fflush(stdout);
         json["rows"].push_back(row);
-        if (!folder.empty()) writeFile(folder / "view.json", json.dump(2) + "\n");
+        if (!folder.empty()) writeFile(folder / "view.json", documentText(json));
     };
     if (arguments.refocus) {
         measureRefocus(

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "cli/options/option_text.h"
+#include "core/parse.h"
+#include "frame/report/json_values.h"
 #include "lens/circle_of_confusion.h"
 #include "lens/depth_of_field.h"
 #include "lens/photographic_exposure.h"
@@ -73,10 +73,6 @@ std::string inMetres(double distance) {
     return std::isinf(distance) ? "infinity" : fmt::format("{:.4g} m", distance);
 }
 
-Json orNull(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 // Returns the depth of field behind the focus distance, m; 0 for focus at infinity.
 double behindFocus(const CameraFacts& facts) {
     return std::isinf(facts.lens.focusDistance) ? 0 : facts.depth.far - facts.lens.focusDistance;
@@ -94,13 +90,8 @@ const char* const plainLensNote =
 
 std::vector<double> parseDepths(const std::string& text) {
     std::vector<double> depths;
-    std::size_t begin = 0;
-    while (begin <= text.size()) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const std::string part = text.substr(begin, end - begin);
+    for (const std::string& part : splitAt(text, ','))
         depths.push_back(part == "inf" ? infinity : parseNumber(part, {0, 1e12, true}));
-        begin = end + 1;
-    }
     return depths;
 }
 
@@ -149,17 +140,17 @@ std::string cameraJson(const PreparedFrame& frame, const CameraQuestion& questio
                  {"focalLength", lens.focalLength},
                  {"fStop", lens.fStop},
                  {"apertureDiameter", apertureDiameter(lens)},
-                 {"focusDistance", orNull(lens.focusDistance)},
+                 {"focusDistance", jsonNumber(lens.focusDistance)},
                  {"focusBreathing", lens.focusBreathing},
                  {"sensorSize", {facts.sensor.x, facts.sensor.y}},
                  {"horizontalFieldOfView", facts.fieldOfView.x},
                  {"verticalFieldOfView", facts.fieldOfView.y},
                  {"acceptableCoc", facts.acceptable},
                  {"near", facts.depth.near},
-                 {"far", orNull(facts.depth.far)},
-                 {"depthOfField", orNull(facts.depth.far - facts.depth.near)},
-                 {"inFrontOfFocus", orNull(lens.focusDistance - facts.depth.near)},
-                 {"behindFocus", orNull(behindFocus(facts))},
+                 {"far", jsonNumber(facts.depth.far)},
+                 {"depthOfField", jsonNumber(facts.depth.far - facts.depth.near)},
+                 {"inFrontOfFocus", jsonNumber(lens.focusDistance - facts.depth.near)},
+                 {"behindFocus", jsonNumber(behindFocus(facts))},
                  {"hyperfocal", facts.depth.hyperfocal},
                  {"plainLens", facts.plain}};
     if (!facts.plain) json["note"] = plainLensNote;
@@ -170,11 +161,11 @@ std::string cameraJson(const PreparedFrame& frame, const CameraQuestion& questio
                             {"exposure", photographicExposure(lens)}};
     json["blur"] = Json::array();
     for (const Blur& blur : facts.blurs)
-        json["blur"].push_back({{"depth", orNull(blur.depth)},
+        json["blur"].push_back({{"depth", jsonNumber(blur.depth)},
                                 {"pixels", blur.pixels},
                                 {"millimetres", blur.onSensor},
                                 {"inFocus", blur.inFocus}});
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return documentText(json);
 }
 
 }  // namespace defocus::engine

@@ -43,17 +43,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Shard {
-    int index = 0;
-    int count = 1;
-};
+constexpr int maxShards = 1'000'000;
 
 struct CaptureArguments {
     std::vector<ShotOverride> overrides;
     Shot shot;
     Request request = shotDefaults();
     std::optional<FrameRange> range;
-    Shard shard;
+    Share shard;
     std::optional<SampleRange> sampleRange;
     std::vector<std::string> outputs;  // patterns from the command line; empty: the shot's outputs
     bool resume = false;
@@ -311,11 +308,7 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     if (arguments.dryRun) return printPlan(arguments, prepared, base, film, options, use);
     if (meters) meterFilm(arguments, prepared, base, film, global);
     progress = terminalProgress(global);
-    const auto hasCurve = [](const std::string& pattern) {
-        const std::string ending = fs::path(pattern).extension().string();
-        return ending != ".exr" && ending != ".EXR";
-    };
-    if (!shot.video.empty() || std::ranges::any_of(shot.outputs, hasCurve))
+    if (!shot.video.empty() || !std::ranges::all_of(shot.outputs, isExr))
         options.firstDrawn = [&](const Image& image, const WriteOptions& write) {
             progress = {};  // end the progress line before the warnings
             warnings.print(clippingWarnings(image, write));
@@ -337,20 +330,6 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     const std::string saving =
         arguments.refocus ? savedText(options.settings, figures) : possibleSaving(shot, base, options.settings, film);
     if (!saving.empty()) printMessage("{}\n", saving);
-}
-
-void parseShard(const std::string& text, Shard& shard) {
-    const std::size_t slash = text.find('/');
-    try {
-        if (slash == std::string::npos) throw Error("");
-        shard.count = static_cast<int>(parseInteger(text.substr(slash + 1), 1, 1'000'000));
-        shard.index = static_cast<int>(parseInteger(text.substr(0, slash), 0, 999'999));
-    } catch (const Error&) {
-        fail("'{}' is not I/N, such as 0/4: part I (0 to N-1) of N", text);
-    }
-    if (shard.index >= shard.count)
-        fail("'{}': with {} parts, the part must be 0 to {} (Slurm: --array=0-{})", text, shard.count, shard.count - 1,
-             shard.count - 1);
 }
 
 // Adds the shot and the options that replace parts of the shot. CLI11 applies options in the order in which they were
@@ -424,7 +403,7 @@ void addOutputs(CLI::App& command, CaptureArguments& arguments) {
         ->group(group);
     advanced(addParsed(command, "--shard", "I/N",
                        "Render only part I (0 to N-1) of the frames, to share a shot between N machines",
-                       [&arguments](const std::string& text) { parseShard(text, arguments.shard); })
+                       [&arguments](const std::string& text) { arguments.shard = parseShare(text, "part", maxShards); })
                  ->group(group));
     advanced(addParsed(command, "--sample-range", "FIRST:END",
                        "Range of the lens samples to draw in each frame, in multiples of 64. Writes their sums to "

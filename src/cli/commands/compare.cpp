@@ -18,6 +18,7 @@
 #include "cli/options/option_text.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "frame/report/json_values.h"
 #include "image/colour_map.h"
 #include "image/image_io.h"
 #include "image/image_rows.h"
@@ -79,13 +80,12 @@ void printJson(const Difference& difference) {
     nlohmann::ordered_json json;
     for (const Metric& metric : metrics) {
         if (metric.name == "nonFinite") continue;
-        const double value = metric.value(difference);
-        json[std::string(metric.name)] = std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr;
+        json[std::string(metric.name)] = jsonNumber(metric.value(difference));
     }
     json["maxErrorPixel"] = {difference.maxErrorPixel.column, difference.maxErrorPixel.row};
     json["nonFinite"] = difference.nonFinite;
     json["pixelCount"] = difference.pixelCount;
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}", documentText(json));
 }
 
 void printTable(const CompareArguments& arguments, const Difference& difference) {
@@ -107,7 +107,7 @@ void printTable(const CompareArguments& arguments, const Difference& difference)
 class ErrorMap {
 public:
     ErrorMap(const std::filesystem::path& path, int width, int height)
-        : coloured_(path.extension() != ".exr"), writer_(path, width, height, coloured_ ? 3 : 1, {}) {}
+        : coloured_(!isExr(path)), writer_(path, width, height, coloured_ ? 3 : 1, {}) {}
 
     void write(const ImageView& flip) {
         if (!coloured_) return writer_.write(flip);

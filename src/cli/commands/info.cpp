@@ -16,6 +16,8 @@
 #include "core/message.h"
 #include "core/number_text.h"
 #include "core/parallel.h"
+#include "frame/report/json_values.h"
+#include "frame/setup/prepared_frame.h"
 #include "lens/lens_fields.h"
 #include "lod/simplify/manifold.h"
 #include "scene/gltf/gltf.h"
@@ -227,7 +229,7 @@ std::string textureSummary(const Scene& scene) {
     std::uint64_t pixels = 0;
     int largest = 0;
     for (const TextureImage& image : scene.images) {
-        pixels += static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+        pixels += pixelCount(image.width, image.height);
         largest = std::max({largest, image.width, image.height});
     }
     return fmt::format("{} of {} images, up to {} px wide, {:.1f} megapixels", scene.textures.size(),
@@ -292,7 +294,7 @@ void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose
     line("textures", textureSummary(scene));
     lines("cameras", cameraLines(scene), "none (the view frames the scene)");
 
-    std::vector<std::string> lights, clips, skins, ignored;
+    std::vector<std::string> lights, clips, skins;
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         lights.push_back(fmt::format("{}: {}, {:g} {}", nameOr(scene.lights[i].name, "light", i),
                                      typeName(scene.lights[i].type), scene.lights[i].intensity,
@@ -303,15 +305,12 @@ void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose
     std::size_t joints = 0;
     for (const Skin& skin : scene.skins) joints += skin.joints.size();
     if (!scene.skins.empty()) skins.push_back(fmt::format("{}, {} joints in all", scene.skins.size(), joints));
-    for (const Ignored& entry : scene.ignored)
-        ignored.push_back(entry.count > 1 ? fmt::format("{} × {}: {}", grouped(entry.count), entry.what, entry.reason)
-                                          : fmt::format("{}: {}", entry.what, entry.reason));
     lines("lights", lights, "none (a three-light set-up is used, unless everything is unlit)");
     lines("clips", clips, "none");
     if (!scene.variants.empty()) line("variants", fmt::format("{}", fmt::join(scene.variants, ", ")));
     lines("skins", skins, "none");
     line("extensions", scene.extensions.empty() ? "none" : fmt::format("{}", fmt::join(scene.extensions, ", ")));
-    lines("ignored", ignored, "nothing");
+    lines("ignored", ignoredLines(scene), "nothing");
     line("repairs", repairSummary(scene));
     printMeshes(scene, objects);
 }
@@ -332,7 +331,7 @@ void runInfo(const InfoOptions& options, const GlobalOptions& global) {
     const Scene scene = loadScene(options.seen, progress);
     const Pose pose = poseAt(scene, 0, -1);
     if (options.json)
-        fmt::print("{}\n", sceneJson(options, scene, pose).dump(2, ' ', false, Json::error_handler_t::replace));
+        fmt::print("{}", documentText(sceneJson(options, scene, pose)));
     else
         printScene(options, scene, pose);
     std::fflush(stdout);

@@ -31,16 +31,8 @@ struct MergeArguments {
 
 // Returns the exposure (EV) in the metadata of a part of a frame; 0 if the metadata contains none.
 double ownExposure(const Metadata& metadata) {
-    const auto found = metadata.find("defocus:exposure");
-    const double* value = found == metadata.end() ? nullptr : std::get_if<double>(&found->second);
+    const double* value = attributeOf<double>(metadata, "defocus:exposure");
     return value != nullptr ? *value : 0;
-}
-
-std::string shownOutputs(const MergeArguments& arguments) {
-    std::string names;
-    for (const std::filesystem::path& path : arguments.outputs)
-        names += (names.empty() ? "" : ", ") + shownOutput(path);
-    return names;
 }
 
 void mergeTiles(const MergeArguments& arguments, const GlobalOptions& global) {
@@ -55,7 +47,7 @@ void mergeTiles(const MergeArguments& arguments, const GlobalOptions& global) {
     }
     joinRows(tiles, outputs, metadata);
     if (!global.quiet)
-        printMessage("{}: {}x{}, {} tiles\n", shownOutputs(arguments), tiles.front().header.width,
+        printMessage("{}: {}x{}, {} tiles\n", shownOutputs(arguments.outputs), tiles.front().header.width,
                      tiles.front().header.height, tiles.size());
 }
 
@@ -67,7 +59,7 @@ void runMerge(const MergeArguments& arguments, const GlobalOptions& global) {
     const WriteOptions write{arguments.toneMap, arguments.exposure.value_or(ownExposure(merged.metadata))};
     for (const std::filesystem::path& path : arguments.outputs) writeOutput(path, merged.image, merged.metadata, write);
     if (!global.quiet)
-        printMessage("{}: {}x{}, {} parts\n", shownOutputs(arguments), merged.image.width, merged.image.height,
+        printMessage("{}: {}x{}, {} parts\n", shownOutputs(arguments.outputs), merged.image.width, merged.image.height,
                      arguments.parts.size());
 }
 

@@ -23,6 +23,7 @@
 #include "core/number_text.h"
 #include "core/parallel.h"
 #include "core/suggestion.h"
+#include "frame/report/json_values.h"
 #include "frame/report/plan_report.h"
 #include "frame/setup/prepared_frame.h"
 #include "lod/pyramid/cache.h"

@@ -75,16 +75,12 @@ void writePicture(const RefocusArguments& arguments, LightField& field, const Re
     const Clock::time_point start = Clock::now();
     const Image image = refocused(field, refocusing, terminalProgress(global));
     const Metadata metadata = refocusedMetadata(field.info(), refocusing);
-    std::string names;
-    for (const std::filesystem::path& path : arguments.outputs) {
-        writeOutput(path, image, metadata, write);
-        names += (names.empty() ? "" : ", ") + shownOutput(path);
-    }
+    for (const std::filesystem::path& path : arguments.outputs) writeOutput(path, image, metadata, write);
     if (!global.quiet)
-        printMessage("{}: {}x{}, focus at {:.4g} m, f/{:g}, {} of {} lens images in {:.2f} s\n", names, image.width,
-                     image.height, refocusing.focusDistance, refocusing.fStop,
-                     shiftedImages(field.info(), refocusing, field.name()).size(), field.info().points.size(),
-                     millisecondsSince(start) / 1000);
+        printMessage("{}: {}x{}, focus at {:.4g} m, f/{:g}, {} of {} lens images in {:.2f} s\n",
+                     shownOutputs(arguments.outputs), image.width, image.height, refocusing.focusDistance,
+                     refocusing.fStop, shiftedImages(field.info(), refocusing, field.name()).size(),
+                     field.info().points.size(), millisecondsSince(start) / 1000);
 }
 
 void runRefocus(const RefocusArguments& arguments, const GlobalOptions& global) {

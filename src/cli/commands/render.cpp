@@ -33,7 +33,7 @@ namespace {
 void parseAovs(const std::string& text, AovRequest& aovs) {
     const std::vector<std::string> names = {"depth", "coc", "level", "work"};
     const std::array<bool*, 4> wanted = {&aovs.depth, &aovs.coc, &aovs.level, &aovs.work};
-    for (const std::string& part : partsOf(text)) *wanted[parseChoice(part, names)] = true;
+    for (const std::string& part : splitAt(text, ',')) *wanted[parseChoice(part, names)] = true;
 }
 
 void addOutputs(CLI::App& command, RenderArguments& arguments) {
@@ -127,7 +127,7 @@ void checkOutputs(const RenderArguments& arguments) {
     if (arguments.aovs.any() && isStandardOutput(arguments.outputs.front()))
         fail("--aov writes files beside the first output; give a file as the first output");
     if (!request.layers.empty()) {
-        if (std::ranges::none_of(arguments.outputs, holdsLayers)) fail("--exr-layers needs an .exr file as an output");
+        if (std::ranges::none_of(arguments.outputs, isExr)) fail("--exr-layers needs an .exr file as an output");
         if (arguments.keepPartial) fail("--keep-partial keeps only the image, without layers; leave out --exr-layers");
     }
     FrameOutput::check(filesOf(arguments), request);
@@ -154,9 +154,7 @@ void writeWork(const RenderArguments& arguments, const FramePlan& plan, const Im
 }
 
 void printSummary(const RenderArguments& arguments, const RenderReport& report, int rowsKept) {
-    std::string names;
-    for (const std::filesystem::path& path : arguments.outputs)
-        names += (names.empty() ? "" : ", ") + shownOutput(path);
+    std::string names = shownOutputs(arguments.outputs);
     for (const std::filesystem::path& path : aovPaths(arguments)) names += ", " + path.string();
     printMessage("{}: {}\n", names, summary(report));
     if (rowsKept > 0) printMessage("{} of {} rows kept from earlier runs\n", rowsKept, report.plan.view.height);
@@ -246,7 +244,7 @@ bool draw(FrameOutput& output, SceneDriver& driver, const Progress& progress, co
 void writeImages(const RenderArguments& arguments, const Image& image, SceneDriver& driver, WarningPrinter& warnings) {
     const WriteOptions options = driver.writeOptions();
     const auto hasCurve = [](const std::filesystem::path& path) {
-        return !path.string().starts_with("exr:") && path.extension() != ".exr";
+        return !path.string().starts_with("exr:") && !isExr(path);
     };
     if (std::ranges::any_of(arguments.outputs, hasCurve)) warnings.print(clippingWarnings(image, options));
     const Metadata metadata = driver.metadata();

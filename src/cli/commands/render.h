@@ -25,7 +25,7 @@ struct RenderArguments {
     std::filesystem::path stats;
     AovRequest aovs;
     std::optional<SampleRange> sampleRange;  // draw only these samples, for `merge`; nullopt: all
-    std::optional<TileShare> tile;           // draw only these rows, for `merge`; nullopt: all
+    std::optional<Share> tile;               // draw only these rows, for `merge`; nullopt: all
     bool resume = false;                     // true: keep finished parts of an interrupted run
     std::filesystem::path lensImages;        // write lens images (one per lens sample) to this file instead of outputs
     std::optional<FocusRange> focusRange;    // focus distances that the lens images must support

@@ -141,9 +141,7 @@ std::string markdown() {
 // ---- docs/shot.schema.json ------------------------------------------------------------------------------------------
 
 void printSchema(const std::filesystem::path& path) {
-    const std::vector<std::byte> bytes = readFile(path);
-    const auto* text = reinterpret_cast<const char*>(bytes.data());
-    const Json schema = Json::parse(text, text + bytes.size(), nullptr, false);
+    const Json schema = Json::parse(readText(path), nullptr, false);
     if (!schema.is_object()) fail("{} is not a JSON schema", path.string());
     fmt::print("{}\n", withSettings(schema).dump(2));
 }

@@ -73,6 +73,12 @@ std::string shownOutput(const fs::path& output) {
     return isStandardOutput(output) ? "standard output" : output.string();
 }
 
+std::string shownOutputs(const std::vector<fs::path>& outputs) {
+    std::string names;
+    for (const fs::path& output : outputs) names += (names.empty() ? "" : ", ") + shownOutput(output);
+    return names;
+}
+
 namespace {
 
 // Throws Error if two outputs are the same file, or if an output would replace an input.

@@ -18,6 +18,8 @@ bool isStandardOutput(const std::filesystem::path& output);
 
 // Returns the file's name; "standard output" for "-".
 std::string shownOutput(const std::filesystem::path& output);
+// Returns shownOutput of each output, separated by commas.
+std::string shownOutputs(const std::vector<std::filesystem::path>& outputs);
 
 // Checks all outputs of a command. Throws Error for an unknown format, an unwritable file, an image to a terminal, two
 // outputs to the same file or to standard output, and an output that would replace an input. `more`: other files that

@@ -1,12 +1,12 @@
 #include "cli/options/method_list.h"
 
-#include "cli/options/option_text.h"
+#include "core/parse.h"
 
 namespace defocus::engine {
 
 std::vector<MethodUse> parseMethods(const std::string& text) {
     std::vector<std::string> names;
-    for (const std::string& part : partsOf(text)) {
+    for (const std::string& part : splitAt(text, ',')) {
         const std::size_t equals = part.find('=');
         const bool more = equals != std::string::npos && part.find(':') > equals;
         if (more && !names.empty())

@@ -55,16 +55,13 @@ CLI::Option* addInteger(CLI::App& command, const std::string& names, Whole& targ
         ->default_str(std::to_string(target));
 }
 
-// Splits a list at commas.
-std::vector<std::string> partsOf(const std::string& text);
-
 // Adds an option for a comma-separated list; `parse` converts each part.
 template <typename Value, typename Parse>
 CLI::Option* addList(CLI::App& command, const std::string& names, const std::string& type, std::vector<Value>& target,
                      const std::string& description, Parse parse) {
     return addParsed(command, names, type, description, [&target, parse](const std::string& text) {
         target.clear();
-        for (const std::string& part : partsOf(text)) target.push_back(parse(part));
+        for (const std::string& part : splitAt(text, ',')) target.push_back(parse(part));
     });
 }
 

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/enum_name.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/stopwatch.h"
@@ -39,12 +40,6 @@ std::vector<MethodUse> chosenMethods(const ConvergenceOptions& options) {
     return uses;
 }
 
-// Returns whether the method can draw levels of detail. Ray tracers trace the loaded meshes only. Post-process methods
-// start from a sharp image, in which no blur hides a coarse level.
-bool drawsLevels(const Method& method) {
-    return method.needsGl && method.usesLensSamples;
-}
-
 std::string settingOf(const MethodUse& use, const std::string& levels) {
     std::string text = settingsText(use.method->settings, use.settings);
     std::ranges::replace(text, ',', ' ');
@@ -67,7 +62,7 @@ ConvergenceCase fullDetailCase(const MethodUse& use, std::uint32_t samples, cons
     ConvergenceCase result{
         .use = use,
         .form = formOf(use),
-        .setting = settingOf(use, drawsLevels(*use.method) ? "lod=off" : ""),
+        .setting = settingOf(use, use.method->drawsLevels() ? "lod=off" : ""),
         .samples = samples,
         .plan = plan,
     };
@@ -77,7 +72,7 @@ ConvergenceCase fullDetailCase(const MethodUse& use, std::uint32_t samples, cons
 }
 
 std::vector<ConvergenceCase> casesOf(const MethodUse& use, std::uint32_t samples, const ConvergenceOptions& options) {
-    if (!drawsLevels(*use.method)) return {fullDetailCase(use, samples, options.plan)};
+    if (!use.method->drawsLevels()) return {fullDetailCase(use, samples, options.plan)};
     std::vector<ConvergenceCase> cases;
     for (const LodMode mode : options.lods) {
         if (mode == LodMode::off) {
@@ -112,7 +107,7 @@ std::vector<ConvergenceCase> publishedCases(const Method& method, std::uint32_t 
                          .world = form.world,
                          .pyramidMilliseconds = form.pyramidMilliseconds});
         if (samples > 0) cases.back().plan.sampleCount = samples;
-        if (!drawsLevels(method)) cases.back().plan.lod = LodMode::off;
+        if (!method.drawsLevels()) cases.back().plan.lod = LodMode::off;
     }
     return cases;
 }
@@ -309,15 +304,7 @@ private:
 }  // namespace
 
 const char* methodFormName(MethodForm form) {
-    switch (form) {
-        case MethodForm::published:
-            return "published";
-        case MethodForm::best:
-            return "best";
-        case MethodForm::standard:
-            return "standard";
-    }
-    return "";
+    return enumName<MethodForm::standard>(form, {"published", "best", "standard"});
 }
 
 double ImageError::psnr() const {

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "core/error.h"
+#include "core/parse.h"
 #include "eval/convergence/text.h"
 
 namespace defocus::engine {
@@ -20,20 +21,10 @@ std::string errorText(const ImageError& error) {
     return fmt::format("{},{},{}", error.mse, error.ssim, error.flip);
 }
 
-std::vector<std::string_view> fieldsOf(std::string_view line) {
-    std::vector<std::string_view> fields;
-    for (std::size_t begin = 0; begin <= line.size();) {
-        const std::size_t end = std::min(line.find(',', begin), line.size());
-        fields.push_back(line.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return fields;
-}
-
 // Reads the fields of a CSV line in order. good() becomes false at the first malformed field.
 class FieldReader {
 public:
-    explicit FieldReader(std::string_view line) : fields_(fieldsOf(line)), good_(fields_.size() == fieldCount) {}
+    explicit FieldReader(std::string_view line) : fields_(splitAt(line, ',')), good_(fields_.size() == fieldCount) {}
 
     [[nodiscard]] bool good() const { return good_; }
     // Returns whether the next field is empty, which means that its optional group of fields (such as an error) is
@@ -41,19 +32,19 @@ public:
     [[nodiscard]] bool missing() const { return good_ && fields_[next_].empty(); }
     void skip(std::size_t count) { next_ += count; }
 
-    std::string text() { return good_ ? std::string(fields_[next_++]) : std::string(); }
+    std::string text() { return good_ ? fields_[next_++] : std::string(); }
 
     template <typename Number>
     void number(Number& value) {
         if (!good_) return;
-        const std::string_view field = fields_[next_++];
-        const auto [end, fault] = std::from_chars(field.data(), field.data() + field.size(), value);
-        good_ = fault == std::errc() && end == field.data() + field.size();
+        const std::optional<Number> parsed = wholeText<Number>(fields_[next_++]);
+        good_ = parsed.has_value();
+        value = parsed.value_or(value);
     }
 
     void hash(std::uint64_t& value) {
         if (!good_) return;
-        const std::string_view field = fields_[next_++];
+        const std::string& field = fields_[next_++];
         const auto [end, fault] = std::from_chars(field.data(), field.data() + field.size(), value, 16);
         good_ = fault == std::errc() && end == field.data() + field.size();
     }
@@ -65,7 +56,7 @@ public:
     }
 
 private:
-    std::vector<std::string_view> fields_;
+    std::vector<std::string> fields_;
     std::size_t next_ = 0;
     bool good_;
 };

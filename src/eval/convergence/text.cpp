@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "eval/convergence/equal_error.h"
-#include "eval/json_number.h"
 #include "eval/seed_errors.h"
 #include "eval/spread.h"
+#include "frame/report/json_values.h"
 
 namespace defocus::engine {
 
@@ -191,7 +191,7 @@ std::string convergenceJson(std::span<const ConvergenceRow> rows, const Referenc
     document["leftOut"] = ordered_json::array();
     for (const ConvergenceSubject::LeftOut& entry : subject.leftOut)
         document["leftOut"].push_back({{"method", entry.method}, {"setting", entry.setting}, {"reason", entry.reason}});
-    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return documentText(document);
 }
 
 }  // namespace defocus::engine

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/enum_name.h"
 #include "core/error.h"
 #include "plan/frame_plan.h"
 #include "plan/motion/camera_path.h"
@@ -58,17 +59,7 @@ std::map<int, std::uint32_t> nearestLevels(const World& world, const View& view,
 }  // namespace
 
 const char* movementName(Movement movement) {
-    switch (movement) {
-        case Movement::focusPull:
-            return "focus-pull";
-        case Movement::dolly:
-            return "dolly";
-        case Movement::turntable:
-            return "turntable";
-        case Movement::clip:
-            return "clip";
-    }
-    return "";
+    return enumName<Movement::clip>(movement, {"focus-pull", "dolly", "turntable", "clip"});
 }
 
 std::vector<MovementFrame> framesAlong(Movement movement, const World& world, const View& view, int frames, int clip) {

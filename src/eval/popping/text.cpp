@@ -7,8 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "eval/json_number.h"
 #include "eval/spread.h"
+#include "frame/report/json_values.h"
 
 namespace defocus::engine {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "eval/json_number.h"
+#include "frame/report/json_values.h"
 
 namespace defocus::engine {
 
@@ -76,7 +76,7 @@ std::string predictionJson(std::span<const PredictionRow> rows, const BenchSubje
                                     {"predicted", jsonNumber(row.predicted)},
                                     {"rendered", jsonNumber(row.rendered)},
                                     {"used", row.used}});
-    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return documentText(document);
 }
 
 }  // namespace defocus::engine

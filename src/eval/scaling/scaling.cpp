@@ -7,6 +7,7 @@
 #include <new>
 #include <ranges>
 
+#include "core/enum_name.h"
 #include "core/error.h"
 #include "eval/machine.h"
 #include "eval/scaling/worlds.h"
@@ -156,31 +157,11 @@ std::string measuredOrWhyNot(Subject& subject, const ScalingPoint& point, const 
 }  // namespace
 
 const char* scalingAxisName(ScalingAxis axis) {
-    switch (axis) {
-        case ScalingAxis::triangles:
-            return "triangles";
-        case ScalingAxis::instances:
-            return "instances";
-        case ScalingAxis::samples:
-            return "samples";
-        case ScalingAxis::pixels:
-            return "pixels";
-        case ScalingAxis::blur:
-            return "blur";
-    }
-    return "";
+    return enumName<ScalingAxis::blur>(axis, {"triangles", "instances", "samples", "pixels", "blur"});
 }
 
 const char* scalingPartName(ScalingPart part) {
-    switch (part) {
-        case ScalingPart::layers:
-            return "adding layers";
-        case ScalingPart::vertices:
-            return "vertex work";
-        case ScalingPart::fill:
-            return "fill";
-    }
-    return "";
+    return enumName<ScalingPart::fill>(part, {"adding layers", "vertex work", "fill"});
 }
 
 std::vector<ScalingPoint> scalingPoints(ScalingAxis axis, bool large) {

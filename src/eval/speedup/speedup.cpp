@@ -93,12 +93,6 @@ struct SpeedupSubject {
     std::vector<Difference> fromReference;  // errors relative to the reference, one per seed
 };
 
-// Returns whether the method draws levels of detail. Ray tracers trace the loaded meshes only. Post-process methods
-// start from a sharp image, in which no blur hides a coarse level.
-bool followsLevels(const Method& method) {
-    return method.needsGl && method.usesLensSamples;
-}
-
 // Returns the compared variants in the order of the rows. Variants whose levels depend on size alone or on blur alone
 // (LodCause) have no row of their own; they follow the variant whose row includes their results.
 std::deque<SpeedupSubject> subjectsOf(std::span<const SpeedupForm> forms, const std::vector<MethodUse>& methods) {
@@ -121,7 +115,7 @@ std::deque<SpeedupSubject> subjectsOf(std::span<const SpeedupForm> forms, const 
         for (std::size_t i = first; i < subjects.size(); ++i) subjects[i].fullDetail = &subjects[first];
     }
     for (const MethodUse& use : methods) {
-        add(forms.front(), use, followsLevels(*use.method) ? LodMode::fractional : LodMode::off, LodCause::blurAndSize);
+        add(forms.front(), use, use.method->drawsLevels() ? LodMode::fractional : LodMode::off, LodCause::blurAndSize);
         subjects.back().fullDetail = &subjects.front();
     }
     return subjects;

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "eval/json_number.h"
 #include "eval/seed_errors.h"
 #include "eval/spread.h"
 #include "frame/driver/reference_image.h"
+#include "frame/report/json_values.h"
 
 namespace defocus::engine {
 
@@ -140,7 +140,7 @@ std::string speedupJson(std::span<const SpeedupRow> rows, const BenchSubject& su
         "same full detail";
     document["rows"] = ordered_json::array();
     for (const SpeedupRow& row : rows) document["rows"].push_back(rowJson(row));
-    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return documentText(document);
 }
 
 }  // namespace defocus::engine

@@ -59,12 +59,37 @@ private:
     FrameRun run_;
 };
 
-class FrameDriver::Tiled : public Drawing {
+// Base of the ways that plan the complete frame themselves and draw parts of it.
+class FrameDriver::Planned : public Drawing {
+public:
+    [[nodiscard]] std::uint32_t sampleTotal() const override {
+        return static_cast<std::uint32_t>(plan_.samples.size());
+    }
+    [[nodiscard]] const FramePlan& plan() const override { return plan_; }
+    [[nodiscard]] RenderStats stats() const override { return renderer_.stats(); }
+    [[nodiscard]] double planMilliseconds() const override { return planMilliseconds_; }
+    [[nodiscard]] Image image() override { return renderer_.image(); }
+
+protected:
+    // `automatic`: quality of an automatic number of samples; nullopt: the number in the order's settings.
+    Planned(const World& world, Renderer& renderer, const FrameOrder& order, std::optional<Quality> automatic = {})
+        : renderer_(renderer) {
+        const Clock::time_point begin = Clock::now();
+        plan_ = planOfTiles(world, order.view, order.settings, automatic);
+        planMilliseconds_ = millisecondsSince(begin);
+    }
+
+    Renderer& renderer_;
+    FramePlan plan_;
+
+private:
+    double planMilliseconds_ = 0;
+};
+
+class FrameDriver::Tiled : public Planned {
 public:
     Tiled(const World& world, Renderer& renderer, FrameOrder order, const std::vector<Band>& bands)
-        : begin_(Clock::now()),
-          plan_(planOfTiles(world, order.view, order.settings, order.stop.automatic)),
-          planMilliseconds_(millisecondsSince(begin_)),
+        : Planned(world, renderer, order, order.stop.automatic),
           takeRows_(std::move(order.takeRows)),
           bands_(bands),
           walk_(renderer, plan_, bands_, [this](const Tile& tile, Image&& pixels) { take(tile, std::move(pixels)); }) {
@@ -78,17 +103,12 @@ public:
     [[nodiscard]] std::uint32_t samples() const override {
         return static_cast<std::uint32_t>(sampleTotal() * share() + 1e-6);
     }
-    [[nodiscard]] std::uint32_t sampleTotal() const override {
-        return static_cast<std::uint32_t>(plan_.samples.size());
-    }
     [[nodiscard]] double share() const override { return rows_ > 0 ? walk_.rowsDone() / rows_ : 1; }
-    [[nodiscard]] const FramePlan& plan() const override { return plan_; }
     [[nodiscard]] RenderStats stats() const override {
         RenderStats stats = walk_.stats();
         stats.samples = sampleTotal();  // a finished tile has all samples of the frame
         return stats;
     }
-    [[nodiscard]] double planMilliseconds() const override { return planMilliseconds_; }
     [[nodiscard]] Image image() override { return kept_; }
     [[nodiscard]] int tiles() const override { return walk_.tiles(); }
 
@@ -109,9 +129,6 @@ private:
         ++band_;
     }
 
-    std::chrono::steady_clock::time_point begin_;
-    FramePlan plan_;
-    double planMilliseconds_;
     RowSink takeRows_;
     std::vector<Band> bands_;
     std::size_t band_ = 0;  // index in bands_ of the band that is being drawn
@@ -121,13 +138,9 @@ private:
     TileWalk walk_;
 };
 
-class FrameDriver::Summed : public Drawing {
+class FrameDriver::Summed : public Planned {
 public:
-    Summed(const World& world, Renderer& renderer, const FrameOrder& order)
-        : begin_(Clock::now()),
-          renderer_(renderer),
-          plan_(planFrame(world, order.view, order.settings)),
-          planMilliseconds_(millisecondsSince(begin_)) {
+    Summed(const World& world, Renderer& renderer, const FrameOrder& order) : Planned(world, renderer, order) {
         part_.frameSamples = static_cast<std::uint32_t>(plan_.samples.size());
         part_.range = {std::min(order.samples->first, part_.frameSamples),
                        std::min(order.samples->end, part_.frameSamples)};
@@ -156,30 +169,18 @@ public:
     [[nodiscard]] std::uint32_t samples() const override { return count() == 0 ? 0 : renderer_.samples(); }
     [[nodiscard]] std::uint32_t sampleTotal() const override { return count(); }
     [[nodiscard]] double share() const override { return count() == 0 ? 1 : Drawing::share(); }
-    [[nodiscard]] const FramePlan& plan() const override { return plan_; }
-    [[nodiscard]] RenderStats stats() const override { return renderer_.stats(); }
-    [[nodiscard]] double planMilliseconds() const override { return planMilliseconds_; }
-    [[nodiscard]] Image image() override { return renderer_.image(); }
     [[nodiscard]] std::optional<FramePart> sums() override { return std::move(part_); }
 
 private:
     [[nodiscard]] std::uint32_t count() const { return part_.range.end - part_.range.first; }
 
-    std::chrono::steady_clock::time_point begin_;
-    Renderer& renderer_;
-    FramePlan plan_;
-    double planMilliseconds_;
     FramePart part_;
 };
 
-class FrameDriver::Separate : public Drawing {
+class FrameDriver::Separate : public Planned {
 public:
     Separate(const World& world, Renderer& renderer, const FrameOrder& order)
-        : begin_(Clock::now()),
-          renderer_(renderer),
-          take_(order.takeSample),
-          plan_(planFrame(world, order.view, order.settings)),
-          planMilliseconds_(millisecondsSince(begin_)) {
+        : Planned(world, renderer, order), take_(order.takeSample) {
         renderer_.start(samplesOf(plan_, 0, 1));
     }
 
@@ -194,20 +195,9 @@ public:
         return ++samples_ < sampleTotal();
     }
     [[nodiscard]] std::uint32_t samples() const override { return samples_; }
-    [[nodiscard]] std::uint32_t sampleTotal() const override {
-        return static_cast<std::uint32_t>(plan_.samples.size());
-    }
-    [[nodiscard]] const FramePlan& plan() const override { return plan_; }
-    [[nodiscard]] RenderStats stats() const override { return renderer_.stats(); }
-    [[nodiscard]] double planMilliseconds() const override { return planMilliseconds_; }
-    [[nodiscard]] Image image() override { return renderer_.image(); }
 
 private:
-    std::chrono::steady_clock::time_point begin_;
-    Renderer& renderer_;
     SampleSink take_;
-    FramePlan plan_;
-    double planMilliseconds_;
     std::uint32_t samples_ = 0;
 };
 
@@ -299,7 +289,7 @@ void FrameDriver::fit(const FrameOrder& order) {
     renderer_->setWave(
         {.samples = limits.memory ? waveWithin(needs) : 0, .perWave = shortWave(order), .threads = threads});
     if (!limits.memory) return;
-    needs.keptBytes = std::uint64_t(needs.width) * std::uint64_t(needs.height) * options_.keptPixelBytes;
+    needs.keptBytes = pixelCount(needs.width, needs.height) * options_.keptPixelBytes;
     crowded_ = !fitsInOnePiece(needs);
 }
 
@@ -308,8 +298,7 @@ void FrameDriver::fitTiles(const FrameOrder& order, const FramePlan& plan, const
     bands_.emplace();
     if (rows.empty()) return;
     TilingNeeds needs = measuredNeeds(*world_, plan, options_.limits, *renderer_, limit_);
-    if (!order.takeRows)
-        needs.keptBytes = std::uint64_t(needs.width) * std::uint64_t(needs.height) * options_.keptPixelBytes;
+    if (!order.takeRows) needs.keptBytes = pixelCount(needs.width, needs.height) * options_.keptPixelBytes;
     const std::uint32_t threads = threadsWithin(needs, wantedThreads(options_.limits, *options_.method.method));
     reserveThreads(needs, threads);
     for (const RowRange& range : rows) {

@@ -98,6 +98,7 @@ public:
 private:
     class Drawing;
     class Whole;
+    class Planned;
     class Tiled;
     class Summed;
     class Separate;

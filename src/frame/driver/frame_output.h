@@ -22,7 +22,7 @@ namespace defocus::engine {
 struct FrameFiles {
     std::vector<std::filesystem::path> outputs;  // at least one file; a part of a frame is written to the first
     std::optional<SampleRange> samples;          // write only partial sums over these samples, for the command `merge`
-    std::optional<TileShare> share;              // write only this part of the rows, for the command `merge`
+    std::optional<Share> share;                  // write only this part of the rows, for the command `merge`
     bool resume = false;                         // keep rows that an interrupted run with the same settings finished
     std::string untiledReason;                   // reason why tiles are forbidden; empty: tiles are allowed
     bool keepPartial = false;                    // true: partialImage() returns the image of the samples so far

@@ -106,10 +106,7 @@ SceneInfo Scene::info() const {
     info.clips = namesOf(scene.clips);
     info.variants = scene.variants;
     for (const engine::Mesh& mesh : scene.meshes) info.triangles += mesh.triangleCount();
-    for (const engine::Ignored& entry : scene.ignored)
-        info.ignored.push_back(entry.count > 1
-                                   ? fmt::format("{} × {}: {}", engine::grouped(entry.count), entry.what, entry.reason)
-                                   : fmt::format("{}: {}", entry.what, entry.reason));
+    info.ignored = engine::ignoredLines(scene);
     return info;
 }
 

@@ -36,14 +36,13 @@ std::string hexadecimal(std::uint64_t hash) {
 }
 
 double numberIn(const Metadata& metadata, const char* name) {
-    const auto found = metadata.find(name);
-    const double* number = found == metadata.end() ? nullptr : std::get_if<double>(&found->second);
+    const double* number = attributeOf<double>(metadata, name);
     return number == nullptr ? 0 : *number;
 }
 
 bool holds(const Metadata& metadata, const char* name, const std::string& text) {
-    const auto found = metadata.find(name);
-    return found != metadata.end() && found->second == MetadataValue(text);
+    const std::string* found = attributeOf<std::string>(metadata, name);
+    return found != nullptr && *found == text;
 }
 
 // Returns the image stored at `path`; nullopt if the file is missing, damaged or has a hash other than `hash`.

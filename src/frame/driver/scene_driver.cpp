@@ -296,11 +296,10 @@ Metadata SceneDriver::metadata() {
 
 void SceneDriver::write(const std::filesystem::path& path, const ImageView& image) {
     const WriteOptions options = writeOptions();
-    const std::optional<LayerImages> layers = holdsLayers(path) ? layerImages() : std::nullopt;
+    const std::optional<LayerImages> layers = isExr(path) ? layerImages() : std::nullopt;
     writePicture(path, image, layers ? &*layers : nullptr, *frame_.scene, frame_.world.pose, request_.exrNames,
                  metadata(), options);
-    const std::string ending = path.extension().string();
-    if (ending != ".exr" && ending != ".EXR") clipped_ = clippingWarnings(image, options);
+    if (!isExr(path)) clipped_ = clippingWarnings(image, options);
 }
 
 }  // namespace defocus::engine

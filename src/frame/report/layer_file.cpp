@@ -72,15 +72,10 @@ std::vector<NamedChannels> layerChannels(const ImageView& picture, const LayerIm
     return channels;
 }
 
-bool holdsLayers(const std::filesystem::path& path) {
-    const std::string extension = path.extension().string();
-    return extension == ".exr" || extension == ".EXR";
-}
-
 void writePicture(const std::filesystem::path& path, const ImageView& picture, const LayerImages* layers,
                   const Scene& scene, const Pose& pose, ExrNames names, Metadata metadata,
                   const WriteOptions& options) {
-    if (layers == nullptr || !holdsLayers(path)) return writeImage(path, picture, metadata, options);
+    if (layers == nullptr || !isExr(path)) return writeImage(path, picture, metadata, options);
     const std::vector<NamedChannels> channels = layerChannels(picture, *layers, scene, pose, names, metadata);
     writeChannels(path, channels, metadata);
 }

@@ -17,10 +17,7 @@ namespace defocus::engine {
 std::vector<NamedChannels> layerChannels(const ImageView& picture, const LayerImages& layers, const Scene& scene,
                                          const Pose& pose, ExrNames names, Metadata& metadata);
 
-// Returns whether files with the extension of `path` can hold layers.
-bool holdsLayers(const std::filesystem::path& path);
-
-// Writes an image as writeImage does, with its layers if holdsLayers(path) is true and `layers` isn't null.
+// Writes an image as writeImage does, with its layers if the path is that of an EXR file and `layers` isn't null.
 void writePicture(const std::filesystem::path& path, const ImageView& picture, const LayerImages* layers,
                   const Scene& scene, const Pose& pose, ExrNames names, Metadata metadata, const WriteOptions& options);
 

@@ -5,10 +5,12 @@
 #include <glm/geometric.hpp>
 
 #include "core/error.h"
+#include "frame/report/json_values.h"
 #include "lens/lens_fields.h"
 #include "lod/pyramid/level_selection.h"
 #include "plan/lens_cells/automatic_cells.h"
 #include "plan/lens_cells/lens_cells.h"
+#include "plan/plan_text.h"
 
 namespace defocus {
 
@@ -79,10 +81,6 @@ LensSettings completeLens(const engine::Lens& lens) {
     return settings;
 }
 
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json();
-}
-
 Json jsonOf(const PlannedObject& object) {
     Json draws = Json::array();
     for (const PlannedDraw& draw : object.draws)
@@ -91,13 +89,13 @@ Json jsonOf(const PlannedObject& object) {
                          {"firstSample", draw.firstSample},
                          {"sampleCount", draw.sampleCount}});
     Json json = {{"name", object.name},
-                 {"depth", {number(object.nearestDepth), number(object.farthestDepth)}},
+                 {"depth", {engine::jsonNumber(object.nearestDepth), engine::jsonNumber(object.farthestDepth)}},
                  {"coc",
-                  {{"nearest", number(object.nearestCoc)},
-                   {"farthest", number(object.farthestCoc)},
-                   {"smallest", number(object.smallestCoc)},
-                   {"largest", number(object.largestCoc)}}},
-                 {"projectedEdge", number(object.projectedEdge)},
+                  {{"nearest", engine::jsonNumber(object.nearestCoc)},
+                   {"farthest", engine::jsonNumber(object.farthestCoc)},
+                   {"smallest", engine::jsonNumber(object.smallestCoc)},
+                   {"largest", engine::jsonNumber(object.largestCoc)}}},
+                 {"projectedEdge", engine::jsonNumber(object.projectedEdge)},
                  {"lambda", object.lambda},
                  {"pixelRate", object.pixelRate},
                  {"blended", object.blended},
@@ -109,7 +107,7 @@ Json jsonOf(const PlannedObject& object) {
 }
 
 Json lensNumber(const Plan& plan, const LensField& field) {
-    if (std::holds_alternative<std::monostate>(field.given)) return number(plan.focusDistance);
+    if (std::holds_alternative<std::monostate>(field.given)) return engine::jsonNumber(plan.focusDistance);
     const std::optional<double> value = engine::givenLensValue(plan.lens, field);
     return value ? Json(*value) : Json();
 }
@@ -162,10 +160,8 @@ Plan engine::reportedPlan(const FramePlan& plan) {
     reported.sequence = plan.settings.sequence;
     reported.seed = plan.settings.seed;
     reported.cocTolerance = plan.settings.cocTolerance;
-    for (const ObjectPlan& object : objects)
-        reported.moments = std::max<std::uint64_t>(reported.moments, object.motion.size());
-    reported.movingObjects = static_cast<std::uint64_t>(
-        std::ranges::count_if(objects, [](const ObjectPlan& object) { return !object.motion.empty(); }));
+    reported.moments = engine::momentCount(plan);
+    reported.movingObjects = engine::movingCount(plan);
     reported.lod = plan.settings.lod;
     reported.lodMetric = plan.settings.metric;
     reported.lodCoc = plan.settings.lodCoc;
@@ -206,10 +202,6 @@ Json engine::jsonOf(const defocus::Pyramid& pyramid) {
                                   {"meanEdge", level.meanEdge},
                                   {"error", level.error}});
     return json;
-}
-
-std::string engine::documentText(const Json& json) {
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string_view engine::endReason(PyramidEnd end) {

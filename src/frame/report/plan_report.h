@@ -17,9 +17,6 @@ defocus::Pyramid reportedPyramid(const Pyramid& pyramid, const std::string& name
 
 nlohmann::ordered_json jsonOf(const defocus::Pyramid& pyramid);
 
-// Returns the JSON as UTF-8 text that ends with a line break. Invalid UTF-8 in strings becomes U+FFFD.
-std::string documentText(const nlohmann::ordered_json& json);
-
 // Returns, as text for users, why a pyramid has no coarser level.
 std::string_view endReason(PyramidEnd end);
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <string_view>
 
+#include "frame/program_facts.h"
 #include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 
@@ -92,17 +92,6 @@ Request requestOf(const RenderCommandText& text) {
 }
 
 }  // namespace
-
-std::string shellWord(const std::string& word) {
-    const auto plain = [](char letter) {
-        return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
-               std::string_view("_-./,:=+@%").find(letter) != std::string_view::npos;
-    };
-    if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
-    std::string quoted = "'";
-    for (const char letter : word) quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-    return quoted + "'";
-}
 
 std::string captureCommand(const std::filesystem::path& shot, const Request& options) {
     std::string command = "defocus capture " + pathWord(shot.string());

@@ -23,7 +23,4 @@ std::string renderCommand(const RenderCommandText& text);
 // Returns the `defocus capture` command for a recorded shot, with the options that shot files don't store.
 std::string captureCommand(const std::filesystem::path& shot, const Request& options);
 
-// Quotes a word for the shell. Returns the word unchanged if it needs no quotes, else in single quotes.
-std::string shellWord(const std::string& word);
-
 }  // namespace defocus::engine

@@ -17,6 +17,7 @@
 #include "core/parse.h"
 #include "core/source_date.h"
 #include "frame/program_facts.h"
+#include "frame/report/json_values.h"
 #include "frame/settings/settings.h"
 #include "frame/setup/moment.h"
 #include "lens/lens_fields.h"
@@ -198,7 +199,7 @@ std::string statsJson(const RenderReport& report) {
     }
     for (const PassTime& pass : stats.passes) json["passMilliseconds"][pass.name] = pass.milliseconds;
     for (const MethodFigure& figure : stats.figures) json["methodFigures"][figure.name] = figure.value;
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return documentText(json);
 }
 
 std::string errorText(const RenderStats& stats) {

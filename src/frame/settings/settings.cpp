@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/enum_name.h"
 #include "core/error.h"
 #include "core/suggestion.h"
 
@@ -89,23 +90,8 @@ std::string snakeCase(std::string_view name) {
 }
 
 std::string groupTitle(SettingGroup group) {
-    switch (group) {
-        case SettingGroup::scene:
-            return "Scene";
-        case SettingGroup::camera:
-            return "Camera";
-        case SettingGroup::lens:
-            return "Lens";
-        case SettingGroup::samples:
-            return "Samples and level of detail";
-        case SettingGroup::method:
-            return "Method";
-        case SettingGroup::display:
-            return "Output";
-        case SettingGroup::developer:
-            return "Developer options";
-    }
-    return "";
+    return enumName<SettingGroup::developer>(
+        group, {"Scene", "Camera", "Lens", "Samples and level of detail", "Method", "Output", "Developer options"});
 }
 
 }  // namespace defocus::engine

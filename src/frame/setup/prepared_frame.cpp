@@ -336,6 +336,14 @@ std::vector<std::string> damageWarnings(const Scene& scene) {
     return lines;
 }
 
+std::vector<std::string> ignoredLines(const Scene& scene) {
+    std::vector<std::string> lines;
+    for (const Ignored& entry : scene.ignored)
+        lines.push_back(entry.count > 1 ? fmt::format("{} × {}: {}", grouped(entry.count), entry.what, entry.reason)
+                                        : fmt::format("{}: {}", entry.what, entry.reason));
+    return lines;
+}
+
 // Limits of the scene's size that keep squared lengths within the range of 32-bit floats.
 constexpr double largestScene = 1e15;    // m
 constexpr double smallestScene = 1e-15;  // m

@@ -94,6 +94,9 @@ PreparedFrame prepareFrame(const Request& request, const Progress& progress = {}
 // parts that are not listed.
 std::vector<std::string> damageWarnings(const Scene& scene);
 
+// Returns one line per entry of Scene::ignored, such as "3 × points: not supported".
+std::vector<std::string> ignoredLines(const Scene& scene);
+
 // Returns all warnings about a prepared frame: damage in its file, a guessed unit, a scene too large or too small,
 // invalid lens values in the camera's extras, a focus that no real lens can have, too many lights, and pyramids that
 // couldn't be stored.

@@ -44,8 +44,7 @@ std::uint64_t maxLayers(const Scene& scene, const FramePlan& plan, const Rendere
     const std::uint32_t asked = limit.samples > 0 ? limit.samples : options.wave;
     if (asked > 0) return asked;
     const LayerWindow window = layerWindow(plan);
-    const std::uint64_t pixels =
-        std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} * static_cast<std::uint32_t>(window.layerHeight);
+    const std::uint64_t pixels = pixelCount(window.layerWidth, window.layerHeight);
     const std::uint64_t layerBytes =
         pixels * layerPixelBytes(format) * (plan.usesTransmission ? 2 : 1) +  // transmission needs a copy of all layers
         shadowMapBytes(scene, plan) + pixels * LensLayers::layerBytes(plan.settings.layers);
@@ -129,7 +128,7 @@ public:
         const DrawnWave wave = waves_.next();
         latest_ = wave.layers;
         clock_.beginWave();
-        timed(sumTimer_, [&] { sum_->add(wave.layers->picture, frame_, wave.first, wave.count); });
+        sumTimer_.measure([&] { sum_->add(wave.layers->picture, frame_, wave.first, wave.count); });
         if (layers_) layers_->add(*wave.layers->data, frame_, wave.first, wave.count);
         clock_.endWave();
         stats_.trianglesDrawn += trianglesDrawn(plan_, wave.first, wave.count);
@@ -242,12 +241,6 @@ private:
         const EnvironmentType type = scene_.world().environment.type;
         return !plan_.needsAlpha &&
                (type == EnvironmentType::map || plan_.usesTransmission || (blursCells() && plan_.sortsBlending));
-    }
-
-    static void timed(GpuTimer& timer, const auto& pass) {
-        timer.begin();
-        pass();
-        timer.end();
     }
 
     // Returns whether to cull hidden triangles. On a GPU, drawing them is faster than reading back the depths for the

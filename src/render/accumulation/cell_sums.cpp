@@ -30,12 +30,11 @@ glm::ivec2 squaresOf(const TextureInfo& image) {
 // Allocates a texture for means over squares of pixels, for all blur classes; meansOrigin() returns the position of
 // each class in the texture.
 GlTexture meanImages(TextureFormat format, const glm::ivec2& squares, int classes) {
-    GlTexture texture({.format = format,
-                       .width = classes > 1 ? squares.x + squares.x / 2 : squares.x,
-                       .height = squares.y,
-                       .layers = 2});
-    texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
-    return texture;
+    return GlTexture({.format = format,
+                      .width = classes > 1 ? squares.x + squares.x / 2 : squares.x,
+                      .height = squares.y,
+                      .layers = 2,
+                      .linear = true});
 }
 
 glm::ivec2 meansOrigin(const glm::ivec2& squares, int k) {
@@ -69,7 +68,8 @@ CellSums::CellSums(const LensCells& cells, const GlTexture (&blockSums)[2], cons
       sums_({.format = TextureFormat::rgba32f,
              .width = blockSums[0].info().width,
              .height = blockSums[0].info().height,
-             .layers = cells.classes()}),
+             .layers = cells.classes(),
+             .linear = true}),
       held_({.format = TextureFormat::r32ui, .width = tiles(sums_.info().width), .height = tiles(sums_.info().height)}),
       spread_(held_.info()),
       spreadTarget_({&spread_}),
@@ -77,7 +77,6 @@ CellSums::CellSums(const LensCells& cells, const GlTexture (&blockSums)[2], cons
       shownMeans_(meanImages(TextureFormat::rgba32f, squares_, std::max(inFront_, behind_))),
       openMeans_(meanImages(TextureFormat::r32f, squares_, std::max(inFront_, behind_))),
       meanTargets_{Target::ofLayer({&shownMeans_, &openMeans_}, 0), Target::ofLayer({&shownMeans_, &openMeans_}, 1)} {
-    sums_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
     for (int i = 0; i < 2; ++i)
         addingTargets_[i] = Target::ofImageAndLayers(blockSums[i], sums_, std::min(cells.classes(), maxDrawn));
 }

@@ -11,8 +11,7 @@ namespace defocus::engine {
 
 LayerSum::Sum::Sum(int width, int height) {
     for (int i = 0; i < 2; ++i) {
-        sum[i] = GlTexture({.format = TextureFormat::rgba32f, .width = width, .height = height});
-        sum[i].sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+        sum[i] = GlTexture({.format = TextureFormat::rgba32f, .width = width, .height = height, .linear = true});
         compensation[i] = GlTexture({.format = TextureFormat::rgba32f, .width = width, .height = height});
         target[i] = Target({&sum[i], &compensation[i]});
     }
@@ -123,8 +122,8 @@ void LayerSum::makeMean() {
     if (samples_ == 0) fail("no samples have been accumulated yet");
     if (meanIsCurrent_) return;
     if (!mean_) {
-        mean_ = GlTexture({.format = TextureFormat::rgba32f, .width = info_.width, .height = info_.height});
-        mean_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+        mean_ =
+            GlTexture({.format = TextureFormat::rgba32f, .width = info_.width, .height = info_.height, .linear = true});
         meanTarget_ = Target({&mean_});
     }
     const float divisor = countsInAlpha_ ? 0.0f : static_cast<float>(samples_);

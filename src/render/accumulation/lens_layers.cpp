@@ -68,11 +68,9 @@ std::vector<Layer> numberLayers(const std::vector<Layer>& layers) {
 }
 
 // Returns the RGBA texture `sum` plus the texture `compensation`.
-Image total(const GlTexture& sum, const GlTexture& compensation) {
-    Image image = readBack(sum, 4);
-    const Image lost = readBack(compensation, 4);
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] += lost.pixels[i];
-    return image;
+Image total(Image sum, const Image& compensation) {
+    for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += compensation.pixels[i];
+    return sum;
 }
 
 Image channelOf(const Image& image, int channel) {
@@ -255,12 +253,11 @@ LayerImages LensLayers::images(const glm::dvec3& camera) const {
     result.samples = Image(size_.x, size_.y, 1);
     std::ranges::fill(result.samples.pixels, static_cast<float>(samples_));
     for (const auto& [slot, sum] : slots_)
-        if (slot != depthSlot) sums[slot] = total(sum.sum, sum.compensation);
+        if (slot != depthSlot) sums[slot] = total(readBack(sum.sum, 4), readBack(sum.compensation, 4));
     if (const auto depth = slots_.find(depthSlot); depth != slots_.end()) {
         const Image sum = readBack(depth->second.sum, 4);
         const Image lost = readBack(depth->second.compensation, 4);
-        Image& whole = sums[depthSlot] = sum;
-        for (std::size_t i = 0; i < whole.pixels.size(); ++i) whole.pixels[i] += lost.pixels[i];
+        sums[depthSlot] = total(sum, lost);
         result.samples = channelOf(lost, 3);
         if (has(layers_, Layer::depth)) result.nearestDepth = channelOf(sum, 3);
     }

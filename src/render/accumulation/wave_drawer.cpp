@@ -5,16 +5,6 @@
 
 namespace defocus::engine {
 
-namespace {
-
-void timed(GpuTimer& timer, const auto& pass) {
-    timer.begin();
-    pass();
-    timer.end();
-}
-
-}  // namespace
-
 WaveTargets::WaveTargets(const WaveFrame& frame) : picture(frame.layers) {
     const std::vector<Layer>& layers = frame.plan->settings.layers;
     if (!layers.empty()) data.emplace(layers, frame.countsSamples, picture);
@@ -73,11 +63,11 @@ std::uint64_t WaveDrawer::draw(std::uint32_t first, std::uint32_t count, std::si
                                WaveVisibility visibility) {
     const WaveTargets& to = targets_[target];
     std::uint64_t hidden = 0;
-    if (!shadows_->defines().empty()) timed(shadowTimer_, [&] { shadows_->draw(first, count); });
-    timed(opaqueTimer_, [&] { hidden = drawOpaque(first, count, to, visibility); });
-    if (frame_.drawsSky) timed(skyTimer_, [&] { drawSky(first, count, to); });
+    if (!shadows_->defines().empty()) shadowTimer_.measure([&] { shadows_->draw(first, count); });
+    opaqueTimer_.measure([&] { hidden = drawOpaque(first, count, to, visibility); });
+    if (frame_.drawsSky) skyTimer_.measure([&] { drawSky(first, count, to); });
     if (surfaces_->hasTranslucent())
-        timed(translucentTimer_, [&] { surfaces_->drawTranslucent(first, count, to.picture.colors()); });
+        translucentTimer_.measure([&] { surfaces_->drawTranslucent(first, count, to.picture.colors()); });
     WaveLayers::end();
     return hidden;
 }

@@ -67,9 +67,9 @@ void AovPass::draw(const FramePlan& plan) {
 
 void AovPass::drawWireframe() {
     if (!wireframe_) {
+        const TextureInfo& info = depth_.info();
         wireframe_ =
-            GlTexture({.format = TextureFormat::rgba8, .width = depth_.info().width, .height = depth_.info().height});
-        wireframe_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+            GlTexture({.format = TextureFormat::rgba8, .width = info.width, .height = info.height, .linear = true});
         wireTarget_ = Target({&wireframe_}, &depthBuffer_);
     }
     if (!levelColours_) levelColours_ = colourMapTexture(viridis);

@@ -163,9 +163,7 @@ private:
         const int fieldWidth = (width + options_.reduction - 1) / options_.reduction;
         const int fieldHeight = (height + options_.reduction - 1) / options_.reduction;
         const auto texture = [](TextureFormat format, int w, int h) {
-            GlTexture made({.format = format, .width = w, .height = h});
-            made.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
-            return made;
+            return GlTexture({.format = format, .width = w, .height = h, .linear = true});
         };
         const TextureFormat colors =
             options_.storage == ComplexStorage::half ? TextureFormat::rgba16f : TextureFormat::rgba32f;
@@ -311,19 +309,16 @@ std::vector<MethodSetting> circularSettings() {
 }  // namespace
 
 Method circularMethod() {
-    const std::vector<MethodSetting> settings = circularSettings();
     return {.name = "circular",
             .description = "post-process: circular separable convolution of one pinhole image (Garcia 2018)",
             .usesLensSamples = false,
             .drawsMotion = false,
             .aperture = ApertureShown::oval,
-            .settings = settings,
+            .settings = circularSettings(),
             .best = {{"transparency-buckets", "8"}, {"pinholes", "16"}},
-            .make = [settings](const World& world, const RendererOptions& options) {
-                RendererOptions complete = options;
-                complete.settings = completeSettings("circular", settings, options.settings);
-                return makePostProcessRenderer(world, complete,
-                                               std::make_unique<Circular>(complete, parsed(complete.settings)));
+            .make = [](const World& world, const RendererOptions& options) {
+                return makePostProcessRenderer(world, options,
+                                               std::make_unique<Circular>(options, parsed(options.settings)));
             }};
 }
 

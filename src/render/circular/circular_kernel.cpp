@@ -113,25 +113,16 @@ std::array<CircularComponent, 15> rescaledToRadius1() {
 
 }  // namespace
 
-std::span<const CircularComponent> circularKernel(int count) {
-    if (count < 1 || count > circularKernelLimit) {
-        fail("circular kernel of {} components: choose 1 to {}", count, circularKernelLimit);
-    }
+std::span<const CircularComponent> circularKernel(int count, KernelConstants constants) {
+    static const std::array<CircularComponent, 15> rescaled = rescaledToRadius1();
+    const bool fitted = constants == KernelConstants::fitted;
+    const int limit = fitted ? circularKernelLimit : publishedKernelLimit;
+    if (count < 1 || count > limit)
+        fail("{}circular kernel of {} components: choose 1 to {}", fitted ? "" : "published ", count, limit);
+    std::span<const CircularComponent> kernels = components;
+    if (!fitted) kernels = constants == KernelConstants::rescaled ? rescaled : published;
     const auto n = static_cast<std::size_t>(count);
-    return std::span(components).subspan(n * (n - 1) / 2, n);
-}
-
-std::span<const CircularComponent> publishedCircularKernel(int count) {
-    if (count < 1 || count > publishedKernelLimit)
-        fail("published circular kernel of {} components: choose 1 to {}", count, publishedKernelLimit);
-    const auto n = static_cast<std::size_t>(count);
-    return std::span(published).subspan(n * (n - 1) / 2, n);
-}
-
-std::span<const CircularComponent> rescaledCircularKernel(int count) {
-    static const std::array<CircularComponent, 15> kernels = rescaledToRadius1();
-    const std::size_t n = publishedCircularKernel(count).size();
-    return std::span(kernels).subspan(n * (n - 1) / 2, n);
+    return kernels.subspan(n * (n - 1) / 2, n);
 }
 
 std::complex<double> circularFactor(const CircularComponent& component, double offset) {

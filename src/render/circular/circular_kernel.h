@@ -21,28 +21,28 @@ struct CircularComponent {
     double sine;       // weight B of the imaginary part of F(x)
 };
 
-inline constexpr int circularKernelLimit = 9;  // max components of circularKernel()
+inline constexpr int circularKernelLimit = 9;   // max components of the fitted kernels
+inline constexpr int publishedKernelLimit = 5;  // max components of the other kernels
 
-// Returns the kernel K of `count` components, 1 to circularKernelLimit, that best fits the disk D of radius 1 with ∫K =
-// ∫D. The fit minimizes ∫(K − D)² dA over the square, plus 0.2·π·∫K² du over 1 < u < 2, where u = r². The second term
-// penalizes the square's corners (u → 2), whose small area hardly matters in the first term. Without the second term, K
-// falls to −0.4 … −0.7 in the corners, and each highlight has four dark dots around it. Throws Error for another
+enum class KernelConstants {
+    // The kernel K that best fits the disk D of radius 1 with ∫K = ∫D. The fit minimizes ∫(K − D)² dA over the square,
+    // plus 0.2·π·∫K² du over 1 < u < 2, where u = r². The second term penalizes the square's corners (u → 2), whose
+    // small area hardly matters in the first term. Without the second term, K falls to −0.4 … −0.7 in the corners, and
+    // each highlight has four dark dots around it.
+    fitted,
+    // The published kernel, rescaled to the disk of radius 1 (`scripts/figures circular-fit` prints the original
+    // radii). The kernel's integral equals the disk's area after the passes divide by the sum of their taps.
+    rescaled,
+    // Niemitalo's constants (2010) as they are printed, for offsets x = tap/8. Garcia's slides print the table of two
+    // components; the other kernels come from Garcia's public filter generator. The slides also print e^(−a·x²) with
+    // negative a, which grows with x; here a is positive. The kernels approximate disks of radii 1.07 to 1.10, so the
+    // square cuts these disks off.
+    published,
+};
+
+// Returns the kernel of `count` components, 1 to circularKernelLimit or publishedKernelLimit. Throws Error for another
 // `count`. The data have static lifetime.
-std::span<const CircularComponent> circularKernel(int count);
-
-inline constexpr int publishedKernelLimit = 5;  // max components of the kernels of Niemitalo 2010
-
-// Returns the kernel of `count` components, 1 to publishedKernelLimit, with Niemitalo's constants (2010) as they are
-// printed, for offsets x = tap/8. Garcia's slides print the table of two components; the other kernels come from
-// Garcia's public filter generator. The slides also print e^(−a·x²) with negative a, which grows with x; here a is
-// positive. The kernels approximate disks of radii 1.07 to 1.10, so the square cuts these disks off. Throws Error for
-// another `count`. The data have static lifetime.
-std::span<const CircularComponent> publishedCircularKernel(int count);
-
-// Returns the published kernel of `count` components, rescaled to the disk of radius 1 (`scripts/figures circular-fit`
-// prints the original radii). The kernel's integral equals the disk's area after the passes divide by the sum of their
-// taps. Throws Error for another `count`. The data have static lifetime.
-std::span<const CircularComponent> rescaledCircularKernel(int count);
+std::span<const CircularComponent> circularKernel(int count, KernelConstants constants = KernelConstants::fitted);
 
 // Returns F(offset): the complex weight of the tap at `offset`, in disk radii.
 std::complex<double> circularFactor(const CircularComponent& component, double offset);

@@ -40,12 +40,6 @@ TextureFormat textureFormat(ComplexStorage storage) {
     return TextureFormat::rgba16f;
 }
 
-GlTexture linearTexture(TextureFormat format, int width, int height) {
-    GlTexture texture({.format = format, .width = width, .height = height});
-    texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
-    return texture;
-}
-
 int targetsFor(int components, ComplexStorage storage) {
     return storage == ComplexStorage::rgb10A2 ? 3 * components + 1 : 2 * components;
 }
@@ -61,18 +55,6 @@ ShaderDefines definesOf(const ComplexBlurInfo& info, int components) {
             {"bracketed", info.storage == ComplexStorage::rgb10A2 ? "true" : "false"},
             {"largestSum", info.storage == ComplexStorage::half ? "65504.0" : "3.0e38"},
             {"exactTaps", info.taps == ComplexTaps::exact ? "true" : "false"}};
-}
-
-std::span<const CircularComponent> kernelOf(const ComplexBlurInfo& info) {
-    switch (info.constants) {
-        case KernelConstants::fitted:
-            return circularKernel(info.components);
-        case KernelConstants::rescaled:
-            return rescaledCircularKernel(info.components);
-        case KernelConstants::published:
-            return publishedCircularKernel(info.components);
-    }
-    return {};
 }
 
 std::vector<double> realParts(const std::vector<std::complex<double>>& values) {
@@ -122,7 +104,9 @@ ComplexBracket bracketOf(const CircularComponent& component, ComplexTaps taps) {
 }
 
 ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
-    : info_(info), result_(linearTexture(TextureFormat::rgba32f, info.width, info.height)), resultTarget_({&result_}) {
+    : info_(info),
+      result_({.format = TextureFormat::rgba32f, .width = info.width, .height = info.height, .linear = true}),
+      resultTarget_({&result_}) {
     constexpr float black[4] = {};
     glClearNamedFramebufferfv(resultTarget_.name(), GL_COLOR, 0, black);
     const int maxInHalf = info_.constants == KernelConstants::fitted ? maxFittedInHalf : maxPublishedInHalf;
@@ -130,14 +114,15 @@ ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
     if (info_.direct) {
         direct_ = Program(
             {{fullscreenShader, "circular/direct.frag"}, definesOf(info_, info_.components), info_.shaderFolder});
-        setKernel(direct_, kernelOf(info_));
+        setKernel(direct_, circularKernel(info_.components, info_.constants));
         return;
     }
     makeGroups();
     const int largestGroup = groups_.front().count;
     std::vector<const GlTexture*> targets;
     for (int i = 0; i < targetsFor(largestGroup, info_.storage); ++i)
-        sums_.push_back(linearTexture(textureFormat(info_.storage), info_.width, info_.height));
+        sums_.push_back(GlTexture(
+            {.format = textureFormat(info_.storage), .width = info_.width, .height = info_.height, .linear = true}));
     for (const GlTexture& sum : sums_) targets.push_back(&sum);
     sumTarget_ = Target(targets);
     if (!bracketed()) return;
@@ -158,7 +143,7 @@ ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
 }
 
 void ComplexBlur::makeGroups() {
-    const std::span<const CircularComponent> kernel = kernelOf(info_);
+    const std::span<const CircularComponent> kernel = circularKernel(info_.components, info_.constants);
     const int atOnce = componentsAtOnce(info_.storage);
     for (int first = 0; first < info_.components; first += atOnce) {
         Group group;

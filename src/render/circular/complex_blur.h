@@ -13,6 +13,7 @@
 #include "gl/fullscreen.h"
 #include "gl/target.h"
 #include "gl/texture.h"
+#include "render/circular/circular_kernel.h"
 
 namespace defocus::engine {
 
@@ -30,19 +31,13 @@ enum class ComplexTaps {
     eight,  // eight taps on each side of the centre, evenly spaced over the radius (as published)
 };
 
-enum class KernelConstants {
-    fitted,     // circularKernel(): best fit to the disk
-    rescaled,   // rescaledCircularKernel(): Niemitalo's kernels, rescaled to the disk
-    published,  // publishedCircularKernel(): Niemitalo's constants as printed by Garcia
-};
-
 struct ComplexBlurInfo {
     int width = 1;
     int height = 1;
     // Horizontal and vertical semi-axes of an elliptical blur, relative to the radius.
     double across = 1;
     double upwards = 1;
-    int components = 1;  // number of components: 1 … circularKernelLimit if fitted, else 1 … publishedKernelLimit
+    int components = 1;  // number of components: see circularKernel()
     KernelConstants constants = KernelConstants::fitted;
     ComplexStorage storage = ComplexStorage::half;
     ComplexTaps taps = ComplexTaps::exact;
@@ -101,7 +96,6 @@ struct ComplexBracket {
     Bracket real;
     Bracket imaginary;
 };
-struct CircularComponent;
 ComplexBracket bracketOf(const CircularComponent& component, ComplexTaps taps);
 
 }  // namespace defocus::engine

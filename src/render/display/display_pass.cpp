@@ -44,8 +44,7 @@ const Program& DisplayPass::programFor(const DisplayInputs& inputs, const Displa
 
 void DisplayPass::draw(const DisplayInputs& inputs, const DisplaySettings& settings, int width, int height) {
     if (!texture_ || texture_.info().width != width || texture_.info().height != height) {
-        texture_ = GlTexture({.format = TextureFormat::rgba8, .width = width, .height = height});
-        texture_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+        texture_ = GlTexture({.format = TextureFormat::rgba8, .width = width, .height = height, .linear = true});
         target_ = Target({&texture_});
     }
     target_.bind();

@@ -31,6 +31,7 @@ struct DisplaySettings {
     double divider = 1;       // fraction of the width for the first image, 0 … 1; the second image fills the rest
     bool difference = false;  // true: the second image is replaced by differenceGain · |first − second|
     double differenceGain = 4;
+    bool operator==(const DisplaySettings&) const = default;
 
     [[nodiscard]] bool needsAovs() const {
         return overlay == DisplayOverlay::coc || overlay == DisplayOverlay::level || focusPeaking || focusPlane ||

@@ -13,9 +13,8 @@ GlTexture colourMapTexture(glm::vec3 (*map)(float)) {
         const glm::vec3 colour = map(static_cast<float>(i) / (width - 1));
         rgba.insert(rgba.end(), {colour.r, colour.g, colour.b, 1.0f});
     }
-    GlTexture texture({.format = TextureFormat::rgba16f, .width = width, .height = 1});
+    GlTexture texture({.format = TextureFormat::rgba16f, .width = width, .height = 1, .linear = true});
     texture.upload(0, width, 1, rgba.data());
-    texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
     return texture;
 }
 

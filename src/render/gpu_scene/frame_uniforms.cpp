@@ -59,18 +59,10 @@ GpuLight gpuLight(const PlacedLight& placed) {
             glm::vec4(-outer * scale, 0, 0, 0)};
 }
 
+// Returns the number of the type in the shaders.
 int environmentNumber(EnvironmentType type) {
-    switch (type) {
-        case EnvironmentType::none:
-            return 0;
-        case EnvironmentType::uniform:
-            return 1;
-        case EnvironmentType::gradient:
-            return 2;
-        case EnvironmentType::map:
-            return 3;
-    }
-    return 0;
+    static_assert(static_cast<int>(EnvironmentType::map) == 3);
+    return static_cast<int>(type);
 }
 
 GlTexture environmentTexture(const Image& map) {
@@ -91,9 +83,8 @@ GlTexture environmentTexture(const Image& map) {
 
 GlTexture specularAlbedoTexture() {
     constexpr int side = SpecularAlbedoTable::side;
-    GlTexture texture({.format = TextureFormat::rg32f, .width = side, .height = side});
+    GlTexture texture({.format = TextureFormat::rg32f, .width = side, .height = side, .linear = true});
     texture.upload(0, side, side, specularAlbedoTable().table.data());
-    texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
     return texture;
 }
 

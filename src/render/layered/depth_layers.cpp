@@ -64,7 +64,7 @@ DepthLayers::DepthLayers(GpuScene& scene, const DepthLayersInfo& info)
              .shaderFolder = info.shaderFolder}),
       anyDrawn_(newQuery()) {
     for (std::uint32_t layer = 0; layer < info.layers; ++layer)
-        targets_.push_back(Target({&colors_, &surfaces_}, depth_, layer));
+        targets_.push_back(Target::ofLayer({&colors_, &surfaces_}, layer, 0, &depth_));
 }
 
 void DepthLayers::prepare(const FramePlan& pinholes, const FrameUniforms& frame) {

@@ -30,8 +30,7 @@ int borderOf(const FramePlan& plan) {
 // a power of two, so that it divides `run`.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked, LayerFormat format,
                          std::uint32_t run) {
-    const std::uint64_t pixels =
-        std::uint64_t{static_cast<std::uint32_t>(plan.view.width)} * static_cast<std::uint32_t>(plan.view.height);
+    const std::uint64_t pixels = pixelCount(plan.view.width, plan.view.height);
     const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / (pixels * layerPixelBytes(format));
     return std::bit_floor(static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, run)));
 }
@@ -230,10 +229,8 @@ Method layeredMethod() {
             .drawsMotion = false,
             .settings = settings,
             .best = {{"layers", "16"}, {"pinholes", "16"}},
-            .make = [settings](const World& world, const RendererOptions& options) -> std::unique_ptr<Renderer> {
-                RendererOptions complete = options;
-                complete.settings = completeSettings("layered", settings, options.settings);
-                return std::make_unique<LayeredRenderer>(world, complete);
+            .make = [](const World& world, const RendererOptions& options) -> std::unique_ptr<Renderer> {
+                return std::make_unique<LayeredRenderer>(world, options);
             }};
 }
 

@@ -51,8 +51,7 @@ void ImageStack::store(std::uint32_t image, const GlTexture& texture) {
 void ImageStack::computeMean(std::span<const Part> parts, int width, int height) {
     assert(!parts.empty() && parts.size() <= maxImages);
     if (!mean_ || mean_.info().width != width || mean_.info().height != height) {
-        mean_ = GlTexture({.format = TextureFormat::rgba32f, .width = width, .height = height});
-        mean_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+        mean_ = GlTexture({.format = TextureFormat::rgba32f, .width = width, .height = height, .linear = true});
         meanTarget_ = Target({&mean_});
     }
     if (software_)

@@ -61,18 +61,14 @@ void dispatchOver(std::uint64_t count) {
 
 LensFront::LensFront(GpuScene& scene, LensFrontOptions options)
     : scene_(&scene),
-      tileSize_(options.tileSize),
-      lightsVertices_(options.lightsVertices),
-      entryBytes_(std::min(options.entryBytes, largestStorage())),
-      divides_(options.divides),
-      shaderFolder_(std::move(options.shaderFolder)),
-      divided_(shaderFolder_, lightsVertices_),
+      options_(std::move(options)),
+      divided_(options_.shaderFolder, options_.lightsVertices),
       unused_({.format = TextureFormat::rgba8}),
       unusedTarget_({&unused_}) {
-    sortProgram_ = Program({{"lens_space/sort.comp"}, {}, shaderFolder_});
+    sortProgram_ = Program({{"lens_space/sort.comp"}, {}, options_.shaderFolder});
     ShaderDefines defines;
-    if (lightsVertices_) defines.emplace_back("lightsVertices", "true");
-    trianglesProgram_ = Program({{"lens_space/triangles.comp"}, defines, shaderFolder_});
+    if (options_.lightsVertices) defines.emplace_back("lightsVertices", "true");
+    trianglesProgram_ = Program({{"lens_space/triangles.comp"}, defines, options_.shaderFolder});
 }
 
 void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const std::string& method) {
@@ -109,7 +105,7 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
     clips_ = storage(std::uint64_t{vertexCount_} * clipBytes, "the frame's vertices");
     clipsAtEnd_ = moving ? Buffer(clips_.bytes()) : Buffer();
     attributes_ = storage(std::uint64_t{vertexCount_} * attributeBytes, "the attributes of the frame's vertices");
-    if (lightsVertices_) {
+    if (options_.lightsVertices) {
         firstTriangles_ = Buffer(std::size_t{vertexCount_} * sizeof(std::uint32_t));
         vertexLight_ = storage(std::uint64_t{vertexCount_} * vertexLightBytes, "the light of the frame's vertices");
     }
@@ -118,13 +114,13 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
     makeTriangles();
 
     ShaderDefines binDefines = defines_;
-    binDefines.emplace_back("tileSize", std::to_string(tileSize_));
+    binDefines.emplace_back("tileSize", std::to_string(options_.tileSize));
     if (binDefines != binDefines_) {
         binDefines_ = binDefines;
-        fillProgram_ = Program({{"lens_space/bin.comp"}, binDefines, shaderFolder_});
+        fillProgram_ = Program({{"lens_space/bin.comp"}, binDefines, options_.shaderFolder});
         binDefines.emplace_back("countsOnly", "true");
-        countProgram_ = Program({{"lens_space/bin.comp"}, binDefines, shaderFolder_});
-        depthsProgram_ = Program({{"lens_space/depths.comp"}, defines_, shaderFolder_});
+        countProgram_ = Program({{"lens_space/bin.comp"}, binDefines, options_.shaderFolder});
+        depthsProgram_ = Program({{"lens_space/depths.comp"}, defines_, options_.shaderFolder});
     }
 }
 
@@ -137,7 +133,7 @@ void LensFront::addLevel(std::uint32_t objectIndex, const LevelDraw& level, doub
     const Vertices vertices{objectIndex, level.level, vertexCount_,
                             world.pyramids[static_cast<std::size_t>(object.mesh)].levels[level.level].vertexCount};
     const std::uint32_t parts =
-        divides_ ? partsOfEdges(object, level.triangleCount, plan_.settings.cocTolerance, maxSmall) : 1;
+        options_.divides ? partsOfEdges(object, level.triangleCount, plan_.settings.cocTolerance, maxSmall) : 1;
     for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p) {
         const int material = mesh.primitives[p].material;
         const auto draw = static_cast<std::uint32_t>(draws.size());
@@ -184,9 +180,9 @@ std::uint32_t LensFront::groupOf(int mesh, int material, std::uint32_t level) {
 void LensFront::makeTriangles() {
     // First convert the triangles that will be divided. Clearing firstTriangles_ afterwards removes their entries,
     // because small triangles replace them in the frame.
-    if (lightsVertices_) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, firstTriangles_.name());
+    if (options_.lightsVertices) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, firstTriangles_.name());
     convertRuns(bases_, true);
-    if (lightsVertices_) {
+    if (options_.lightsVertices) {
         const GLuint none = ~0u;
         glClearNamedBufferData(firstTriangles_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
     }
@@ -288,14 +284,15 @@ const Program& LensFront::vertexProgram(const Vertices& vertices, bool attribute
     poseDefines(defines, poses_[vertices.object], mesh);
     const char* shader = attributes ? "lens_space/attributes.vert" : "lens_space/clip.vert";
     const auto [entry, isNew] = programs_.try_emplace(shader + keyOf(defines));
-    if (isNew) entry->second = Program({{shader}, defines, shaderFolder_});
+    if (isNew) entry->second = Program({{shader}, defines, options_.shaderFolder});
     return entry->second;
 }
 
 void LensFront::countTiles() {
     const auto width = static_cast<std::uint32_t>(plan_.view.width);
     const auto height = static_cast<std::uint32_t>(plan_.view.height);
-    const std::uint32_t tiles = ((width + tileSize_ - 1) / tileSize_) * ((height + tileSize_ - 1) / tileSize_);
+    const std::uint32_t tiles =
+        ((width + options_.tileSize - 1) / options_.tileSize) * ((height + options_.tileSize - 1) / options_.tileSize);
     std::vector<std::uint32_t> counts(tiles, 0);
     if (tileCounts_.bytes() != tiles * sizeof(std::uint32_t)) {
         tileCounts_ = Buffer(tiles * sizeof(std::uint32_t));
@@ -317,7 +314,7 @@ void LensFront::countTiles() {
     statistics_.tiles = tiles;
     tilePlaces_.assign(tiles, 0);
     std::vector<std::uint32_t> ends(tiles, 0);
-    const std::uint64_t max = entryBytes_ / sizeof(std::uint32_t);
+    const std::uint64_t max = std::min(options_.entryBytes, largestStorage()) / sizeof(std::uint32_t);
     TileBand band;
     for (std::uint32_t tile = 0; tile < tiles; ++tile) {
         if (band.entries > 0 && band.entries + counts[tile] > max) {

@@ -81,7 +81,7 @@ public:
     // groups()[i − 1].
     [[nodiscard]] const std::vector<ShadedGroup>& groups() const { return groups_; }
     [[nodiscard]] const ShaderDefines& defines() const { return defines_; }  // defines for programs that read triangles
-    [[nodiscard]] bool lightsVertices() const { return lightsVertices_; }
+    [[nodiscard]] bool lightsVertices() const { return options_.lightsVertices; }
     [[nodiscard]] std::uint32_t vertexCount() const { return vertexCount_; }
     [[nodiscard]] std::uint32_t triangleCount() const { return triangleCount_; }
     [[nodiscard]] std::uint32_t parts() const { return parts_; }  // number of parts into which the exposure is divided
@@ -129,11 +129,7 @@ private:
     void sort(const TileBand& band);
 
     GpuScene* scene_;
-    std::uint32_t tileSize_;
-    bool lightsVertices_;
-    std::uint64_t entryBytes_;
-    bool divides_;
-    std::filesystem::path shaderFolder_;
+    LensFrontOptions options_;
     DividedTriangles divided_;
     FramePlan plan_;
     const FrameUniforms* frame_ = nullptr;

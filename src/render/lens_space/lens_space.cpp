@@ -125,8 +125,7 @@ private:
     // Returns the number of rays per pixel that are traced together (a wave): the requested number, or as many as fit
     // into RendererOptions::waveBytes, at most 64.
     [[nodiscard]] std::uint32_t wavesRays() const {
-        const std::uint64_t pixels =
-            std::uint64_t{static_cast<std::uint32_t>(plan_.view.width)} * static_cast<std::uint32_t>(plan_.view.height);
+        const std::uint64_t pixels = pixelCount(plan_.view.width, plan_.view.height);
         const std::uint64_t bytes = std::min(options_.waveBytes, largestStorage());
         const std::uint64_t max = std::max<std::uint64_t>(bytes / (pixels * kernel_->rayBytes()), 1);
         return static_cast<std::uint32_t>(std::min<std::uint64_t>({wave_ > 0 ? wave_ : max, max, blockSamples}));

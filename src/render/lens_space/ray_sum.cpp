@@ -11,10 +11,8 @@ RaySum::RaySum(int width, int height, const char* addShader, const std::filesyst
       addProgram_({{addShader}, {}, shaderFolder}),
       meanProgram_({{fullscreenShader, "lens_space/mean.frag"}, {}, shaderFolder}),
       sums_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 2 * sizeof(glm::vec4)),
-      mean_({.format = TextureFormat::rgba32f, .width = width, .height = height}),
-      meanTarget_({&mean_}) {
-    mean_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
-}
+      mean_({.format = TextureFormat::rgba32f, .width = width, .height = height, .linear = true}),
+      meanTarget_({&mean_}) {}
 
 void RaySum::add(std::uint32_t count) {
     addProgram_.use();

@@ -110,8 +110,7 @@ public:
     }
 
     std::uint64_t find(LensFront& front, RayWave& wave) override {
-        const std::uint64_t pixels =
-            std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} * static_cast<std::uint32_t>(imageSize_.y);
+        const std::uint64_t pixels = pixelCount(imageSize_.x, imageSize_.y);
         boundBlock_.update(0, wave.count * sizeof(GpuBounds), bounds_.data() + wave.first);
         records_.reserve(std::min(pixels * wave.count * expectedRecords, RecordBuffer::maxRecords()));
         droppedEntries_ = front.statistics().entriesBeyond(binSize_);
@@ -200,8 +199,7 @@ private:
     Counters draw(LensFront& front, const RayWave& wave) {
         // Allocate one element of `ranges` per line. If jobs may be deferred, also allocate space for all jobs, and for
         // as many saved states as fit into stateBytes.
-        const std::uint64_t rays = std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} *
-                                   static_cast<std::uint32_t>(imageSize_.y) * wave.count;
+        const std::uint64_t rays = pixelCount(imageSize_.x, imageSize_.y) * wave.count;
         const std::size_t jobs = maxRounds_ > 0 ? std::size_t{front.statistics().tiles} * wave.count : 0;
         const std::size_t slotBytes = stateRanges() * rangeBytes * lineTile * lineTile;
         const std::size_t slots = jobs > 0 ? std::clamp<std::size_t>(stateBytes / slotBytes, 1, jobs) : 0;
@@ -357,10 +355,8 @@ Method lineMethod() {
             .drawsShadows = false,
             .drawsMotion = false,
             .settings = settings,
-            .make = [settings](const World& world, const RendererOptions& options) {
-                RendererOptions complete = options;
-                complete.settings = completeSettings("line", settings, options.settings);
-                return makeLensSpaceRenderer(world, complete, std::make_unique<LineKernel>(complete));
+            .make = [](const World& world, const RendererOptions& options) {
+                return makeLensSpaceRenderer(world, options, std::make_unique<LineKernel>(options));
             }};
 }
 

@@ -4,11 +4,10 @@ namespace defocus::engine {
 
 PinholeImage::PinholeImage(int width, int height, LayerFormat format, TextureFormat depthFormat, bool keepsOwnBlur,
                            int samples) {
-    const auto textureOf = [&](TextureFormat of) {
-        return GlTexture({.format = of, .width = width, .height = height, .samples = samples});
+    const auto textureOf = [&](TextureFormat of, bool linear = false) {
+        return GlTexture({.format = of, .width = width, .height = height, .samples = samples, .linear = linear});
     };
-    color = textureOf(layerTextureFormat(format));
-    if (samples == 1) color.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+    color = textureOf(layerTextureFormat(format), true);
     depth = textureOf(depthFormat);
     if (keepsOwnBlur) ownBlur = textureOf(TextureFormat::rg32f);
 }

@@ -122,10 +122,8 @@ private:
     void makeTextures(int width, int height) {
         if (sharp_ && sharp_.info().width == width && sharp_.info().height == height) return;
         const auto linear = [&](int w, int h) {
-            GlTexture texture(
-                {.format = bytes_ ? TextureFormat::rgba8 : TextureFormat::rgba16f, .width = w, .height = h});
-            texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
-            return texture;
+            const TextureFormat format = bytes_ ? TextureFormat::rgba8 : TextureFormat::rgba16f;
+            return GlTexture({.format = format, .width = w, .height = h, .linear = true});
         };
         const int smallWidth = (width + smallReduction - 1) / smallReduction;
         const int smallHeight = (height + smallReduction - 1) / smallReduction;
@@ -314,10 +312,8 @@ Method scheuermannMethod() {
                      {"max-coc", "unlimited"},
                      {"transparency-buckets", "8"},
                      {"pinholes", "16"}},
-            .make = [settings](const World& world, const RendererOptions& options) {
-                RendererOptions complete = options;
-                complete.settings = completeSettings("scheuermann", settings, options.settings);
-                return makePostProcessRenderer(world, complete, std::make_unique<Scheuermann>(complete));
+            .make = [](const World& world, const RendererOptions& options) {
+                return makePostProcessRenderer(world, options, std::make_unique<Scheuermann>(options));
             }};
 }
 

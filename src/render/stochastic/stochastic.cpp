@@ -44,8 +44,7 @@ public:
     }
 
     std::uint64_t find(LensFront& front, RayWave& wave) override {
-        const std::uint64_t pixels =
-            std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} * static_cast<std::uint32_t>(imageSize_.y);
+        const std::uint64_t pixels = pixelCount(imageSize_.x, imageSize_.y);
         const std::uint64_t records = pixels * wave.count;
         records_.reserve(records);
         boundBlock_.update(0, wave.count * sizeof(glm::vec4), bounds_.data() + wave.first);
@@ -96,16 +95,13 @@ private:
 }  // namespace
 
 Method stochasticMethod() {
-    const std::vector<MethodSetting> settings = {shadingSetting(), cocInterpolationSetting()};
     return {.name = "stochastic",
             .description = "lens space: different lens points for each pixel (Munkberg, Toth and Akenine-Möller 2012)",
             .showsThrough = false,
             .drawsShadows = false,
-            .settings = settings,
-            .make = [settings](const World& world, const RendererOptions& options) {
-                RendererOptions complete = options;
-                complete.settings = completeSettings("stochastic", settings, options.settings);
-                return makeLensSpaceRenderer(world, complete, std::make_unique<StochasticKernel>(complete));
+            .settings = {shadingSetting(), cocInterpolationSetting()},
+            .make = [](const World& world, const RendererOptions& options) {
+                return makeLensSpaceRenderer(world, options, std::make_unique<StochasticKernel>(options));
             }};
 }
 

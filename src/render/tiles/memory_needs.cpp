@@ -30,10 +30,6 @@ std::uint64_t remainder(std::uint64_t a, std::uint64_t b) {
     return a > b ? a - b : 0;
 }
 
-std::uint64_t pixelsOf(int width, int height) {
-    return std::uint64_t(width) * std::uint64_t(height);
-}
-
 // Returns the memory in bytes that the scene needs with a software driver: the plan's meshes, the scene's textures, and
 // the triangles that the occlusion test stores.
 std::uint64_t sceneBytes(const World& world, const FramePlan& plan) {
@@ -100,7 +96,7 @@ TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLi
 // the bytes of the images on the host.
 std::uint64_t untiledBytes(const TilingNeeds& needs) {
     const std::uint64_t sums = sumPixelBytes + needs.dataPixel;
-    return pixelsOf(needs.width, needs.height) * (needs.shared ? sums + wholePixelBytes + needs.dataPixel : sums);
+    return pixelCount(needs.width, needs.height) * (needs.shared ? sums + wholePixelBytes + needs.dataPixel : sums);
 }
 
 // Subtracts `bytes`, the memory that the scene will take, from the available memory. Only for software drivers.
@@ -125,8 +121,8 @@ Tile trialTile(const FramePlan& plan) {
 
 // Returns the bytes of the layer, the shadow maps and the accumulation buffers of the tile `trial`.
 std::uint64_t trialBytes(const TilingNeeds& needs, const Tile& trial) {
-    return pixelsOf(trial.cell.width, trial.cell.height) * needs.layerPixel + needs.layerMaps +
-           pixelsOf(trial.area.width, trial.area.height) * sumPixelBytes;
+    return pixelCount(trial.cell.width, trial.cell.height) * needs.layerPixel + needs.layerMaps +
+           pixelCount(trial.area.width, trial.area.height) * sumPixelBytes;
 }
 
 }  // namespace
@@ -148,12 +144,12 @@ std::uint64_t waveBytesWithin(std::uint64_t limit, std::uint32_t threads) {
 }
 
 std::uint32_t threadsWithin(const TilingNeeds& needs, std::uint32_t wanted) {
-    const std::uint64_t layer = pixelsOf(needs.width, needs.height) * needs.layerPixel + needs.layerMaps;
+    const std::uint64_t layer = pixelCount(needs.width, needs.height) * needs.layerPixel + needs.layerMaps;
     return threadsIn(remainder(needs.deviceMemory, untiledBytes(needs) + layer), layer, wanted);
 }
 
 std::uint32_t threadsWithin(int width, int height, std::uint64_t limit, std::uint32_t wanted) {
-    const std::uint64_t layer = pixelsOf(width, height) * 2 * layerPixelBytes(LayerFormat::rgba32f);
+    const std::uint64_t layer = pixelCount(width, height) * 2 * layerPixelBytes(LayerFormat::rgba32f);
     return threadsIn(remainder(limit, residentMemory()), layer, wanted);
 }
 
@@ -169,7 +165,7 @@ std::uint32_t waveWithin(const TilingNeeds& needs) {
     if (needs.askedWave > 0) return needs.askedWave;
     const std::uint64_t bytes =
         std::min({needs.waveBytes, needs.deviceMemory / 4, remainder(needs.deviceMemory, untiledBytes(needs))});
-    const std::uint64_t layer = pixelsOf(needs.width, needs.height) * needs.layerPixel + needs.layerMaps;
+    const std::uint64_t layer = pixelCount(needs.width, needs.height) * needs.layerPixel + needs.layerMaps;
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(bytes / layer, 1, blockSamples));
 }
 
@@ -199,7 +195,7 @@ bool surelyFits(int width, int height, bool mapsPossible, const DrawLimits& limi
     const std::uint64_t pixel = 2 * layerPixelBytes(LayerFormat::rgba32f) + sumPixelBytes + wholePixelBytes;
     const bool oneCell = cellsOf(width, height).size() == 1;
     return !limits.memory && oneCell && !mapsPossible &&
-           pixelsOf(width, height) * pixel <= remainder(limit, residentMemory());
+           pixelCount(width, height) * pixel <= remainder(limit, residentMemory());
 }
 
 bool mustDrawInTiles(const World& world, const FramePlan& plan, const DrawLimits& limits, const Method& method,

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/parse.h"
 #include "image/image_io.h"
 
 namespace defocus::engine {
@@ -32,17 +33,8 @@ SampleRange parseSampleRange(std::string_view text);
 // Throws Error unless the end of the range is a multiple of 64 or equals `samples`, the number of samples of the frame.
 void checkSampleRange(const SampleRange& range, std::uint32_t samples);
 
-// Part `index` (0 … count − 1) of `count` equal parts of a frame's rows.
-struct TileShare {
-    int index = 0;
-    int count = 1;
-};
-
-// Parses "index/count", e.g. "1/4". Throws Error unless both are integers and 0 ≤ index < count.
-TileShare parseTileShare(std::string_view text);
-
-// Returns the text attribute with this name; nullptr if there is none.
-const std::string* textAttribute(const Metadata& metadata, const char* name);
+// Parses "index/count", a share of a frame's rows. Throws Error unless both are integers and 0 ≤ index < count.
+Share parseTileShare(std::string_view text);
 
 // Returns the settings that differ between two parts' metadata, such as "seed is 0 and 1": at most three, separated by
 // commas. Returns "their settings differ" if the metadata name no such setting.

@@ -19,8 +19,8 @@ constexpr int rowsAtOnce = 64;  // max rows in memory while files are joined
 RowFileHeader headerOf(const ImageRowReader& reader, const fs::path& path) {
     RowFileHeader header;
     header.metadata = reader.metadata();
-    const std::string* tile = textAttribute(header.metadata, tileAttribute);
-    const std::string* settings = textAttribute(header.metadata, settingsAttribute);
+    const std::string* tile = attributeOf<std::string>(header.metadata, tileAttribute);
+    const std::string* settings = attributeOf<std::string>(header.metadata, settingsAttribute);
     if (tile == nullptr || settings == nullptr)
         fail("{} is not a tile of a frame: the attribute '{}' is missing", path.string(),
              tile == nullptr ? tileAttribute : settingsAttribute);
@@ -70,7 +70,7 @@ std::optional<int> commonCount(const std::vector<RowFile>& tiles) {
 
 bool isRowFile(const fs::path& path) try {
     const Metadata metadata = ImageRowReader(path).metadata();
-    return textAttribute(metadata, tileAttribute) != nullptr;
+    return attributeOf<std::string>(metadata, tileAttribute) != nullptr;
 } catch (const Error&) {
     return false;
 }

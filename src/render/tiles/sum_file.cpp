@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "render/accumulation/block_merge.h"
+#include "render/accumulation/layer_sum.h"
 #include "render/gpu_scene/frame_uniforms.h"
 
 namespace defocus::engine {
@@ -48,8 +48,7 @@ Image withAlpha(const Image& image, float alpha) {
 // type.
 template <typename Value>
 Value attribute(const Metadata& metadata, const char* name, const std::string& file) {
-    const auto found = metadata.find(name);
-    const Value* value = found == metadata.end() ? nullptr : std::get_if<Value>(&found->second);
+    const Value* value = attributeOf<Value>(metadata, name);
     if (value == nullptr) fail("{} is not a part of a frame: the attribute '{}' is missing", file, name);
     return *value;
 }
@@ -153,18 +152,18 @@ MergedFrame mergeParts(const std::vector<fs::path>& paths) {
     // Add the blocks in sample order.
     MergedFrame merged;
     merged.metadata = parts.front().part.metadata;
-    BlockMerge merge;
+    const FramePart& first = parts.front().part;
+    if (first.frameSamples == 0) fail("there are no blocks of samples to merge");
+    LayerSum sum({.width = first.width, .height = first.height, .format = LayerFormat::rgba16f});
     double seconds = 0;
     for (const NamedPart& named : parts) {
-        const auto own = named.part.metadata.find(secondsAttribute);
-        if (own != named.part.metadata.end() && std::holds_alternative<double>(own->second))
-            seconds += std::get<double>(own->second);
-        for (const BlockSum& block : readPart(named.path).blocks) merge.add(block);
+        if (const double* own = attributeOf<double>(named.part.metadata, secondsAttribute)) seconds += *own;
+        for (const BlockSum& block : readPart(named.path).blocks) sum.addBlock(block);
     }
     // Set an empty date; otherwise, OpenImageIO would write the current time.
     merged.metadata.try_emplace("capDate", std::string());
     if (merged.metadata.contains(secondsAttribute)) merged.metadata[secondsAttribute] = seconds;
-    merged.image = merge.image();
+    merged.image = sum.mean();
     return merged;
 }
 

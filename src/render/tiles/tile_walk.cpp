@@ -52,6 +52,7 @@ void addTileStats(RenderStats& sum, const RenderStats& added) {
     RenderStats both = added;
     both.setupMilliseconds += sum.setupMilliseconds;
     both.renderMilliseconds += sum.renderMilliseconds;
+    both.cpuTime += sum.cpuTime;
     both.gpuMilliseconds += sum.gpuMilliseconds;
     both.trianglesDrawn += sum.trianglesDrawn;
     both.trianglesHidden += sum.trianglesHidden;

@@ -14,10 +14,6 @@ constexpr std::uint64_t maxLayers = 64;
 constexpr std::uint64_t shareOfLayers = 4;  // layers get at most 1/4 of the memory, so that bands have many rows
 constexpr int minRows = 16;
 
-std::uint64_t product(int a, int b) {
-    return std::uint64_t{static_cast<std::uint32_t>(a)} * static_cast<std::uint32_t>(b);
-}
-
 std::vector<PixelRectangle> cellsFor(const TilingNeeds& needs) {
     if (!needs.mayUseCells) return {{0, 0, needs.width, needs.height}};
     return cellsOf(needs.width, needs.height);
@@ -82,7 +78,7 @@ Band bandOf(const std::vector<PixelRectangle>& cells, const RowRange& rows) {
 
 bool fitsInOnePiece(const TilingNeeds& needs) {
     if (cellsFor(needs).size() > 1) return false;
-    const std::uint64_t pixels = product(needs.width, needs.height);
+    const std::uint64_t pixels = pixelCount(needs.width, needs.height);
     const std::uint64_t device = pixels * (needs.layerPixel + sumPixelBytes + needs.dataPixel) + needs.layerMaps;
     const std::uint64_t host = pixels * (wholePixelBytes + needs.dataPixel) + needs.keptBytes;
     return needs.shared ? device + host <= needs.deviceMemory
@@ -93,7 +89,7 @@ Tiling chosenTiling(const TilingNeeds& asked) {
     const TilingNeeds needs = besidePictures(asked);
     const std::vector<PixelRectangle> cells = cellsFor(needs);
     const PixelRectangle& largest = cells.front();
-    const std::uint64_t layer = product(largest.width, largest.height) * needs.layerPixel + needs.layerMaps;
+    const std::uint64_t layer = pixelCount(largest.width, largest.height) * needs.layerPixel + needs.layerMaps;
     const std::uint64_t max = std::min(needs.waveBytes, needs.deviceMemory / shareOfLayers);
     Tiling tiling;
     const std::uint64_t wave = needs.askedWave > 0 ? needs.askedWave : max / layer;

@@ -20,11 +20,6 @@ namespace {
 constexpr std::array<std::string_view, 4> extensions = {".usda", ".gltf", ".glb", ".json"};
 constexpr std::array<std::string_view, 3> otherUsd = {".usdc", ".usdz", ".usd"};
 
-std::string contentOf(const std::filesystem::path& path) {
-    const std::vector<std::byte> bytes = readFile(path);
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 // Returns the camera of a glTF scene, animated by the scene's first animation.
 CameraTrack gltfCamera(const CameraSource& source) {
     const auto scene = std::make_shared<Scene>(loadGltf(source.file));
@@ -66,9 +61,9 @@ CameraTrack openCamera(const std::string& text) {
     const std::string extension = source.file.extension().string();
     CameraTrack track;
     if (extension == ".usda")
-        track = usdCamera(parseUsda(contentOf(source.file), source.file.string()), source.camera, source.file.string());
+        track = usdCamera(parseUsda(readText(source.file), source.file.string()), source.camera, source.file.string());
     else if (extension == ".json")
-        track = jsonCamera(contentOf(source.file), source.camera, source.file.string());
+        track = jsonCamera(readText(source.file), source.camera, source.file.string());
     else
         track = gltfCamera(source);
     track.source = text;

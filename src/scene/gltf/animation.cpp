@@ -2,10 +2,10 @@
 #include "scene/gltf/animation.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "core/parse.h"
 #include "scene/gltf/accessor.h"
 
 namespace defocus::engine::gltf {
@@ -45,19 +45,12 @@ std::vector<std::string> pointerParts(const std::string& pointer) {
     return parts;
 }
 
-std::optional<std::uint64_t> numberOf(const std::string& text) {
-    std::uint64_t number = 0;
-    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (fault != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
-
 // Parses a pointer of KHR_animation_pointer to a node, camera or light property. Returns nullopt for other pointers.
 std::optional<Target> pointedTarget(const std::string& pointer) {
     std::vector<std::string> parts = pointerParts(pointer);
     if (parts.size() == 5 && parts[0] == "extensions" && parts[1] == "KHR_lights_punctual" && parts[2] == "lights")
         parts.erase(parts.begin(), parts.begin() + 2);
-    const std::optional<std::uint64_t> index = parts.size() > 1 ? numberOf(parts[1]) : std::nullopt;
+    const std::optional<std::uint64_t> index = parts.size() > 1 ? wholeText<std::uint64_t>(parts[1]) : std::nullopt;
     if (!index) return std::nullopt;
     std::optional<ChannelPath> path;
     if (parts.size() == 3 && parts[0] == "nodes") path = nodePathNamed(parts[2]);

@@ -52,8 +52,8 @@ std::optional<double> ownMetresPerUnit(const gltf::Source& source) {
         holders.push_back(&(*scenes)[json.value("scene", std::size_t{0})]);
     if (const auto asset = json.find("asset"); asset != json.end()) holders.push_back(&*asset);
     for (const nlohmann::json* holder : holders) {
-        const auto extras = holder->find("extras");
-        if (extras == holder->end() || !extras->is_object() || !extras->contains("units")) continue;
+        const nlohmann::json* extras = gltf::extrasOf(*holder);
+        if (extras == nullptr || !extras->contains("units")) continue;
         const nlohmann::json& units = (*extras)["units"];
         try {
             return metresOfUnit(units.is_string() ? units.get<std::string>() : units.dump());

@@ -147,8 +147,8 @@ int lightOf(const Source& source, const nlohmann::json& json, const std::string&
 // Returns the blur factor of the node's subtree, which is `cocScale` in the node's extras; 1 if absent. Throws Error
 // unless the factor is a number ≥ 0.
 double cocScaleOf(Source& source, const nlohmann::json& json, const std::string& label) {
-    const auto extras = json.find("extras");
-    if (extras == json.end() || !extras->is_object() || !extras->contains("cocScale")) return 1;
+    const nlohmann::json* extras = extrasOf(json);
+    if (extras == nullptr || !extras->contains("cocScale")) return 1;
     const nlohmann::json& value = (*extras)["cocScale"];
     if (!value.is_number() || !(value.get<double>() >= 0))
         fault(source.document, "{}: extras.cocScale must be a number of at least 0, not {}", label, value.dump());
@@ -185,8 +185,8 @@ Node readNode(Source& source, std::size_t index) {
 // properties as extras.
 std::map<std::string, double, std::less<>> lensValues(const nlohmann::json& json) {
     std::map<std::string, double, std::less<>> values;
-    const auto extras = json.find("extras");
-    if (extras == json.end() || !extras->is_object()) return values;
+    const nlohmann::json* extras = extrasOf(json);
+    if (extras == nullptr) return values;
     for (const auto& [name, value] : extras->items()) {
         if (value.is_number()) values[name] = value.get<double>();
         if (value.is_boolean()) values[name] = value.get<bool>() ? 1 : 0;
@@ -222,8 +222,8 @@ void readPhysicalCamera(Source& source, const nlohmann::json& json, const std::s
 
 // Returns the path of the aperture image from the extras of a camera or a camera's node; empty if there is none.
 std::string apertureImageOf(const nlohmann::json& camera) {
-    const auto extras = camera.find("extras");
-    if (extras == camera.end() || !extras->is_object()) return {};
+    const nlohmann::json* extras = extrasOf(camera);
+    if (extras == nullptr) return {};
     const auto path = extras->find("apertureImage");
     return path != extras->end() && path->is_string() ? path->get<std::string>() : std::string();
 }

@@ -214,6 +214,11 @@ const nlohmann::json* findExtension(const nlohmann::json& object, const char* na
     return found != extensions->end() ? &*found : nullptr;
 }
 
+const nlohmann::json* extrasOf(const nlohmann::json& object) {
+    const auto extras = object.find("extras");
+    return extras != object.end() && extras->is_object() ? &*extras : nullptr;
+}
+
 std::string labelOf(const char* kind, std::size_t index, const std::string& name) {
     return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, name);
 }

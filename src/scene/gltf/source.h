@@ -78,6 +78,9 @@ void ignoreDamaged(Source& source, const std::string& what, const std::string& r
 // Returns the extension `name` of a JSON object; nullptr if it is absent.
 const nlohmann::json* findExtension(const nlohmann::json& object, const char* name);
 
+// Returns the extras of a JSON object; nullptr if they are absent or not an object.
+const nlohmann::json* extrasOf(const nlohmann::json& object);
+
 // Returns a label for error messages, such as "mesh 3 'Wheel'".
 std::string labelOf(const char* kind, std::size_t index, const std::string& name);
 

@@ -42,18 +42,6 @@ std::vector<double> focusKey(const Lens& lens) {
     return {lens.focusDistance, lens.fStop};
 }
 
-std::vector<double> displayKey(const DisplaySettings& display) {
-    return {static_cast<double>(display.toneMap),
-            display.exposure,
-            static_cast<double>(display.overlay),
-            static_cast<double>(display.focusPeaking),
-            static_cast<double>(display.focusPlane),
-            static_cast<double>(display.wireframe),
-            display.divider,
-            static_cast<double>(display.difference),
-            display.differenceGain};
-}
-
 // Returns the view at another resolution. Limits on the blur that are given in px are scaled with the resolution.
 View resized(const View& view, double resolution) {
     View result = view;
@@ -111,9 +99,8 @@ void ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
     lastFocusKey_ = focus;
     lastSettings_ = request.settingsKey;
     lastAperture_ = aperture;
-    const std::vector<double> shown = displayKey(request.display);
-    bool presents = shown != lastDisplayKey_;
-    lastDisplayKey_ = shown;
+    bool presents = request.display != lastDisplay_;
+    lastDisplay_ = request.display;
 
     showsWork_ = request.display.overlay == DisplayOverlay::work;
     if (otherScene && images_) images_->discard();
@@ -306,9 +293,7 @@ void ViewPicture::growWork(double milliseconds) {
     if (!work_) work_.emplace(*world_, options_.shaderFolder);
     if (!workCurrent_) work_->begin(plan());
     workCurrent_ = true;
-    overlayTimer_.begin();
-    workGrows_ = work_->grow(milliseconds);
-    overlayTimer_.end();
+    overlayTimer_.measure([&] { workGrows_ = work_->grow(milliseconds); });
 }
 
 void ViewPicture::present(const PictureRequest& request) {

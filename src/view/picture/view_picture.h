@@ -132,7 +132,8 @@ private:
     std::vector<std::unique_ptr<Side>> sides_;
     std::optional<KeptImages> images_;
     std::optional<Refocused> refocused_;
-    std::vector<double> lastKey_, lastFocusKey_, lastDisplayKey_;
+    std::vector<double> lastKey_, lastFocusKey_;
+    std::optional<DisplaySettings> lastDisplay_;
     std::string lastSettings_;
     std::shared_ptr<const Image> lastAperture_;
     Clock::time_point settlesAt_;

@@ -108,7 +108,7 @@ TEST(CircularKernel, moreComponentsComeCloserToTheDisk) {
 // The published kernel has the constants of Garcia's slides, with the distance x = tap/8. At the outermost tap, the
 // kernel of two components is 0.9245 by the printed formula.
 TEST(CircularKernel, publishedKernelIsThatOfTheSlides) {
-    const auto kernel = publishedCircularKernel(2);
+    const auto kernel = circularKernel(2, KernelConstants::published);
     EXPECT_EQ(kernel[0].decay, 0.886528);
     EXPECT_EQ(kernel[1].frequency, 1.558213);
     EXPECT_NEAR(profileOf(kernel, 1), 0.9245, 1e-4);
@@ -117,14 +117,14 @@ TEST(CircularKernel, publishedKernelIsThatOfTheSlides) {
 // Rescaled kernels are the published ones in units of the radius of the disk that they approximate. Kernels scaled to a
 // radius 3 % larger or smaller approximate the disk worse. The fitted kernels approximate the disk at least as well.
 TEST(CircularKernel, rescaledKernelsAreInRadiiOfTheirDisk) {
-    EXPECT_THROW(publishedCircularKernel(0), Error);
-    EXPECT_THROW(rescaledCircularKernel(publishedKernelLimit + 1), Error);
-    const CircularComponent& one = rescaledCircularKernel(1)[0];
+    EXPECT_THROW(circularKernel(0, KernelConstants::published), Error);
+    EXPECT_THROW(circularKernel(publishedKernelLimit + 1, KernelConstants::rescaled), Error);
+    const CircularComponent& one = circularKernel(1, KernelConstants::rescaled)[0];
     EXPECT_NEAR(one.decay / one.frequency, 0.862325 / 1.624835, 1e-12);
     EXPECT_EQ(one.cosine, 0.767583);
     EXPECT_EQ(one.sine, 1.862321);
     for (int n = 1; n <= publishedKernelLimit; ++n) {
-        const auto kernel = rescaledCircularKernel(n);
+        const auto kernel = circularKernel(n, KernelConstants::rescaled);
         const double error = diskError(kernel);
         for (const double factor : {0.97, 1.03}) {
             Kernel other{kernel.begin(), kernel.end()};
@@ -136,7 +136,7 @@ TEST(CircularKernel, rescaledKernelsAreInRadiiOfTheirDisk) {
         }
         EXPECT_LE(diskError(circularKernel(n)), error) << n;
         // A mistyped constant would fit no disk, or fit worse than the kernel with one component less.
-        EXPECT_LT(error, n == 1 ? 0.25 : diskError(rescaledCircularKernel(n - 1)));
+        EXPECT_LT(error, n == 1 ? 0.25 : diskError(circularKernel(n - 1, KernelConstants::rescaled)));
     }
 }
 
@@ -149,7 +149,7 @@ TEST(CircularKernel, rescaledKernelsDipLess) {
         return value * pi / integralsOf(kernel).kernel;
     };
     for (int n = 2; n <= publishedKernelLimit; ++n)
-        EXPECT_GT(lowest(rescaledCircularKernel(n)), 0.4 * lowest(circularKernel(n))) << n;
+        EXPECT_GT(lowest(circularKernel(n, KernelConstants::rescaled)), 0.4 * lowest(circularKernel(n))) << n;
 }
 
 // Returns the objective that the fitted kernels minimize (see circular_kernel.h).

@@ -136,7 +136,7 @@ TEST(Brackets, ofEightTapsAreGarcias) {
         EXPECT_NEAR(bracket.offset * middle, offset, 2e-6);
         EXPECT_NEAR(bracket.scale * middle * taps, scale, 2e-5);
     };
-    const auto kernel = publishedCircularKernel(2);
+    const auto kernel = circularKernel(2, KernelConstants::published);
     const ComplexBracket first = bracketOf(kernel[0], ComplexTaps::eight);
     expectBracket(first.real, -0.038708, 0.943062);
     expectBracket(first.imaginary, -0.025574, 0.660892);

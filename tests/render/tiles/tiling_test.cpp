@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "render/tiles/tile_walk.h"
 
 namespace defocus::engine {
 namespace {
@@ -138,6 +139,20 @@ TEST(Tiling, theSamplesAtOnceAreThoseAskedFor) {
     TilingNeeds needs = needsOf(640, 480, 200 << 20);
     needs.askedWave = 3;
     EXPECT_EQ(chosenTiling(needs).wave, 3u);
+}
+
+// The times of a tiled frame are the sums over its tiles.
+TEST(TileStats, timesOfTilesAreSummed) {
+    RenderStats sum;
+    for (const double milliseconds : {1.0, 2.0}) {
+        RenderStats tile;
+        tile.renderMilliseconds = milliseconds;
+        tile.cpuTime = {2 * milliseconds, milliseconds};
+        addTileStats(sum, tile);
+    }
+    EXPECT_EQ(sum.renderMilliseconds, 3);
+    EXPECT_EQ(sum.cpuTime.milliseconds, 6);
+    EXPECT_EQ(sum.cpuTime.busiestMilliseconds, 3);
 }
 
 }  // namespace
