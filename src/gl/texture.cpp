@@ -50,8 +50,8 @@ GlTexture::GlTexture(const TextureInfo& info) : info_(info) {
     GLint maxLayers = 0;
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &maxLayers);
     if (info.layers > maxLayers)
-        fail("{} layers exceed this driver's maximum of {} layers per texture; choose a smaller wave", info.layers,
-             maxLayers);
+        fail("{} layers exceed this driver's maximum of {} layers per texture; draw fewer samples at once (--wave)",
+             info.layers, maxLayers);
     GLuint name = 0;
     const GLenum oneImage = info.samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
     glCreateTextures(info.layers > 0 ? GL_TEXTURE_2D_ARRAY : oneImage, 1, &name);

@@ -27,8 +27,8 @@ void checkComparable(const ImageView& reference, const ImageView& test) {
     if (reference.empty()) fail("images without pixels cannot be compared");
     for (const ImageView& image : {reference, test})
         if (!coversItsPixels(image))
-            fail("an image of {}x{} px with {} channels needs more than its {} values", image.width, image.height,
-                 image.channels, image.pixels.size());
+            fail("{} values are too few for an image of {}x{} px with {} channels", image.pixels.size(), image.width,
+                 image.height, image.channels);
 }
 
 ComparablePair comparablePair(const ImageView& reference, const ImageView& test) {

@@ -44,7 +44,7 @@ void checkRequest(const View& view, const RenderSettings& settings) {
     const LodMetric metric = chosenMetric(settings.metric, settings.thresholds);
     const bool measured = metric == LodMetric::measured;
     if ((metric == LodMetric::score || metric == LodMetric::proportional) && settings.thresholds.size)
-        fail("--lod-metric {} accepts only --blur-threshold", lodMetricName(metric));
+        fail("--lod-metric {} cannot be combined with --size-threshold; give --blur-threshold", lodMetricName(metric));
     if (measured ? settings.thresholds.blur || settings.thresholds.size : settings.thresholds.light.has_value())
         fail("--lod-metric {} accepts only {}", lodMetricName(metric),
              measured ? "--light-threshold" : "--blur-threshold and --size-threshold");

@@ -30,7 +30,7 @@ void checkStop(const StopSettings& stop, const Method& method, const ShutterSett
             fmt::format("method '{}' cannot add lens samples in blocks, which {} requires", method.name, what));
     if (shutter.seconds > 0 && shutter.exactMotion())
         throw UsageError(fmt::format(
-            "exact motion cannot be combined with {}, as it needs a fixed number of samples; give a number of motion "
+            "exact motion needs a fixed number of samples and cannot be combined with {}; give a number of motion "
             "segments",
             what));
 }

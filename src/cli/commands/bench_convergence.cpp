@@ -94,7 +94,7 @@ std::vector<ConvergenceRun> earlierRuns(const ConvergenceArguments& arguments, s
              journal.string(), runs.size());
     if (holdsOtherReference(folder, reference))
         fail(
-            "{} has the reference of another scene, camera, size, number of samples or build of the program; choose "
+            "the reference in {} has another scene, camera, size, number of samples or build of the program; choose "
             "another folder, or start over with --overwrite",
             folder.string());
     return runs;

@@ -103,9 +103,9 @@ Rows displayRows() {
     return {
         rows::other(
             "exrLayers", "--exr-layers", "LAYER,…", setLayers, layersText,
-            "Data layers to add to .exr files, blurred by the lens with the image's samples and premultiplied by "
-            "the coverage: depth (mean and nearest, m), position, normal, albedo, emission, motion (px while the "
-            "shutter is open), coc (px), and the Cryptomattes objects and materials; or all")
+            "Data layers to add to .exr files: depth (mean and nearest, in m), position, normal, albedo, emission, "
+            "motion (in px while the shutter is open), coc (in px), the Cryptomattes objects and materials, or all. "
+            "They have the same lens blur as the image and are premultiplied by the coverage")
             .clears(MEMBER(layers))
             .example("depth,normal,albedo"),
         rows::choice<ExrNames>("exrNames", "--exr-names", {{"nuke", ExrNames::nuke}, {"blender", ExrNames::blender}},
@@ -161,8 +161,9 @@ Rows developerRows() {
              {"surviving", LevelVertices::surviving},
              {"quarters", LevelVertices::quarters}},
             MEMBER(levelVertices),
-            "Vertices of the simplified levels. fitted: moved so that the level fits full detail best. surviving: a "
-            "subset of the original vertices. quarters: three such subsets, of 100, 75 and 50 %")
+            "Vertices of the simplified levels. fitted: moved to match the original surface best. surviving: a subset "
+            "of the original vertices. quarters: as surviving, but only three levels, with 100, 75 and 50 % of the "
+            "vertices")
             .inShot("/levelVertices")
             .unused(withoutLevels),
         rows::choice<LodCoc>("lodCoc", "--lod-coc", {{"smallest", LodCoc::smallest}, {"centre", LodCoc::centre}},
@@ -179,8 +180,8 @@ Rows developerRows() {
             .unused(methodWithoutSamples),
         rows::boolean(
             "keepAll", "--keep-all", MEMBER(keepAll),
-            "Draw hidden parts, too, which takes longer and changes no pixel. Draw blur even if it is below half "
-            "a pixel everywhere, with all samples, which changes the image slightly")
+            "Turn off two shortcuts: hidden parts are drawn, too (slower, same image), and all lens samples are drawn "
+            "even if no blur reaches half a pixel (changes the image slightly)")
             .effect(SettingEffect::run),
         rows::other(
             "memory", "--memory", "SIZE",
@@ -189,9 +190,10 @@ Rows developerRows() {
                 if (!request.memory) return std::nullopt;
                 return fmt::format("{}B", *request.memory);
             },
-            "Maximum memory of the program, such as 2GiB. Smaller limits draw fewer samples at once, or the image in "
-            "tiles; the image stays the same. With a limit, method auto is accumulation, as multirate cannot draw "
-            "tiles. Default: three quarters of the free memory")
+            "Maximum memory that the program may use, such as 2GiB. With less memory it draws fewer samples at once, "
+            "or "
+            "the image in tiles; the result is the same. With this option, --method auto chooses accumulation, because "
+            "multirate cannot draw tiles. Default: three quarters of the free memory")
             .clears(MEMBER(memory))
             .effect(SettingEffect::run),
         rows::integer(

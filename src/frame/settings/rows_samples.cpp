@@ -68,9 +68,9 @@ Row samplesRow() {
 
 Row positionsRow() {
     return rows::integer("positions", "--positions", 1, 4, MEMBER(positions),
-                         "Number of pixel positions that each lens sample draws: 1, or 4 in a grid of 2 x 2, which "
-                         "smooths edges as 2 to 4 samples do. auto: 4 for a still image with --samples auto and "
-                         "--method auto that has many triangles and little blur, else 1")
+                         "Number of positions in each pixel at which a lens sample draws the scene: 1, or 4 in a grid "
+                         "of 2 x 2, which smooths edges like 2 to 4 times as many samples. auto: 4 for still images of "
+                         "many triangles and little blur if --samples and --method are auto, else 1")
         .metavar("1|4|auto")
         .choices({"auto"})
         .values(
@@ -133,16 +133,18 @@ Rows sampleRows() {
         rows::choice<std::optional<LodMode>>(
             "lod", "--lod", modes, MEMBER(lod),
             "Levels of detail of blurred objects. nearest: one level per object. fractional: the "
-            "lens samples are divided between two levels. continuous (the default of 'defocus capture'): as "
-            "fractional, and one sample draws both levels, each in some of its pixels, for smoother transitions. off: "
-            "full detail. auto: fractional, or off for a still image with --samples auto whose levels would take "
-            "longer to build than they save")
+            "lens samples are divided between two levels. continuous (the default of 'defocus capture'): like "
+            "fractional, but one sample draws both levels, each in a part of its pixels, for smoother transitions. "
+            "off: "
+            "full detail. auto: fractional, but off for a still image with --samples auto if building the levels would "
+            "take more time than they save")
             .inShot("/lod"),
         rows::number("blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(blurThreshold),
-                     "For --lod-metric size and score: permitted length of triangle edges, in px, per px of blur. For "
-                     "error: permitted error, in px, per px of blur. For proportional: the level used when an object's "
-                     "blur is as large as its bounding box. A larger value is coarser and faster. Default: 10 for "
-                     "proportional, else depends on the number of samples")
+                     "How much blurred objects are simplified; larger values are coarser and faster. With --lod-metric "
+                     "size or score: permitted length of triangle edges, in px per px of blur. With error: permitted "
+                     "error, in px per px of blur. With proportional: number of the level of an object whose blur is "
+                     "as large as its bounding box. Default: 10 for proportional, else depends on the number of "
+                     "samples")
             .example("0.2")
             .inShot("/blurThreshold")
             .unused(withoutLevels),
@@ -156,9 +158,9 @@ Rows sampleRows() {
             .unused(withoutLevels),
         rows::number(
             "lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(lightThreshold),
-            "For --lod-metric measured: max product, in px, of a level's projected edge length and the relative "
-            "error of its blurred shading (docs/reference.md); a larger value is coarser and faster. "
-            "Default: depends on the number of samples")
+            "With --lod-metric measured: how much error simplified levels may have; larger values are coarser and "
+            "faster. Limits the product of a level's edge length in the image, in px, and the relative error of its "
+            "blurred shading (docs/reference.md). Default: depends on the number of samples")
             .unit("px")
             .example("0.1")
             .inShot("/lightThreshold")
