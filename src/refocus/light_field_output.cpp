@@ -32,7 +32,7 @@ LightFieldOutput::LightFieldOutput(SceneDriver& driver, std::filesystem::path pa
 }
 
 void LightFieldOutput::checkPath(const std::filesystem::path& path) {
-    if (path.extension() != ".exr")
+    if (!isExr(path))
         throw UsageError(fmt::format("--lens-images writes an EXR file; give a file name that ends with .exr, not '{}'",
                                      path.string()));
 }

@@ -54,7 +54,7 @@ FoundTiles tilesIn(const fs::path& folder, const RowFileHeader& wanted) {
 }  // namespace
 
 void FrameOutput::check(const FrameFiles& files, const Request& request) {
-    const bool oneExr = files.outputs.size() == 1 && files.outputs.front().extension() == ".exr";
+    const bool oneExr = files.outputs.size() == 1 && isExr(files.outputs.front());
     if (files.samples) {
         if (stopSettings(request).given())
             throw UsageError("--sample-range cannot be combined with --target-error or --time-limit; give --samples");

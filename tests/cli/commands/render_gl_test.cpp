@@ -279,6 +279,7 @@ TEST_F(Render, theNumberOfSamplesIsAutomatic) {
         return samples;
     };
     EXPECT_EQ(rendered("sharp.exr", {"--no-dof"}), 16) << "pinhole samples only smooth edges";
+    EXPECT_TRUE(json::parse(textOf(folder() / "stats.json")).value("estimatedError", json()).is_null()) << "no trial";
     EXPECT_EQ(rendered("little.exr", {"--fstop", "4"}), 16);
     EXPECT_EQ(rendered("little4.exr", {"--fstop", "4", "--positions", "4"}), 4) << "with 4 positions each";
     const int many = rendered("much.exr", {"--fstop", "0.3", "--focus-distance", "1"});
