@@ -168,7 +168,7 @@ public:
         clock_.fill(stats);
         stats.wave = waves_.layers();
         stats.threads = waves_.threads();
-        stats.layerFormat = layerFormatName(sum_->info().format);
+        if (sum_) stats.layerFormat = layerFormatName(sum_->info().format);  // no frame may have been drawn yet
         stats.passes = waves_.times();
         for (const PassTime& pass : stats.passes) stats.gpuMilliseconds += pass.milliseconds;
         stats.passes.push_back({"sum", sumTimer_.milliseconds()});
