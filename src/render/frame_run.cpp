@@ -61,7 +61,7 @@ void FrameRun::startAutomatic(const RenderSettings& settings, const StopSettings
     plan_ = planned(automatic_->settings);
     const bool nothingBlurred = plan_.samples.size() < blockSamples;
     startAbout(firstSamples(plan_, automatic_->quality));
-    if (nothingBlurred) trial_.reset();  // a plan without blur has a fixed number of samples
+    if (nothingBlurred) trial_.reset();  // the number of samples is fixed, so no estimate is needed
 }
 
 // Starts a frame whose quality is that of about `samples` samples with one pixel position each. Fewer than 64 samples
@@ -161,7 +161,7 @@ bool FrameRun::advance() {
 bool FrameRun::endTrial() {
     const bool assessed = trial_->samples() == samples();
     const bool halved = trial_->samples() > 0;
-    if (assessed || !halved || plan_.samples.size() < plan_.settings.sampleCount) return false;
+    if (assessed || !halved) return false;
     trial_->add(renderer_->image(), samples());
     const double excess = trial_->flip().value_or(0) / (excessOfTrial * flipOf(automatic_->quality));
     if (!(excess > 1) || blursBeyondSamples(plan_)) return false;  // the comparison is false for NaN, too

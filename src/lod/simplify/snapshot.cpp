@@ -41,7 +41,7 @@ double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
 }
 
 // Returns true if all face normals are within 60° of the first face normal. The mean of the normals is then long enough
-// to keep the wedge, whatever the corner angles are.
+// to keep the wedge for any corner angles.
 bool surelyAgree(std::span<const CornerNormal> corners) {
     const glm::dvec3& first = corners[0].normal;
     const double limit = minResultant * minResultant * glm::dot(first, first);

@@ -55,8 +55,8 @@ TilingNeeds needsBeforeUpload(const World& world, const FramePlan& plan, const D
 TilingNeeds measuredNeeds(const World& world, const FramePlan& plan, const DrawLimits& limits, Renderer& renderer,
                           std::uint64_t limit);
 
-// Returns true if an untiled frame of this size, without data layers, fits into `limit` bytes whatever its plan is;
-// false if it may not fit. `mapsPossible` says whether the frame may have shadow maps.
+// Returns true if every untiled frame of this size, without data layers, fits into `limit` bytes; false if some may not
+// fit. `mapsPossible` says whether the frame may have shadow maps.
 bool surelyFits(int width, int height, bool mapsPossible, const DrawLimits& limits, std::uint64_t limit);
 
 // Returns whether a frame that is not yet uploaded must be drawn in tiles. Throws Error (see refuseTiles) if tiles are
