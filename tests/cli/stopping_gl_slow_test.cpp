@@ -87,16 +87,16 @@ TEST_F(Stopping, partialImagesAreKeptOnDemand) {
     EXPECT_LT(samples, 128);
 }
 
-// One step of the method `line` (a call of Renderer::advance()) takes ten seconds or more, so the signal arrives within
-// a step.
+// One step of the method `line` (a call of Renderer::advance()) takes seconds, so the signal usually arrives within a
+// step. On a fast machine, the first step can end before.
 TEST_F(Stopping, aLongStepIsNotAwaited) {
     warmUp({"render", "--quiet", "--size", "512x384"});
     const Words words = {"render",    "--quiet", "--size",         "512x384", "--method", "line",
                          "--samples", "64",      "--keep-partial", "-o",      "a.exr"};
-    const End end = ended(words, SIGINT, 8);
+    const End end = ended(words, SIGINT, 4);
     EXPECT_EQ(end.code, 1);
     EXPECT_LT(end.seconds, 2.5);
-    EXPECT_NE(end.said.find("of 64 samples; "), std::string::npos) << end.said;
+    EXPECT_NE(end.said.find("of 64 samples"), std::string::npos) << end.said;
 }
 
 TEST_F(Stopping, theSecondThreadWritesTheImageSoFar) {
