@@ -2,8 +2,6 @@
 # folder src/NAME (or src/FOLDER) and its subfolders. ONLY builds a single .cpp file of the folder; WITHOUT omits one. A
 # module links only modules that src/CMakeLists.txt lists before it, so that includes of later modules fail to build.
 
-include(CheckIPOSupported)
-
 add_library(defocus_options INTERFACE)
 target_compile_features(defocus_options INTERFACE cxx_std_20)
 target_compile_options(defocus_options INTERFACE -Wall -Wextra -Wpedantic -Wnon-virtual-dtor)
