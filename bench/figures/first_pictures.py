@@ -19,7 +19,7 @@ SCENES = ["FlightHelmet/FlightHelmet.gltf", "Fox.glb", "Suzanne.glb", "WaterBott
           "japanese-bridge-garden-meshopt.glb", "GlassVaseFlowers.glb", "MetalRoughSpheresNoTextures.glb", "CornellBox.glb",
           "AlphaBlendModeTest.glb", "NegativeScaleTest.glb", "InterpolationTest.glb", "skull.glb", "hammer.glb", "mountain.glb",
           "AnimatedMorphCube.glb", "RecursiveSkeletons.glb", None]  # None stands for the built-in school of fish
-FORMS = [("before", ["--units", "m", "--tonemap", "none", "--exposure", "0"]), ("today", []), ("with --ground", ["--ground"])]
+FORMS = [("plain", ["--units", "m", "--tonemap", "none", "--exposure", "0"]), ("defaults", []), ("with --ground", ["--ground"])]
 COMMON = ["--fstop", "1.4", "--size", "512x384", "--quiet"]
 
 
