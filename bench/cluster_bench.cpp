@@ -1,6 +1,7 @@
-// Measures the time that cluster culling saves, at full detail and with levels of detail. Step 1 culls clusters that
-// face away or lie outside the image for all lens samples and instants of the exposure (plan/visible/visibility.h).
-// Step 2 also culls clusters that are occluded in a sample (render/occlusion/occlusion.h).
+// Measures the time that culling saves, at full detail and with levels of detail. Culling has two steps. Step 1 culls
+// clusters (small groups of triangles) that face away or lie outside the image for all lens samples and instants of the
+// exposure (plan/visible/visibility.h). Step 2 also culls triangles that are occluded in a sample
+// (render/occlusion/occlusion.h).
 //
 //   defocus_cluster_bench [SCENE …]      without scenes: the school of fish
 //
@@ -59,13 +60,13 @@ double medianRatio(std::vector<double> complete, const std::vector<double>& lean
     return complete[turns / 2];
 }
 
-// Returns the plan with occlusion culling (step 2) disabled.
+// Returns the plan without occlusion culling.
 FramePlan withHidden(FramePlan plan) {
     plan.settings.keepAll = true;
     return plan;
 }
 
-// Returns the plan with all clusters of its levels, including the clusters that step 1 culls because they face away or
+// Returns the plan without cluster culling: its levels are drawn completely, including the clusters that face away or
 // lie outside the image.
 FramePlan drawnWhole(const World& world, FramePlan plan) {
     for (ObjectPlan& object : plan.objects) {

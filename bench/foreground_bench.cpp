@@ -1,18 +1,20 @@
-// Measures the time that a limit on the foreground blur saves (Munkberg, Toth and Akenine-Möller 2012). One scene is
-// seen through leaves that nearly touch the lens, as in their Figure 7. The other is a game of chess with a moving
-// queen in front, as in their Figure 4. Our rasteriser draws one lens sample per instance, so its pixel work per
-// triangle doesn't grow with the blur. A limit saves only the work for triangles that lie outside the image and would
-// be blurred into the image. A limit also makes levels of detail finer.
+// Measures the time that a limit on the foreground blur saves (Munkberg, Toth and Akenine-Möller 2012), in two scenes.
+// The first is seen through leaves that nearly touch the lens, as in their Figure 7. The second is a game of chess with
+// a moving queen in front, as in their Figure 4. The rasteriser draws the scene once per lens sample, so its pixel work
+// per triangle doesn't grow with the blur. A limit saves only the work for triangles that lie outside the image and
+// would be blurred into the image. On the other hand, objects with less blur use finer levels of detail.
 //
 //   defocus_foreground_bench [--stochastic]   --stochastic: measures only method "stochastic"
 //
-// Held equal: camera, lens, size, lens samples, renderer and process. Runs of all limits alternate; the fastest run for
-// each limit counts. CPU is the time of all threads, which depends less on other load. `work` is the heat map of
-// --aov work: triangles that touch a pixel, per lens sample.
+// Held equal: camera, lens, size, lens samples, renderer and process. Runs of all limits alternate; the table has the
+// fastest run for each limit. Column "CPU" is the CPU time of all threads, which depends less on other load. Columns
+// "work" and "most" are the mean and the max over the heat map of --aov work: the number of triangles that cover a
+// pixel, per lens sample.
 //
-// Then measures method "stochastic", with the circle of confusion C linear inside triangles as published: the time, and
-// the number of triangles tested for each ray, which is the paper's measure of work. The method tests a triangle only
-// for rays whose part of the lens can see the triangle, and stops behind the nearest hit.
+// Then measures method "stochastic", with the circle of confusion interpolated linearly inside triangles, as in the
+// paper. The table has the time and the number of triangles tested for each ray, which is the paper's measure of work.
+// Each ray passes through a small part of the lens. The method tests the ray only against triangles that this part of
+// the lens can see, and skips triangles behind the nearest hit.
 
 #include <fmt/format.h>
 
@@ -125,8 +127,9 @@ void measureStochastic(const Figure& figure) {
         view.lens.foregroundLimit = limit;
         rows.push_back({.limit = limit, .plan = planFrame(frame.world, view, frame.settings)});
     }
-    // Interpolate C linearly in triangles, as preset munkberg2012 does: dividing triangles would slow only the frames
-    // with a limit.
+    // Interpolate the circle of confusion (CoC) linearly in triangles, as preset munkberg2012 does. The default
+    // subdivides triangles in which the CoC isn't linear. Such triangles occur only with a limit, so subdivision would
+    // slow only the frames with a limit.
     RendererOptions linear;
     linear.settings = {{"coc-interpolation", "linear"}};
     const auto renderer = methodNamed("stochastic").make(frame.world, linear);

@@ -6,14 +6,14 @@
 //
 // Held constant within a table: scene, camera, lights, image size and process. In Table 1, the blur of the most blurred
 // object is a tenth of the image's width. In Figure 7, each row of the table states the blur, and the focal plane is in
-// front of all objects. Times are medians of three frames, drawn alternately after one frame that compiles the shaders.
-// Errors are RMSE of display-encoded images against accumulation with 1,600 samples of another seed at full detail.
-// Errors "of 8 x 8 px" compare means over squares of this size, which suppresses noise and keeps structure. "As
-// published" is the method of preset tzeng2012. Its frames and its reference have focus breathing, because the paper's
-// circle of confusion is that of the thin lens with its focal length. Levels of detail are selected by the paper's
-// score, the ratio of blur to edge length. We select among the fractional levels of a pyramid; the paper has three
-// levels with 100, 75 and 50 % of the vertices. The bench checks that every method's RMSE against accumulation is below
-// 0.1.
+// front of all objects. Times are medians of three frames. Each method first draws one frame that compiles its shaders;
+// then the methods take turns. Errors are RMSE of display-encoded images. The reference of Table 1 is accumulation with
+// 1,600 samples of another seed at full detail. The reference of Figure 7 is the same method at full detail. Errors "of
+// 8 x 8 px" compare means over squares of this size, which suppresses noise and keeps structure. "As published" is the
+// method of preset tzeng2012. Its frames and its reference have focus breathing, because the paper's circle of
+// confusion is that of the thin lens with its focal length. Levels of detail are selected by the paper's score, the
+// ratio of blur to edge length. We select among the fractional levels of a pyramid; the paper has three levels with
+// 100, 75 and 50 % of the vertices. The bench checks that every RMSE is below 0.1.
 
 #include <fmt/format.h>
 
@@ -43,7 +43,7 @@ using namespace defocus::engine;
 constexpr int timedFrames = 3;
 constexpr std::uint32_t referenceSamples = 1600;
 constexpr double tableBlur = 0.1;     // largest blur in Table 1, as a fraction of the image's width
-constexpr double largestError = 0.1;  // max RMSE relative to the image of method accumulation
+constexpr double largestError = 0.1;  // max RMSE relative to the reference of the table
 
 struct Measured {
     double milliseconds = 0;

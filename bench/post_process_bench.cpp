@@ -3,8 +3,8 @@
 //   its complete square;
 // - the times of the variants that the performance slide of Garcia 2018 compares.
 //
-// Held constant within a table: image, process, kernel. Variants run alternately; the median time counts. Checks that
-// the separable and the direct blur agree.
+// All rows of a table have the same image and the same process (run of the program). Variants run alternately, and the
+// tables have median times. Checks that the separable and the direct blur agree.
 
 #include <fmt/format.h>
 

@@ -4,21 +4,22 @@
 // the complete buildPyramid: repair, collapses, errors, clusters, fitted positions, normals and colours. "levels" is
 // repair and collapses only, by quadrics of positions and attributes, with the triangles of each level. "meshoptimizer"
 // is meshopt_simplify, applied from level to level. "DecimaterT" is OpenMesh's decimater with its quadric module on a
-// mesh with welded positions. meshoptimizer and DecimaterT produce no attributes. "times as fast" compares levels and
-// pyramid with DecimaterT. "bytes each" is the peak memory of buildPyramid per triangle of the mesh, including the
-// result. --million adds a fish with a million triangles, smooth and flat-shaded.
+// mesh with welded positions. meshoptimizer and DecimaterT produce no attributes. "times as fast" is the time of
+// DecimaterT divided by the time of "levels" or "pyramid". "bytes each" is the peak memory of buildPyramid per triangle
+// of the mesh, including the result. --million adds a fish with a million triangles, smooth and flat-shaded.
 //
 // Distance. Held constant: the mesh, welded by position, and the triangle count of each level. meshoptimizer simplifies
-// level 0 directly to that count. The measure is the larger of the mean distances to and from level 0. "mean" is the
-// geometric mean of the ratios over all levels.
+// level 0 directly to that count. The distance is the larger of the mean distances to and from level 0. The table is
+// about the distance of the pyramid's level divided by the distance of meshoptimizer's level. "mean" is the geometric
+// mean of this ratio over all levels.
 //
-// Appearance. Held constant: the largest mesh of each scene, the triangle count of each level (meshoptimizer gets our
-// counts), camera, lens, 32 lens samples, 512 x 384 px. Each level is drawn at the blur at which the default thresholds
-// select it, and compared with level 0 under the same blur. meshoptimizer's levels keep the attributes of the surviving
-// vertices; its meshopt_simplify ignores attributes (version 0.18).
+// Appearance. Held constant: the largest mesh of each scene, the triangle count of each level (meshoptimizer gets the
+// counts of the pyramid), camera, lens, 32 lens samples, 512 x 384 px. Each level is drawn at the blur at which the
+// default thresholds select it, and compared with level 0 under the same blur. meshoptimizer's levels keep the
+// attributes of the surviving vertices; its meshopt_simplify ignores attributes (version 0.18).
 //
-// Normals. Compares our levels with three kinds of normals: fitted normals, area-weighted means over the level's faces
-// at each position, and normals copied from the surviving vertices.
+// Normals. Compares the pyramid's levels with three kinds of normals: fitted normals, area-weighted means over the
+// level's faces at each position, and normals copied from the surviving vertices.
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -156,7 +157,8 @@ std::size_t decimaterChain(const JoinedSurface& surface) {
     return mesh.n_faces();
 }
 
-// Builds our levels without fitted attributes and measured errors. Returns the number of triangles in the last level.
+// Builds the levels of a pyramid without fitted attributes and measured errors. Returns the number of triangles in the
+// last level.
 std::size_t levelsAlone(const Mesh& mesh) {
     TriangleSet<MeshVertexNumber> triangles;
     for (const Primitive& primitive : mesh.primitives) {
@@ -197,12 +199,12 @@ void timeRow(const std::string& name, const Mesh& mesh) {
     std::fflush(stdout);
 }
 
-// Statistics of a ratio: the distance of our level from level 0, divided by the distance of the other simplifier's
+// Statistics of a ratio: the distance of a pyramid's level from level 0, divided by the distance of meshoptimizer's
 // level from level 0. All levels have equal weight; the mean is geometric.
 struct DistanceRatios {
     double sum = 0;
     int levels = 0;
-    int within = 0;  // number of levels for which the ratio is ≤ 1.1
+    int within = 0;  // number of levels whose distance is at most 1.1 times that of meshoptimizer
     double worst = 0;
 
     void add(double ratio) {
@@ -247,7 +249,8 @@ void distanceRow(const std::string& name, const Mesh& mesh, DistanceRatios& all)
         const auto meanDistance = [&](std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles) {
             return surfaceDistance(prepareSurface(positions, triangles), reference, distancePoints).both.mean;
         };
-        // Distances below float precision, as on flat meshes, are treated as equal.
+        // Raise distances to the precision of float positions. On flat meshes, the ratio would otherwise compare
+        // rounding errors.
         const double exact = 1e-7 * glm::length(mesh.bounds().size());
         const double ratio = std::max(exact, meanDistance(level.positions, indices)) /
                              std::max(exact, meanDistance(joined.positions, peer));
@@ -438,7 +441,7 @@ void conservedRows(const std::string& name, const Mesh& mesh) {
 }
 
 // Prints the errors of a complete scene relative to the converged image, averaged over boxes of 32 x 32 px. "CoC px" is
-// the CoC at the scene's centre. "full detail" is the error of the same number of samples without levels.
+// the CoC at the scene's centre. "full detail" is the error at full detail with the same number of samples as "levels".
 void blurredRows(const std::string& name, const Scene& scene) {
     constexpr int box = 32;
     World world;

@@ -1,9 +1,10 @@
 // Compares sets of lens points: the selectable sequences, and patterns that depend on the number of points. The
 // patterns are Vogel's spiral, rings of points, and a set relaxed to blue noise.
 //
-// The first table shows area errors of the points, on the lens and in the pixel. The second shows image errors by
-// number of lens samples. Held constant: scene, camera, lens, full detail, 32-bit layers, and one reference per scene.
-// The reference has 4,096 samples from a separate part of the Halton sequence. Over the seeds 0 and 1, the RMSE of
+// For the first table, the fraction of the points inside a region estimates the region's area. The table shows the
+// errors of these estimates, for regions of the lens and of the pixel. The second table shows image errors by number of
+// lens samples. Held constant: scene, camera, lens, full detail, 32-bit layers, and one reference per scene. The
+// reference has 4,096 samples from a separate part of the Halton sequence. Over the seeds 0 and 1, the RMSE of
 // display-encoded values is averaged as a root mean square, and FLIP as a mean. The patterns are used on the lens only;
 // their points in the pixel come from `sobol`.
 //
@@ -115,7 +116,7 @@ std::vector<Pattern> patterns() {
     return list;
 }
 
-// ---- area errors of the points, without rendering -------------------------------------------------------------------
+// ---- errors of areas estimated from points, without rendering -------------------------------------------------------
 
 struct Region {
     double area = 0;  // area of the region, as a fraction of the lens or pixel area
@@ -136,7 +137,7 @@ std::vector<Region> halfPlanes() {
     return regions;
 }
 
-// Returns rectangles in the pixel whose lower left corner is the pixel's lower left corner.
+// Returns rectangles in the pixel that all start at its lower left corner.
 std::vector<Region> boxes() {
     std::vector<Region> regions;
     for (int x = 1; x <= 16; ++x)

@@ -58,7 +58,9 @@ Rendered rendered(const char* method, const TruthScene& subject, const Options& 
     RenderSettings settings = fullDetailSettings(wanted.samples);
     settings.sequence = wanted.sequence;
     settings.shadows = shadows;
-    settings.cocTolerance = 0.05;  // in px; small, because the slope of the blur jumps at the foreground limit
+    // Max error in px of the blur interpolated inside triangles. It is small, because the slope of the blur over depth
+    // jumps where a limit on the foreground blur begins.
+    settings.cocTolerance = 0.05;
     Image image = imageOf(*renderer, planFrame(subject.world, subject.view, settings));
     return {std::move(image), renderer->stats()};
 }

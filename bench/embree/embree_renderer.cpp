@@ -267,8 +267,9 @@ LaneMask EmbreeRenderer::lanesInside(const Tile& tile, int place) const {
     return mask;
 }
 
-// Traces a packet for a camera with a foreground limit, where each pixel has a separate lens. Rays first go from the
-// eye to that lens; rays that hit nothing on the way are refracted there and continue behind the lens.
+// Traces a packet for a camera that limits the blur in the foreground. The limit is modelled by a separate lens for
+// each pixel, at a distance from the eye (lens_rays.h). Rays first go from the eye to their pixel's lens. Rays that hit
+// nothing on the way are refracted by this lens and continue behind it.
 void EmbreeRenderer::traceLimited(const Tile& tile, int place, const PacketPoints& points, const LaneMask& mask,
                                   RTCRayHit16& packet) const {
     const int left = tile.left + place % packetsPerTileRow * packetSide;

@@ -6,9 +6,9 @@
 // The pixel filter is a box of 1 px. The output is linear premultiplied RGBA, summed in double. Surfaces are opaque and
 // shaded as in traced_shading.h. Throws Error for environment maps.
 //
-// Optimised, because benches also compare its speed: rays are traced in packets (ray_packet.h), and each tile is traced
-// for several samples in succession. If all pixels share a lens sample, Embree traces packets as coherent. The image
-// doesn't depend on tiles and threads.
+// The code is optimised, because benches also compare its speed: rays are traced in packets (ray_packet.h), and each
+// tile is traced for several samples in succession. If all pixels share a lens sample, Embree traces packets as
+// coherent. The image doesn't depend on tiles and threads.
 
 #include <memory>
 
@@ -20,8 +20,8 @@ enum class EmbreeSampling {
     perPixel,  // each pixel has its own scrambled points on the lens and in the pixel; the error is noise
     shared,    // all pixels share the points on the lens and in the pixel, as in accumulation; the error is banding
     // Like `shared`, but with the points of FramePlan::samples, so that only geometry and visibility can differ from
-    // the rasteriser. Traced watertight; in the other modes, about one ray in a million passes between two adjacent
-    // triangles.
+    // the rasteriser. Uses Embree's watertight intersection tests. In the other modes, about one ray in a million
+    // passes between two adjacent triangles.
     planned,
 };
 

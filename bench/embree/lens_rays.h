@@ -2,9 +2,10 @@
 // Computes rays of a thin lens in camera space, derived from lens geometry instead of the rasteriser's clip-space
 // equations.
 //
-// Every point of the lens sees the plane of focus (depth s) as the lens centre does. The image point (X, Y) ∈ [-1, 1]²
-// (right, up) therefore corresponds to P = s·(X·tan(θx/2), Y·tan(θy/2), -1). The ray from the lens point L = (A/2)·(u,
-// v, 0) through P is
+// The rays of an image point (X, Y) ∈ [-1, 1]² (right, up) meet at a point P of the plane of focus at depth s,
+//   P = s·(X·tan(θx/2), Y·tan(θy/2), -1)
+// with the horizontal and vertical fields of view θx and θy. For a lens of diameter A, the ray from the lens point
+// L = (A/2)·(u, v, 0) through P is
 //   L + t·(X·tan(θx/2) − L.x/s, Y·tan(θy/2) − L.y/s, −1)
 // so t is the depth in metres, and a lens focused at infinity (1/s = 0) needs no special case.
 //
@@ -16,8 +17,8 @@
 //   2·(A/2)·(1/α − 1/s)·W/(2 tan(θx/2)) = c₀
 // With object distance α and image distance s − α, the thin lens has
 //   1/f = 1/α + 1/(s − α) = s/(α(s − α))
-// (Munkberg, Toth and Akenine-Möller 2012, who print f for the right-hand side). A ray that meets the lens at distance
-// h from its centre is bent by −h/f; see eyeRay and refractedRay.
+// (Munkberg, Toth and Akenine-Möller 2012, who print f instead of 1/f). A ray that meets the lens at distance h from
+// its centre is bent by −h/f; see eyeRay and refractedRay.
 //
 // Sampling: Owen-scrambled (0, 2)-sequences (sample_scramble.h), one pair of dimensions for the lens and one for the
 // pixel. packet_samples.h implements the same sampling for packets of rays.
@@ -36,8 +37,8 @@ struct LensCamera {
     double lensRadius = 0;       // lens radius in m; 0: pinhole
     double reciprocalFocus = 0;  // inverse focus distance in 1/m; 0: focus at infinity
 
-    // The two members below are used only with a foreground limit.
-    double lensDepth = 0;  // depth α of the lens in m; 0: no foreground limit, the lens is at the eye
+    // The two members below are used only if the blur in the foreground is limited.
+    double lensDepth = 0;  // depth α of each pixel's lens (see above), m; 0: no limit, one lens at the eye
     double cone = 0;       // tangent of the half angle of the cone of rays from the eye
 };
 
@@ -51,8 +52,8 @@ struct LensRay {
 // Returns the ray from lens point `lens` (unit disk) for image point `image` ([-1, 1]², right and up).
 LensRay lensRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
 
-// Functions for cameras with a foreground limit. eyeRay returns the ray from the eye to the lens at lensDepth.
-// refractedRay returns the ray's continuation behind that lens.
+// Functions for cameras that limit the blur in the foreground by a separate lens for each pixel. eyeRay returns the ray
+// from the eye to this lens at lensDepth. refractedRay returns the ray's continuation behind this lens.
 LensRay eyeRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
 LensRay refractedRay(const LensCamera& camera, const glm::dvec2& image, const LensRay& eye);
 

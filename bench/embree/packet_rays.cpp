@@ -7,8 +7,8 @@ namespace {
 // How a ray changes when the point in the pixel moves by 1 px, or the lens point by the lens radius.
 struct RaySteps {
     float pixelX, pixelY;  // change in slope per px
-    float radius;          // shift of the ray's origin in m, equal to the lens radius
-    float focus;           // change in slope that keeps the ray aimed at its point on the plane of focus
+    float radius;          // lens radius in m; a ray's origin is this radius times its lens point
+    float focus;           // change in slope that keeps the ray aimed at the same point on the plane of focus
 };
 
 DEFOCUS_VECTOR_CLONES void addSamples(const RaySteps& steps, const PacketPoints& points, RTCRayHit16& packet) {

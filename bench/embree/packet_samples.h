@@ -10,17 +10,17 @@
 
 namespace defocus::engine {
 
-// A ReversedPoint (sample_scramble.h) for each of a packet's 16 lanes.
+// Points with reversed bits (ReversedPoint, sample_scramble.h), one for each of a packet's 16 lanes.
 struct ReversedLanes {
     Lanes<std::uint32_t> x, y;
 };
 
-// Returns unscrambledPoint (sample_scramble.h) for all 16 lanes; each lane uses a different one of the 16 point orders.
-// The result is the same for all packets.
+// Returns unscrambledPoint (sample_scramble.h) for all 16 lanes. The points of the sequence are available in 16 orders,
+// and each lane uses a different order. The result is the same for all packets.
 ReversedLanes unscrambledPoints(std::uint32_t index, SamplePair pair, std::uint32_t seed);
 
-// Returns scrambleSeeds (sample_scramble.h) for the streams of a packet's 16 pixels, beginning with firstStream (a
-// multiple of 16). The result is the same for all samples.
+// Returns scrambleSeeds (sample_scramble.h) for a packet's 16 pixels. Pixel i uses the stream (number of its scramble)
+// firstStream + i. firstStream is a multiple of 16. The result is the same for all samples.
 ReversedLanes packetSeeds(std::uint32_t firstStream, SamplePair pair, std::uint32_t seed);
 
 // Writes the scrambled points, in [0, 1)², to `x` and `y`.

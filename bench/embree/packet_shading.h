@@ -32,7 +32,7 @@ private:
     struct Surfaces {
         std::uint32_t miss = 0;                       // geometry id that stands for a miss
         std::vector<std::int32_t> firstColor;         // by geometry: index of the first colour in cornerColors
-        std::vector<std::int32_t> colorsPerTriangle;  // 3, or 0 if all triangles have the same three colours
+        std::vector<std::int32_t> colorsPerTriangle;  // by geometry: 3, or 0 if all triangles share three colours
         std::vector<float> red, green, blue;          // by geometry: components of baseColorFactor
         std::vector<glm::vec3> cornerColors;          // three vertex colours per triangle
     };

@@ -114,7 +114,7 @@ glm::vec2 onDisk(const glm::vec2& place) {
     const float ring = std::max(std::abs(a), std::abs(b));
     if (!(ring > 0)) return glm::vec2(0);
     constexpr float eighth = std::numbers::pi_v<float> / 4;
-    float angle = 0;  // angle from the first axis; each side of a square spans a quarter turn
+    float angle = 0;  // polar angle on the disk; each side of a concentric square becomes a quarter turn
     if (std::abs(a) > std::abs(b))
         angle = a > 0 ? eighth * b / a : eighth * (4 + b / a);
     else

@@ -16,7 +16,7 @@ import numpy
 
 from figures.command import ROOT, parser_of
 
-CORNER_GUARD = 0.2  # weight of the penalty on the square's corners (circularKernel)
+CORNER_GUARD = 0.2  # weight of the penalty on the kernel in the corners of its square (circular_kernel.h)
 ROUGH, FINE = 1e-4, 1e-10  # min relative gain of a step that counts as progress: in rough fits, and in the final fit
 DIFFERENCE = 1e-6  # step of numerical derivatives
 MAX_DAMPING = 1e12

@@ -37,7 +37,8 @@ def start_blender(program, script, settings, under=()):
 
     under: words before the command, such as xvfb-run.
     """
-    # Debian's Blender uses the first Python in PATH, so put Blender's folder first.
+    # Debian's Blender uses the first Python in PATH. Put the folder of the Blender program first, because Debian's
+    # Python is in the same folder.
     environment = os.environ | {"PATH": f"{pathlib.Path(program).parent}:{os.environ['PATH']}"}
     return subprocess.Popen([*under, program, "-b", "-noaudio", "--factory-startup", "--python-exit-code", "1",
                              "-P", pathlib.Path(__file__).with_name(script), "--", json.dumps(settings)],

@@ -31,7 +31,7 @@ Results = namedtuple("Results", "measured_on subject rows")
 Change = namedtuple("Change", "old new verdict beyond_limit", defaults=(False,))
 
 
-# ---- reading of results ---------------------------------------------------------------------------------------------
+# ---- read results ----------------------------------------------------------------------------------------------------
 
 
 def numeric(value):
@@ -107,7 +107,7 @@ def read(file):
         sys.exit(f"{file}: {fault}")
 
 
-# ---- verdicts on rows -----------------------------------------------------------------------------------------------
+# ---- compare rows ----------------------------------------------------------------------------------------------------
 
 
 def unlike_subjects(old, new):
@@ -163,7 +163,7 @@ def compare(old, new):
                     for row, other in pairs]
 
 
-# ---- text of the comparison -----------------------------------------------------------------------------------------
+# ---- write the comparison as text ------------------------------------------------------------------------------------
 
 
 def ratio(new, old):

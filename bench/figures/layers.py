@@ -15,7 +15,7 @@ from figures.timed import time_scenes, timed
 
 TOGETHER = "depth,normal,albedo"
 LAYERS = ("depth", "normal", "albedo", TOGETHER, "position", "objects")
-WIDTHS = (9, 9, 9, len(TOGETHER) + 3, 11, 10)  # widths of the columns, characters
+WIDTHS = (9, 9, 9, len(TOGETHER) + 3, 11, 10)  # widths of the columns in characters
 
 
 def render(command, folder, layers):

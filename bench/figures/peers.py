@@ -57,7 +57,7 @@ class Point(NamedTuple):
 class Time(NamedTuple):
     cpu: float
     wall: float
-    at_most: bool = False  # True: upper bound, because even the image with the fewest samples reaches the target error
+    at_most: bool = False  # True: upper bound, because the image with the fewest samples already reaches the error
 
 
 def time_to(points, metric, target):
@@ -100,7 +100,7 @@ def winner(times):
         return "none"
     first = min(reached, key=lambda name: reached[name].cpu)
     if any(time.at_most for name, time in reached.items() if name != first):
-        return "undecided"  # another renderer's time is only an upper bound
+        return "undecided"  # another renderer may be faster, because its time is only an upper bound
     rival = reached.get("embree-shared")
     if first.startswith("embree") or not rival or reached[first].at_most:
         return first

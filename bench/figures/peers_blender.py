@@ -86,7 +86,7 @@ def main(given):
     scene = prepared_scene(given["facts"], given["width"], given["height"])
     method = given["method"]
     scene.render.engine = {"cycles": "CYCLES", "eevee": "BLENDER_EEVEE"}[method]
-    render(scene, 1, 0, f"{given['folder']}/first.exr")  # untimed: Blender loads kernels and builds the hierarchy
+    render(scene, 1, 0, f"{given['folder']}/first.exr")  # untimed: Blender loads kernels and builds its BVH
     for samples in (1, *given["counts"]):
         runs = [render(scene, samples, 0, f"{given['folder']}/{method}-{samples}.exr")
                 for _ in range(3 if samples <= 32 and method == "cycles" else 1)]

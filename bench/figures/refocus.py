@@ -26,7 +26,7 @@ FRAMES = 96
 
 class Scene(NamedTuple):
     name: str
-    subject: tuple  # command-line words that select the scene
+    subject: tuple  # command-line arguments that select the scene
     size: str
     focus: str  # focus distance of the lens images, m
     near: str  # near end of the focus range, m

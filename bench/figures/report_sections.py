@@ -141,7 +141,7 @@ def speedup_section(results, *_):
             "with its least and most.</p>", facts(results)]
 
 
-# ---- the other benches ----------------------------------------------------------------------------------------------
+# ---- popping, scaling and stability ----------------------------------------------------------------------------------
 
 
 def popping_section(results, _, report):

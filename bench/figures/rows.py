@@ -8,7 +8,7 @@ MODES = {  # level mode: (label, index into the palette)
 METRICS = {"error": " by error", "proportional": " by blur over box", "score": " by score"}
 
 
-# ---- texts for rows and values --------------------------------------------------------------------------------------
+# ---- labels, and values as text --------------------------------------------------------------------------------------
 
 
 def label_of(row):

@@ -47,8 +47,9 @@ std::vector<Board> threeBoards(const View& view, double nearest, double farthest
 // finite. The images must have the same size.
 double largestError(const Image& a, const Image& b);
 
-// Returns the blur diameter c = A·|1/s − 1/z|·W / (2 tan(θx/2)) in px, with aperture diameter A, focus distance s and
-// depth z in m, and W the width of the image in px. Computed in double from the lens alone.
+// Returns the blur diameter c = A·|1/s − 1/z|·W / (2 tan(θx/2)) in px, with the aperture diameter A, focus distance s
+// and depth z in m, the horizontal field of view θx, and the image width W in px. Computed in double from the lens
+// alone.
 double blurDiameter(const View& view, double depth);
 
 // Errors of the image of a blurred square light (made by squareAt) relative to the exact image. The measured diameter

@@ -33,7 +33,8 @@ double diskShare(double distance, double diameter) {
 }
 
 // Returns the max error of a pixel relative to the exact image. At the depth of the half plane, the rays of a pixel
-// fill one disk. Rays that miss the half plane see the wall, so the two fractions add up to 1.
+// fill one disk. The half plane's colour is weighted by the fraction of the disk that it covers. The remaining rays see
+// the wall.
 double edgeError(const Edge& edge) {
     const View& view = edge.view;
     const glm::dvec3 near(0.9, 0.5, 0.1);
@@ -67,7 +68,7 @@ Edge macroEdge(double fStop, double depth) {
     return edge;
 }
 
-// Returns an edge at 0.02 m in front of a wall at 2,000 km, with a focus distance at which both are blurred.
+// Returns an edge 0.02 m from the camera, in front of a wall 2,000 km away. The focus distance blurs both.
 Edge deepEdge() {
     Edge edge{.view = boardView(), .depth = 0.02, .wall = 2e6};
     edge.view.lens.focusDistance = 0.035;

@@ -11,10 +11,10 @@
 
 namespace defocus::engine {
 
-// Max errors with which the blur disk of a small light counts as following the lens equation.
-inline constexpr double honestDiameter = 0.5;  // max error of the disk's diameter, px
-// Max error of the disk's total radiance (energy), relative to that of the light without blur. Noise alone gives 0.02
-// for methods with 256 independent samples per pixel.
+// Max errors for which the blur disk of a small light agrees with the lens equation (HonestyRow::followsLens).
+inline constexpr double honestDiameter = 0.5;  // max error of the blur disk's diameter, px
+// Max error of the blur disk's total radiance (energy), relative to the energy of the light without blur. Noise alone
+// causes errors of 0.02 for methods with 256 independent samples per pixel.
 inline constexpr double honestEnergy = 0.05;
 
 struct HonestyRow {
@@ -23,7 +23,7 @@ struct HonestyRow {
     double expected = 0;       // blur diameter by the lens equation, px
     double measured = 0;       // blur diameter derived from the image's second moment, px
     double energy = 0;         // sum of the light's radiance, relative to the light without blur
-    std::string leftOut = {};  // why the driver cannot draw the method; empty if it can
+    std::string leftOut = {};  // why the method was not measured, such as a limit of the driver; else empty
     [[nodiscard]] bool followsLens() const;
 };
 
@@ -31,10 +31,10 @@ struct HonestyRow {
 // variant changes one setting to another of its choices, or to its max value.
 std::vector<std::string> honestyMethods();
 
-// Measures each method in all cases, and calls `visit` with a row for each case. The light is a square of 3 px, in
-// front of a black wall at nearly the same depth. The measured diameter is that of a uniform disk with the same second
-// moment as the image. A method that the driver cannot draw has a single row with the reason. Needs a current GL
-// context.
+// Measures the blur of a small light with each method, and calls `visit` with a row for each tested value of a
+// parameter (such as the f-number). The light is a square of 3 px, in front of a black wall at nearly the same depth.
+// The measured diameter is that of a uniform disk with the same second moment as the image. If a method fails, for
+// example because the driver does not support it, its last row states the reason. Needs a current GL context.
 void measureHonesty(const std::vector<std::string>& methods, const std::function<void(const HonestyRow&)>& visit,
                     const Progress& progress = {});
 

@@ -51,8 +51,9 @@ Path toAndFro(int turns) {
     };
 }
 
-// Returns the max error of the image's middle row relative to a trapezoid: the square covers a column while |x −
-// position| < halfSide, and its position is uniformly distributed over the path.
+// Returns the max error of the image's middle row relative to the exact brightness of the moving square. Over x, this
+// brightness is a trapezoid: the square covers a column while |x − position| < halfSide, and its position is uniformly
+// distributed over the path.
 double trapezoidError(const Image& image) {
     double largest = 0;
     for (int x = 0; x < image.width; ++x) {

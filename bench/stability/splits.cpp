@@ -14,8 +14,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double nudge = 1e-6;                 // tiny change of λ
-constexpr double oneSample = 1 + 1e-4;         // max change: one sample, plus rounding of 32-bit layers
+constexpr double nudge = 1e-6;                 // tiny change of λ, the fractional level of detail
+constexpr double oneSample = 1 + 1e-4;         // max change in samples; 1e-4 is for the rounding of 32-bit float layers
 constexpr std::uint32_t renderedSamples = 60;  // not a multiple of the number of samples drawn together
 
 // Returns a unit sphere made of rings of quads. Its levels have different silhouettes.
@@ -53,7 +53,8 @@ struct Ball : BoardScene {
     }
 };
 
-// Renders the ball with the size threshold that gives `lambda`. Returns an empty image if the plan has another λ.
+// Renders the ball with the size threshold that selects the fractional level `lambda`. Returns an empty image if the
+// plan selects another level.
 Image imageAt(Ball& ball, double lambda, LodMode mode) {
     const std::vector<PyramidLevel>& levels = ball.world.pyramids[0].levels;
     const auto level = static_cast<std::size_t>(lambda);
@@ -67,8 +68,8 @@ Image imageAt(Ball& ball, double lambda, LodMode mode) {
                     {.layerFormat = LayerFormat::rgba32f, .wave = 8, .shaderFolder = {}, .settings = {}});
 }
 
-// Returns the max change of a pixel when λ changes from `from` to `to`, in units of 1/N for N samples. One sample
-// changes a pixel by at most 1 unit.
+// Returns the max change of a pixel when the fractional level changes from `from` to `to`, in units of 1/N for N
+// samples. One sample changes a pixel by at most 1 unit.
 double movedSamples(double from, double to, LodMode mode) {
     Ball ball;
     const Image before = imageAt(ball, from, mode);
@@ -85,7 +86,8 @@ void addSplitCases(std::vector<StabilityCase>& cases) {
     };
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous}) {
         const char* name = lodModeName(mode);
-        // λ at which the 21st sample switches to the coarser level (fractional) or begins to switch (continuous).
+        // Fractional level at which the 21st sample switches to the coarser level (LodMode::fractional) or begins to
+        // switch (LodMode::continuous).
         const double boundary = 1 + (mode == LodMode::fractional ? 20.5 : 20) / renderedSamples;
         for (const double level : {1.0, 2.0})
             add(fmt::format("rendered: level {:g} by ±1e-6, {}", level, name), oneSample, level - nudge, level + nudge,

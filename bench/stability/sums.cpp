@@ -57,7 +57,7 @@ double plainError(float value, std::uint32_t samples, std::uint32_t wave) {
 }
 
 // Returns the max relative error for a light of radiance 10,000 that is blurred over a background of radiance 0.0001.
-// The reference is the sum in double of the samples, each drawn separately.
+// The reference draws each sample separately and sums the samples in double precision.
 double mixedError() {
     constexpr std::uint32_t samples = 300;
     View view = boardView(24, 16);

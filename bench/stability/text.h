@@ -1,5 +1,6 @@
 #pragma once
-// Writes the rows of the stability benchmark and of the lens-honesty test as text tables and JSON.
+// Writes the rows of the stability benchmark, and of the test of blur against the lens equation (lens_honesty.h), as
+// text tables and JSON.
 
 #include <span>
 #include <string>
@@ -15,8 +16,8 @@ namespace defocus::engine {
 std::string stabilityLine(const StabilityRow& row, const StabilityRow* before);
 std::string honestyHeader();
 std::string honestyLine(const HonestyRow& row);
-// Returns a line for each method and its settings: the largest error, and the number of rows whose blur follows the
-// lens (see lens_honesty.h).
+// Returns a line for each method and its settings: the largest error, and the number of rows whose blur agrees with the
+// lens equation (HonestyRow::followsLens).
 std::string honestySummary(std::span<const HonestyRow> rows);
 std::string stabilityJson(std::span<const StabilityRow> rows, std::span<const HonestyRow> honesty,
                           const BenchSubject& subject);

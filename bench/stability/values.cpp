@@ -17,7 +17,7 @@ namespace {
 
 constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
 
-// Returns the number of wrong pixels around a small board whose material is NaN. All pixels must be finite; pixels
+// Returns the number of wrong pixels around a small board whose radiance is NaN. All pixels must be finite; pixels
 // outside the board's blur must not differ from the scene without the board.
 double materialError() {
     View view = boardView();
@@ -90,7 +90,7 @@ double lightTexelError(float metallic) {
         wall.world.environment = surroundings(x);
         return rendered(wall);
     };
-    const Image image = picture(0);  // the texel is behind the camera, in the direction that the wall faces
+    const Image image = picture(0);  // the NaN texel lies behind the camera, where it lights the wall
     const Image reference = picture(-1);
     double largest = 0;
     for (int y = 0; y < image.height; ++y)
@@ -116,7 +116,8 @@ void addValueCases(std::vector<StabilityCase>& cases) {
     };
     addSky("half-float", LayerFormat::rgba16f);
     addSky("32-bit", LayerFormat::rgba32f);
-    // The texel makes up 2e-4 of the irradiance and 3e-5 of the smallest mip level.
+    // NaN counts as black. Without NaN, the texel would contribute 2e-4 of the irradiance and 3e-5 of the smallest mip
+    // level, so that the error is below the limit of 1e-3.
     add("a NaN texel in the map's light, rough metal", "radiance, relative", "the map without it", 1e-3,
         [] { return lightTexelError(1); });
     add("a NaN texel in the map's light, not metal", "radiance, relative", "the map without it", 1e-3,

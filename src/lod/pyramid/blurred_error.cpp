@@ -19,33 +19,35 @@ namespace {
 
 constexpr std::size_t viewCount = 4;
 constexpr int minResolution = 128;
-constexpr int maxResolution = 512;  // max cells per side of an image; BlurTable holds patches of 2, 4, … 512 cells
+constexpr int maxResolution = 512;  // max pixels per side of an image; BlurTable has patches of side 2, 4, … 512 pixels
 static_assert(maxResolution == 1 << (blurSizes - 1));
-constexpr double minBlurredGrowth = 1.1;  // min ratio of the blurred errors of consecutive levels
-constexpr double minError = 1e-6;         // min blurred error of level 1
-// On a grey background, the error of a level may reach this fraction of the limit. A fraction of 1 would raise the FLIP
-// error of a smooth surface in focus by more than a fifth.
+constexpr double minBlurredGrowth = 1.1;  // min ratio of the errors of consecutive levels after blurring
+constexpr double minError = 1e-6;         // min error of level 1 after blurring, relative to the mesh's mean radiance
+// On a grey background, the relative error E/V of a level may reach only this fraction of its limit (measuredLimit).
+// With 1 instead of 0.9, levels would raise the FLIP error of a smooth surface in focus by more than a fifth.
 constexpr double greyShare = 0.9;
-constexpr double minGreyContrast = 0.004;  // min contrast V on a grey background, relative to the mean radiance
-// Max ratio of the errors of consecutive levels, twice the ratio for a smooth surface: halving its triangles doubles
-// its error, because the error grows with the squared edge length. A coarser level's error divided by this limit is a
-// lower bound for the error of a level whose triangles are smaller than the cells of the measured image.
+constexpr double minGreyContrast = 0.004;  // min contrast on a grey background, relative to the mean radiance
+// Max ratio of the errors of consecutive levels, twice the ratio for a smooth surface: halving the number of its
+// triangles doubles its error, because the error grows with the squared edge length. A coarser level's error divided by
+// this limit is a lower bound for the error of a level whose triangles are smaller than the pixels of the measured
+// image.
 constexpr float maxUnseenGrowth = 4;
 
 // ---- averages over patches of an image ---------------------------------------------------------
 
-// Sums over all cells and channels of an image, for example of squared radiance, with one entry per patch size. Entry 0
-// is the sum over single cells; each further entry is a sum over patch means.
+// Sums over all pixels and channels of an image, for example of squared radiance, with one entry per patch size. Entry
+// 0 is the sum over single pixels. Entry i is a sum over the means of patches of 2^i × 2^i pixels, weighted by the
+// number of pixels.
 using SquareSums = std::array<double, blurSizes>;
 using SurroundSums = std::array<SquareSums, surrounds.size()>;
 
-// An image with its means over patches of 2, 4, … cells. Each patch has two means, over the cells on the white and on
-// the black squares of a checkerboard.
+// An image with its means over square patches with sides of 2, 4, … pixels. Each patch has two means, over its pixels
+// on the white and on the black squares of a checkerboard.
 class Patches {
     struct Size {
-        CellBox shown;                                // patches that may contain non-black cells
-        CellBox kept;                                 // `shown`, padded with black patches for the next patch size
-        std::array<LargeVector<glm::vec3>, 2> means;  // over white and black checker squares; empty for single cells
+        CellBox shown;                                // box of the patches that may contain non-black pixels
+        CellBox kept;                                 // box of the stored patches, which contains `shown`
+        std::array<LargeVector<glm::vec3>, 2> means;  // means over white and black squares; empty for single pixels
     };
 
 public:
@@ -61,7 +63,7 @@ public:
         }
     }
 
-    // Computes the patch means of the image `cells`. Keeps a reference to `cells`.
+    // Computes the patch means of the image with the pixels `cells`. Keeps a reference to `cells`.
     void measure(const LargeVector<glm::vec3>& cells) {
         cells_ = &cells;
         for (std::size_t i = 1; i < sizes_.size(); ++i)
@@ -74,9 +76,9 @@ public:
 
     [[nodiscard]] std::size_t count() const { return sizes_.size(); }
     [[nodiscard]] const CellBox& box(std::size_t size) const { return sizes_[size].shown; }
-    // Returns a row of patch means, starting at the left edge of the patches' box. `black` selects the means over the
-    // black squares of the checkerboard. For single cells (size 0), `black` is ignored and the row has the cells'
-    // values.
+    // Returns row y of the means over patches of one size, starting at the left edge of box(size). `black` selects the
+    // means over the black squares of the checkerboard, else over the white squares. Patches of size 0 are single
+    // pixels: `black` is ignored, and the row has the pixels' values.
     [[nodiscard]] const glm::vec3* row(std::size_t size, bool black, int y) const {
         const LargeVector<glm::vec3>& values = size == 0 ? *cells_ : sizes_[size].means[black ? 1 : 0];
         return &values[sizes_[size].kept.indexOf(sizes_[size].shown.left, y)];
@@ -112,15 +114,15 @@ private:
     std::vector<Size> sizes_;
 };
 
-// Two corresponding rows of cells or patch means, one of level 0 and one of another level, whose difference is
-// measured.
+// Corresponding rows of pixels or patch means in two images: `before` is from the reference, `after` from the image
+// that is compared with the reference.
 struct Change {
     const glm::vec3* before;
     const glm::vec3* after;
 };
 
-// Returns the sum, over `count` cells and all channels, of the products of the differences (after − before) of `first`
-// and of `second`. Values are clamped to `brightest` before the subtraction.
+// Returns the sum, over `count` pixels (or patches) and all channels, of the products of two differences: after −
+// before in `first`, and after − before in `second`. Values are clamped to `brightest` before the subtraction.
 double sumOfProducts(const Change& first, const Change& second, int count, float brightest) {
     const auto end = 3 * static_cast<std::size_t>(count);
     const auto at = [&](const Change& change, std::size_t i, auto bounded) {
@@ -151,12 +153,13 @@ const LargeVector<glm::vec3>& before(float background, const LargeVector<glm::ve
     return shifted;
 }
 
-// Adds the squared differences between the images `seen` and `reference` to `sums`. A null `reference` stands for a
-// black image, with the row `dark` of black cells.
+// Adds the squared differences between the images `seen` and `reference` to `sums`, for each patch size. A null
+// `reference` stands for a black image, each of whose rows is `dark`.
 //
-// Each cell samples one point of the surface, so that a patch mean contains sampling noise. Squaring the mean would add
-// the variance of this noise. Therefore, the mean over the white squares of a checkerboard is multiplied by the mean
-// over the black squares. The noise of the two means is uncorrelated and cancels on average.
+// Each pixel samples one point of the surface, so that a patch mean contains sampling noise. Squaring the mean would
+// add the variance of this noise. Therefore, the mean difference over the white squares of a checkerboard is
+// multiplied by the mean difference over the black squares. The noise of the two means is uncorrelated and cancels on
+// average.
 void addSquares(const Patches* reference, const Patches& seen, std::span<const glm::vec3> dark, float brightest,
                 SquareSums& sums) {
     for (std::size_t i = 0; i < seen.count(); ++i) {
@@ -173,7 +176,7 @@ void addSquares(const Patches* reference, const Patches& seen, std::span<const g
 }
 
 // For each patch and channel, adds the standard deviation of the radiance within the patch to `sums`, weighted by the
-// patch's number of cells. `seen` holds the means of the radiance, `squares` the means of the squared radiance.
+// patch's number of pixels. `seen` holds the means of the radiance, `squares` the means of the squared radiance.
 void addDeviations(const Patches& seen, const Patches& squares, SquareSums& sums) {
     for (std::size_t i = 1; i < seen.count(); ++i) {
         const CellBox& box = seen.box(i);
@@ -190,14 +193,15 @@ void addDeviations(const Patches& seen, const Patches& squares, SquareSums& sums
 }
 
 // Clamps the noisy sums to possible values. The mean square never grows with the patch size. When the patch size
-// doubles, the mean square falls at most to 1/16, as for two adjacent spots that cancel each other.
+// doubles, the mean square falls to no less than 1/16 of its value. Two adjacent spots that cancel each other reach
+// this bound.
 void smooth(SquareSums& sums, std::size_t measured) {
     for (std::size_t i = measured; i > 1; --i) sums[i - 1] = std::max(sums[i - 1], sums[i]);
     for (std::size_t i = 1; i < blurSizes; ++i)
         sums[i] = i <= measured ? std::clamp(sums[i], sums[i - 1] / 16, sums[i - 1]) : sums[i - 1] / 4;
 }
 
-// Stores an image with many black cells in compressed form.
+// Stores an image with many black pixels in compressed form.
 class SparseCells {
 public:
     SparseCells() = default;
@@ -220,7 +224,7 @@ public:
 
 private:
     std::vector<bool> lit_;
-    LargeVector<glm::vec3> values_;  // values of the cells that are not black
+    LargeVector<glm::vec3> values_;  // radiance of the pixels that are not black
 };
 
 // Images and measurements for one view direction.
@@ -228,9 +232,9 @@ struct Sight {
     Eye eye;
     SparseCells reference;              // image of level 0
     double covered = 0, sum = 0;        // Picture::covered and Picture::sum of level 0
-    SquareSums light{};                 // level 0 on black: sums of squared radiance, per patch size
-    SquareSums deviations{};            // level 0 on grey: sums of the radiance's standard deviations, per patch size
-    std::vector<SurroundSums> changes;  // per level, sums of squared radiance differences from level 0
+    SquareSums light{};                 // level 0 on black background: per patch size, sum of squared radiance
+    SquareSums deviations{};            // level 0 on grey background: per patch size, sum of standard deviations
+    std::vector<SurroundSums> changes;  // per level and background, sums of squared differences from level 0
 
     // Measures the differences of each level from level 0. `unit` is the mean radiance of the mesh.
     void judge(const Pyramid& pyramid, std::span<const Finish> finishes, float unit) {
@@ -238,8 +242,8 @@ struct Sight {
         reference = {};
         const std::vector<glm::vec3> dark(static_cast<std::size_t>(eye.resolution), glm::vec3(0));
         const auto brightest = static_cast<float>(shownWhite) * unit;
-        // Clamp the radiance of each cell before averaging, because a lens sample sees a single point, not an average.
-        // All averages are then below the limit, too.
+        // Clamp the radiance of each pixel before averaging, because a lens sample sees a single point, not an average.
+        // All averages are then at most `brightest`, too.
         LargeVector<glm::vec3> points = cells;
         for (glm::vec3& value : points) value = glm::min(value, brightest);
         std::array<LargeVector<glm::vec3>, surrounds.size()> shifted;
@@ -275,8 +279,8 @@ int resolutionFor(std::uint32_t triangles) {
     return static_cast<int>(std::bit_ceil(wanted));
 }
 
-// Interpolates a table of blurSizes entries linearly at the patch side `side`; for sides beyond the table, returns the
-// last value. at(i) returns entry i.
+// Interpolates a table with blurSizes entries linearly at the patch side `side`. Entry 0 is for side 0, and entry i for
+// side 2^(i − 1) · `smallest`. Beyond the largest side, returns the last entry. at(i) returns entry i.
 template <typename At>
 double interpolated(double smallest, double side, const At& at) {
     double low = 0;
@@ -413,7 +417,7 @@ double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides
     for (const Surround surround : surrounds)
         contrast[indexOf(surround)] = rootOfSum([&](double side) { return squaredContrast(pyramid, side, surround); });
     if (!(contrast[indexOf(Surround::black)] > 0) || !(light > 0)) return 0;
-    // Returns the error of level `l` minus its limit, in units of the contrast V of level 0.
+    // Returns by how much the relative error E/V of level `l` exceeds its limit; negative below the limit.
     const auto excess = [&](std::size_t l) {
         double error = 0;
         for (const Surround surround : surrounds) {

@@ -14,9 +14,9 @@ namespace defocus::engine {
 
 namespace {
 
-// Memory to build a pyramid is at most the sum of these amounts: a constant for the images that measure blurred errors
-// (blurred_error.h), bytes per triangle with or without coarser levels, and bytes per vertex. Fitting and comparing the
-// levels take most of the bytes per triangle.
+// Memory to build a pyramid is at most the sum of these amounts: a constant for the images from which errors after
+// blurring are measured (blurred_error.h), bytes per triangle with or without coarser levels, and bytes per vertex.
+// Fitting and comparing the levels take most of the bytes per triangle.
 constexpr std::uint64_t imageBytes = 16u << 20;
 constexpr std::uint64_t levelTriangleBytes = 300, fullTriangleBytes = 70;
 constexpr std::uint64_t vertexBytes = 60;

@@ -39,8 +39,8 @@ struct ClusterGrowth {
 
     const Numbered<TriangleCorner, LocalNumber>& corners;
     Buckets<LocalNumber, TriangleCorner> around;
-    // For each vertex with more than maxNeighbours corners, the number of leading entries in its list `around` whose
-    // triangles are known to be assigned.
+    // For each vertex with more than maxNeighbours triangles: the number of leading entries in the vertex's list in
+    // `around` whose triangles are known to belong to a cluster.
     std::unordered_map<LocalNumber, std::size_t> firstOpen;
     Numbered<TriangleNumber, Facet> facets;
     float radius = 0;  // radius of a full cluster on a flat mesh with equal triangles
@@ -56,7 +56,7 @@ struct ClusterGrowth {
     // Lists of triangles that touch the growing cluster or, in `left`, earlier clusters. Some of them may already be
     // assigned to a cluster.
     std::vector<TriangleNumber> closed;    // triangles with all three corners in the growing cluster
-    std::vector<TriangleNumber> hanging;   // triangles that are the last unassigned ones at one of their vertices
+    std::vector<TriangleNumber> hanging;   // triangles with a vertex whose other triangles are all assigned
     std::vector<TriangleNumber> beside;    // triangles with two corners in the growing cluster
     std::vector<TriangleNumber> touching;  // triangles with one corner in the growing cluster
     std::vector<TriangleNumber> left;      // unassigned triangles that touch earlier clusters
@@ -180,8 +180,8 @@ TriangleNumber nextInside(ClusterGrowth& g) {
     return closestMatch(g, g.touching);
 }
 
-// Among the unassigned triangles beside the full cluster, returns the one with the fewest unassigned triangles at its
-// vertices, because it might otherwise be left isolated.
+// Among the unassigned triangles that touch the full cluster, returns the one with the fewest unassigned triangles at
+// its vertices, because it might otherwise be left isolated.
 TriangleNumber seedBeside(const ClusterGrowth& g) {
     TriangleNumber best;
     std::uint32_t fewest = std::numeric_limits<std::uint32_t>::max();
@@ -197,7 +197,7 @@ TriangleNumber seedBeside(const ClusterGrowth& g) {
     return best;
 }
 
-// Returns the triangle nearest to `place` among unassigned triangles beside the latest clusters. If there are none,
+// Returns the triangle nearest to `place` among unassigned triangles that touch the latest clusters. If there are none,
 // returns the first unassigned triangle of the primitive.
 TriangleNumber seedElsewhere(ClusterGrowth& g, const glm::vec3& place) {
     while (!g.left.empty() && g.taken[g.left.back()] != 0) g.left.pop_back();
@@ -216,8 +216,9 @@ TriangleNumber seedElsewhere(ClusterGrowth& g, const glm::vec3& place) {
     return g.unseen;
 }
 
-// Finishes the growing cluster. From each list of triangles beside the cluster, keeps at most `seedsAhead` unassigned
-// ones as seeds (first triangles) of later clusters. The limit is needed because many triangles can share a vertex.
+// Finishes the growing cluster. The four lists hold triangles that touch the cluster. From each list, keeps at most
+// `seedsAhead` unassigned triangles as seeds (first triangles) of later clusters. The limit is needed because many
+// triangles can share a vertex.
 void close(ClusterGrowth& g) {
     for (auto* const list : {&g.touching, &g.beside, &g.hanging, &g.closed}) {
         keepOpen(g, *list);

@@ -27,7 +27,7 @@ GrownClusters growClusters(const Numbered<TriangleCorner, LocalNumber>& corners,
 // Reorders the triangles of each primitive so that clusters are contiguous, and returns the clusters. Consecutive
 // clusters are mostly neighbours, and so are consecutive triangles within a cluster. `positions` has the coordinates of
 // each vertex. `places` has a number below `placeCount` for each vertex; vertices at the same position have the same
-// number. The index ranges of the clusters start at the level's first index. Deterministic.
+// number. The index ranges of the clusters are relative to the level's first index. Deterministic.
 template <typename Vertex>
 std::vector<Cluster> clusterTriangles(TriangleSet<Vertex>& level, std::span<const glm::vec3> positions,
                                       const Numbered<Vertex, PositionNumber>& places, std::size_t placeCount);

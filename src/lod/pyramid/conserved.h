@@ -40,7 +40,7 @@ struct ConservedDifference {
     double colour = 0;       // max difference of the mean colour, over all channels
     double light = 0;        // max difference of the mean reflected radiance, over all light directions
     double outline = 0;      // max relative difference of the silhouette area, over all view directions
-    double meanOutline = 0;  // signed relative difference of the silhouette area's mean over all view directions
+    double meanOutline = 0;  // signed relative difference of the silhouette area averaged over all view directions
 };
 
 ConservedDifference differenceOf(const Conserved& level, const Conserved& level0);

@@ -11,8 +11,8 @@
 namespace defocus::engine {
 
 // Structured bindings in this file name all members of a struct, including unused ones. If a member is added to the
-// struct, the bindings no longer compile, as a reminder to include the member in the key or in the file. The assertions
-// check that the stored structs have no padding.
+// struct, the bindings no longer compile, as a reminder to include the member in the cache key or in the file. The
+// assertions check that the stored structs have no padding.
 
 static_assert(std::has_unique_object_representations_v<IndexRange>);
 static_assert(sizeof(PyramidFileHeader) == 208 && sizeof(PyramidFileLevel) == 120 && sizeof(Cluster) == 48,

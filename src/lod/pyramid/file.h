@@ -32,7 +32,7 @@ PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options);
 
 struct PyramidFileHeader {
     static constexpr std::uint64_t expectedMagic = 0x3150445053554644ull;  // "DFUSPDP1"
-    // Version of the file format. Changes of buildPyramid need no new version, because the cache key (PyramidKey)
+    // Version of the file format. Changes to buildPyramid need no new version, because the cache key (PyramidKey)
     // contains a hash of the source files.
     static constexpr std::uint32_t expectedVersion = 7;
 

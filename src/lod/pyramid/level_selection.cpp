@@ -11,13 +11,16 @@ namespace defocus::engine {
 namespace {
 
 constexpr double referenceSamples = 64;
-constexpr LodThresholds referenceSize{0.25, 3.3};     // thresholds at 64 samples, if the target is an edge length
-constexpr LodThresholds referenceError{0.018, 0.18};  // thresholds at 64 samples, if the target is an error
+constexpr LodThresholds referenceSize{0.25, 3.3};     // blur and size thresholds at 64 samples, metrics size, score
+constexpr LodThresholds referenceError{0.018, 0.18};  // blur and size thresholds at 64 samples, metric error
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double sampleErrorExponent = 0.65;
-constexpr double lightOfSampleError = 6.7;   // default LodThresholds::light of an image with one lens sample, px
-constexpr double sampleErrorShareMax = 0.3;  // max level error / sampling error; total RMS error grows by ≤ 4.4 %
-constexpr double largestFactor = 2;          // max factor on the blur threshold for few samples; limits outline errors
+// Default LodThresholds::light for one lens sample: limit on a level's relative error times its edge length, px.
+constexpr double lightOfSampleError = 6.7;
+// Max ratio of a level's error to the sampling error. At this ratio, levels raise the total RMS error by 4.4 %.
+constexpr double sampleErrorShareMax = 0.3;
+// Max factor by which few samples raise the blur threshold. It limits the errors of outlines.
+constexpr double largestFactor = 2;
 
 // Returns whether the metric compares the levels' edge lengths with the target.
 bool bySize(LodMetric metric) {
@@ -29,8 +32,8 @@ double storedSize(const PyramidLevel& level, LodMetric metric) {
 }
 
 // Returns where `target` lies between the edge lengths or errors of two levels: 0 at the finer level, 1 at the coarser
-// level. Edge lengths are interpolated logarithmically, because halving the triangles multiplies them by a constant.
-// Errors start at 0 and are interpolated linearly.
+// level. Edge lengths are interpolated logarithmically, because halving the number of triangles multiplies the edge
+// length by a constant. Errors start at 0 and are interpolated linearly.
 double between(double fine, double coarse, double target, LodMetric metric) {
     const double fraction = bySize(metric) && fine > 0 ? std::log(target / fine) / std::log(coarse / fine)
                                                        : (target - fine) / (coarse - fine);
@@ -115,7 +118,8 @@ double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric 
     const double target = std::max(thresholds.blur > 0 ? thresholds.blur * coc : 0, thresholds.size);
     if (!(target > 0)) return 0;
 
-    // Find the first level that is coarser than the target; λ lies between this level and the previous level.
+    // Find the first level that is coarser than the target; the fractional level λ lies between this level and the
+    // previous level.
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
         const double coarse = storedSize(pyramid.levels[l], metric) * query.pixelsPerUnit;
         if (coarse <= target) continue;

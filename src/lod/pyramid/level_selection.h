@@ -16,25 +16,27 @@ const char* lodModeName(LodMode mode);
 const char* lodMetricName(LodMetric metric);
 
 // Thresholds set by the user. Unset thresholds have defaults that depend on the sample count, so that long renders
-// converge to full detail. For the metrics `size` and `error`, the target edge length or error is max(blur · c, size)
-// px for a circle of confusion of c px. For `proportional`, `blur` is the level of an object whose circle of confusion
-// is as large as its bounding box. For `measured`, a level whose edges are `edge` px long may have an error of at most
-// light / edge. The error is relative to the standard deviation of the object's radiance within its blur, so it has no
-// unit, and `light` is a length in px.
+// converge to full detail. The metric gives the thresholds their meaning, for a circle of confusion of c px:
+//   size, error: the target edge length or error of a level is max(blur · c, size) px.
+//   score: the target edge length is blur · c px.
+//   proportional: `blur` is the level of an object whose circle of confusion is as large as its bounding box.
+//   measured: a level whose edges are `edge` px long may have an error of at most light / edge.
+//     The error is relative to the standard deviation of the radiance over which the object's blur averages.
+//     It has no unit, so `light` is a length in px.
 struct GivenThresholds {
-    std::optional<double> blur = {};   // target edge length or error per CoC diameter; levels for `proportional`; ≥ 0
-    std::optional<double> size = {};   // min target edge length or error in px, ≥ 0; for LodMetric::size and ::error
-    std::optional<double> light = {};  // max error · edge length, px, ≥ 0; the only threshold of LodMetric::measured
+    std::optional<double> blur = {};  // target edge length or error divided by the CoC, ≥ 0; a level for `proportional`
+    std::optional<double> size = {};   // lower bound on the target edge length or error, px, ≥ 0
+    std::optional<double> light = {};  // max of a level's error times its edge length, px, ≥ 0; only for `measured`
 };
 
 // Resolves LodMetric::automatic to a concrete metric; returns any other metric unchanged.
 LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given);
 
 struct LodThresholds {
-    double blur = 0;  // target edge length or error per CoC diameter; number of levels for `proportional`
-    double size = 0;  // min target edge length or error in px
-    // Max product of a level's edge length in px and its error in standard deviations of the radiance within the blur.
-    // 0 for all metrics except LodMetric::measured; see measuredLimit.
+    double blur = 0;  // target edge length or error divided by the CoC; for `proportional`, see GivenThresholds
+    double size = 0;  // lower bound on the target edge length or error, px
+    // Max of a level's error times its edge length in px. The error is relative to the standard deviation of the
+    // radiance over which the blur averages; see measuredLimit. 0 for all metrics except LodMetric::measured.
     double light = 0;
 };
 
@@ -46,36 +48,39 @@ LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, s
 double expectedSampleError(std::uint32_t sampleCount);
 
 // Level of an object whose circle of confusion is as large as its projected bounding box, for the metric
-// `proportional`. Jeong, Kim and Lee 2011 state no value. The value is the largest 10 · 2ⁿ with levels that raise the
-// FLIP error of the built-in school of fish at 32 samples by at most 2 % (docs/reference.md).
+// `proportional`. Jeong, Kim and Lee 2011 state no value. Of the values 10 · 2ⁿ, this is the largest whose levels raise
+// the FLIP error of the built-in school of fish at 32 samples by at most 2 % (docs/reference.md).
 inline constexpr double proportionalLevels = 10;
 
-// Returns the thresholds of a metric for N = `sampleCount` lens samples.
+// Returns the default thresholds of a metric for N = `sampleCount` lens samples (members of LodThresholds).
 //
-// Metrics `size` and `error`: the defaults are (64/N)^(2/3) times the thresholds at N = 64. `blur` is at most twice its
-// value at N = 64; this limit applies for N ≤ 22. `size` never exceeds its value at N = 64, because few samples do not
-// blur objects in focus. The thresholds at N = 64 give the coarsest levels with a PSNR of 42 dB against full detail,
-// for the built-in school of fish at 1024 × 768. The levels' error grows as threshold^1.3; the error of Sobol points
-// falls as N^(−0.65). Up to N = 32, the levels' error is therefore 0.9 to 1.6 times the sampling error. In this range,
-// finer levels with fewer samples gain nothing. The ratio is 2.4 at N = 64 and decreases beyond; both errors vanish as
-// N grows. Measured on the school of fish at 512 × 384 (bench/results/llvmpipe-thresholds.txt).
+// Metrics `size`, `error` and `score`: the thresholds `blur` and `size` are (64/N)^(2/3) times their values at N = 64.
+// The threshold `blur` is at most twice its value at N = 64; this limit applies for N ≤ 22. The threshold `size` never
+// exceeds its value at N = 64, because few samples do not blur objects in focus; it is 0 for the metric `score`. The
+// thresholds at N = 64 select the coarsest levels with a PSNR of at least 42 dB against full detail, for the built-in
+// school of fish at 1024 × 768. The levels' error grows as threshold^1.3; the error of Sobol points falls as N^(−0.65).
+// Up to N = 32, the levels' error is therefore 0.9 to 1.6 times the sampling error. In this range, finer levels with
+// fewer samples gain nothing. The ratio is 2.4 at N = 64 and decreases beyond; both errors vanish as N grows. Measured
+// on the school of fish at 512 × 384 (bench/results/llvmpipe-thresholds.txt).
 //
 // Metric `proportional`: `blur` is proportionalLevels for every N, because the rule of Jeong, Kim and Lee 2011 does not
 // depend on the number of samples.
 //
-// Metric `measured`: `light` is 6.7 · expectedSampleError(N)². The error of one sample at a random lens position is the
-// standard deviation of the radiance within the blur. The error of N samples is expectedSampleError(N) times that
-// deviation. The levels' error is small compared with the sampling error and hardly raises the RMS of both together.
-// The levels' error must be smaller than the sampling error, because it appears as large soft spots on objects. FLIP,
-// like the eye, weighs such spots more than the outlines and fine ghosts caused by sampling.
+// Metric `measured`: `light`, the max of a level's error times its edge length, is 6.7 · expectedSampleError(N)². The
+// error of one sample at a random lens position is the standard deviation of the radiance over which the blur averages.
+// The error of N samples is expectedSampleError(N) times that deviation. The error of the selected levels is small
+// compared with the sampling error and hardly raises the RMS of both together. It must be small, because it appears as
+// large soft spots on objects. FLIP, like the eye, weighs such spots more than the outlines and fine ghosts caused by
+// sampling.
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 
-// Returns the max error of a level for LodMetric::measured, in standard deviations of the radiance within the blur, if
-// the level's edges have `edge` px (> 0). The limit is light / edge, but at most 0.3 times expectedSampleError(N),
-// where N is the sample count whose default threshold is `light`. Reason for 1/edge: halving the triangles doubles a
-// level's error. For a given sum of squared errors over the image, the fewest triangles are then needed if the squared
-// error is proportional to triangles per pixel. Objects with small triangles are therefore simplified first. Objects
-// with large triangles are hardly simplified, because this would save little.
+// Returns the max error of a level for LodMetric::measured, if the level's mean edge length is `edge` px (> 0). The
+// error is relative to the standard deviation of the radiance over which the blur averages. `light` is the threshold
+// LodThresholds::light. The limit is light / edge, but at most 0.3 times expectedSampleError(N), where N is the sample
+// count whose default threshold is `light`. Reason for 1/edge: halving the number of triangles doubles a level's error.
+// For a given sum of squared errors over the image, the fewest triangles are then needed if the squared error is
+// proportional to triangles per pixel. Objects with small triangles are therefore simplified first. Objects with large
+// triangles are hardly simplified, because this would save little.
 double measuredLimit(double light, double edge);
 
 struct LevelQuery {
@@ -87,14 +92,15 @@ struct LevelQuery {
     double coc = 0;      // lower bound of the CoC diameter over the object, px, ≥ 0
 };
 
-// Selects λ in [0, levels − 1] for the metrics size, score and error, with the target τ = max(blur·c, size).
-// For LodMetric::measured, see blurred_error.h. λ is continuous in the query.
+// Selects the real-valued level λ in [0, levels − 1] for all metrics except LodMetric::measured (see blurred_error.h).
+// The target in px is τ = max(blur·c, size), with the thresholds blur and size and the CoC diameter c. λ is continuous
+// in the query.
 //   size: λ is the level whose mean edge projects to τ; the logarithms of the stored mean edges are interpolated.
 //   score: like size, but with τ = blur·c. λ is the level whose mean edges are blur·s times those of level 0.
 //     s = c/d is the score of Tzeng et al. 2012; d is the mean edge of level 0 at the depth of the box's centre.
 //   proportional: λ = blur · c/p for a projected bounding box of p px. λ is 0 without blur, and the coarsest level if
 //     only p is 0. Jeong, Kim and Lee 2011 state that λ is proportional to the blur and to 1/p, without a constant.
-//   error: λ = l + (τ − e[l]) / (e[l+1] − e[l]), where e are the stored errors projected to px.
+//   error: λ = l + (τ − e[l]) / (e[l+1] − e[l]), where e are the stored errors projected to px, and e[l] ≤ τ ≤ e[l+1].
 // Returns 0 if pixelsPerUnit is negative, infinite or NaN. Returns the coarsest level if pixelsPerUnit is 0, because
 // the object is then a point.
 double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,
@@ -111,7 +117,7 @@ double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric 
 struct SampleSplit {
     std::uint32_t level = 0;
     std::uint32_t coarseCount = 0;
-    double boundaryShare = 0;  // g: fraction of the pixels of sample `coarseCount` that draw the coarser level
+    double boundaryShare = 0;  // fraction g of the pixels in which sample `coarseCount` draws the coarser level
 };
 
 SampleSplit splitSamples(double lambda, std::uint32_t sampleCount, LodMode mode);

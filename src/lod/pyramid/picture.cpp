@@ -15,21 +15,21 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr float backBias = 1e-3f;  // depth offset of back faces in cells: a front face wins at the same depth
-constexpr float nothing = -std::numeric_limits<float>::infinity();  // depth of an empty cell
+constexpr float backBias = 1e-3f;  // depth offset of back faces, in pixels, so that a front face wins at equal depth
+constexpr float nothing = -std::numeric_limits<float>::infinity();  // depth of a pixel that no surface covers
 
-constexpr int narrow = 8;  // if a triangle's box has at most this many columns, all of its cells are tested
+constexpr int narrow = 8;  // if a triangle's box has at most this many columns, all of its pixels are tested
 
 constexpr int lanes = 4;
 
-// Returns the index of the first cell in [first, end] whose centre is at or after the coordinate `place`.
+// Returns the index of the first pixel in [first, end] whose centre is at or after the coordinate `place`.
 int firstAt(float place, int first, int end) {
     const float bounded = std::min(std::max(static_cast<float>(first), place - 0.5f), static_cast<float>(end));
     const int truncated = static_cast<int>(bounded);
     return truncated + (static_cast<float>(truncated) < bounded ? 1 : 0);
 }
 
-// Computes the range of cells in a row at which the barycentric weights of a triangle are positive.
+// Computes the range of pixels in a row at which the barycentric weights of a triangle are positive.
 class RowBounds {
 public:
     explicit RowBounds(const Weights& weights)
@@ -37,7 +37,7 @@ public:
         for (std::size_t k = 0; k < 3; ++k) inverse_[k] = 1 / steps_[k].x;
     }
 
-    // Returns the range of cells in [left, right) of row y whose centres may lie in the triangle, slightly enlarged.
+    // Returns the range of pixels in [left, right) of row y whose centres may lie in the triangle, slightly enlarged.
     [[nodiscard]] std::array<int, 2> within(int y, int left, int right) const {
         const float dy = static_cast<float>(y) + 0.5f - origin_.y;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -57,7 +57,7 @@ private:
     float inverse_[3];
 };
 
-// Returns the box of cells that `bounds` covers, enlarged by one cell on each side for rounding.
+// Returns the box of pixels that `bounds` covers, enlarged by one pixel on each side for rounding.
 CellBox cellsAround(const Eye& eye, const Bounds& bounds) {
     glm::vec3 min(std::numeric_limits<float>::infinity());
     glm::vec3 max = -min;
@@ -140,7 +140,7 @@ void Painter::drawTriangle(std::uint32_t first) {
 void Painter::draw(std::size_t number, Picture& picture) {
     const PyramidLevel& level = pyramid_.levels[number];
     const CellBox& box = eye_.box;
-    // Pad the array of depths, because SIMD access to the last cells reaches past their end.
+    // Pad the array of depths, because SIMD access to the last pixels reaches past their end.
     depths_.assign(box.count() + lanes, nothing);
     firsts_.resize(box.count() + lanes);
     places_.clear();

@@ -1,7 +1,7 @@
 #pragma once
-// Renders small images of a level of detail by parallel projection, without a lens. Each cell (pixel) shows the surface
-// that is nearest to the eye at the cell's centre. The lighting is a uniform sky and the default lights of scenes
-// without lights (scene/defaults.h).
+// Renders small images of a level of detail by parallel projection, without a lens. Each pixel (called cell in the
+// code) shows the surface that is nearest to the eye at the pixel's centre. The lighting is a uniform sky and the
+// lights that a scene without lights gets by default (scene/defaults.h).
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace defocus::engine {
 
-// A rectangle of cells (pixels) of an image; `right` and `top` are exclusive. Values of cells are stored row by row.
+// A rectangle of pixels of an image; `right` and `top` are exclusive. Values of pixels are stored row by row.
 struct CellBox {
     int left = 0, right = 0;
     int bottom = 0, top = 0;
@@ -27,30 +27,30 @@ struct CellBox {
                static_cast<std::size_t>(x - left);
     }
 };
-inline constexpr int boxAlignment = 32;  // sides of Eye::box are multiples of this number of cells
+inline constexpr int boxAlignment = 32;  // the sides of Eye::box are multiples of this number of pixels
 
-// View direction of an image, and its square grid of cells (pixels). The grid is perpendicular to the direction and
-// covers a bounding sphere of the mesh.
+// View direction of an image, and its square grid of pixels. The grid is perpendicular to the direction and covers a
+// bounding sphere of the mesh.
 struct Eye {
     glm::dvec3 centre{0}, right{0}, up{0}, towards{0};  // towards: unit vector from the mesh to the eye
     double cellsPerUnit = 0;
-    int resolution = 0;  // cells per side of the grid
-    // Rectangle of the cells that the mesh may cover. Its sides are multiples of boxAlignment, or equal to the side of
+    int resolution = 0;  // pixels per side of the grid
+    // Rectangle of the pixels that the mesh may cover. Its sides are multiples of boxAlignment, or equal to the side of
     // the grid.
     CellBox box;
 
-    // Projects a position to cell coordinates; z increases towards the eye.
+    // Projects a position to the pixel coordinates of the image; z increases towards the eye.
     [[nodiscard]] glm::vec3 place(const glm::vec3& position) const;
 };
 
 Eye eyeAlong(const Pyramid& pyramid, const glm::dvec3& towards, int resolution);
 
 struct Picture {
-    // Linear radiance of the cells in Eye::box. 0 marks a cell without a surface; black surfaces have a tiny positive
+    // Linear radiance of the pixels in Eye::box. 0 marks a pixel without a surface; black surfaces have a tiny positive
     // value.
     LargeVector<glm::vec3> light;
-    std::size_t covered = 0;  // number of cells that show a surface
-    double sum = 0;           // sum over all cells of the mean of the three colour channels
+    std::size_t covered = 0;  // number of pixels that show a surface
+    double sum = 0;           // sum over all pixels of the mean of the three colour channels
 };
 
 // Renders images of a mesh's levels, with one finish (simplified material) per primitive. Reuses memory from level to
@@ -67,8 +67,8 @@ private:
     const Eye& eye_;
     std::span<const Finish> finishes_;
     std::vector<glm::vec3> places_;  // projected vertices of the level
-    // Depth and triangle of the nearest surface at the centre of each cell of Eye::box.
-    LargeVector<float> depths_;          // z of the nearest surface; −∞ for empty cells
+    // Depth and triangle of the nearest surface at the centre of each pixel of Eye::box.
+    LargeVector<float> depths_;          // z of the nearest surface; −∞ for pixels without a surface
     LargeVector<std::uint32_t> firsts_;  // offset of the triangle's first index in Pyramid::indices
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// Shades the cells (pixels) of an image from picture.h. Private to picture.cpp. The shading model is the same as in
-// shaders/include/shading.glsl, which cites the sources.
+// Shades the pixels (called cells in the code) of an image from picture.h. Private to picture.cpp. The shading model is
+// the same as in shaders/include/shading.glsl, which cites the sources.
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,7 @@ inline constexpr float skyRadiance = 0.5f;  // approximate mean radiance of the 
 
 // Barycentric weights of a triangle's second and third corner, as linear functions of the position in the image.
 struct Weights {
-    glm::vec2 origin{0};  // position in the image where both weights are 0
+    glm::vec2 origin{0};  // position of the first corner in the image, where both weights are 0
     glm::vec2 stepB{0}, stepC{0};
     bool flat = false;  // the triangle has no area
     bool back = false;  // the triangle is back-facing
@@ -43,8 +43,8 @@ struct Weights {
         stepC = inverse * glm::vec2(-ab.y, ab.x);
     }
 
-    // Returns the weights of the second and third corner at a cell's centre. `x` and `y` are cell indices; `x` may be a
-    // SIMD vector of four.
+    // Returns the weights of the triangle's second and third corner at the centre of pixel (x, y). `x` may be a SIMD
+    // vector of four indices.
     template <typename X>
     [[nodiscard]] std::array<X, 2> at(const X& x, float y) const {
         const X dx = x + 0.5f - origin.x;
@@ -172,7 +172,7 @@ inline glm::vec3 mapped(const FinishMap& map, const glm::vec2& uv0, const glm::v
     return map.image ? map.at(uv0, uv1) : glm::vec3(1);
 }
 
-// A triangle that is visible in at least one cell (pixel).
+// A triangle that is visible in at least one pixel.
 struct SeenTriangle {
     const std::uint32_t* corners = nullptr;
     const Finish* finish = nullptr;
@@ -180,7 +180,7 @@ struct SeenTriangle {
     std::array<float, 3> lengths{};  // lengths of the vertex normals at the corners
 };
 
-// Collects the cells of a row that show a matt surface, and shades them together.
+// Collects the pixels of a row that show a matt surface, and shades them together.
 class MattCells {
 public:
     MattCells(std::vector<DistantLight> lights, const glm::vec3& toEye, int max)
@@ -190,7 +190,7 @@ public:
         shares_.assign(lights_.size(), agreement_);
     }
 
-    // Adds a cell of the row. The normal may have any length.
+    // Adds a pixel to be shaded; `number` is its index in the image. The normal may have any length.
     void add(std::size_t number, const glm::vec3& diffuse, const glm::vec3& emission, const glm::vec3& normal,
              float agreement) {
         // Assign each value separately: copying a complete Cell would stall until all its values are available.
@@ -205,7 +205,7 @@ public:
         ++count_;
     }
 
-    // Calls put(number, radiance) for each collected cell and then removes all cells.
+    // Calls put(number, radiance) with the index and the radiance of each collected pixel, and then removes all pixels.
     template <typename Put>
     void shade(const Put& put) {
         normalise();
@@ -267,17 +267,17 @@ private:
     glm::vec3 toEye_;
     std::size_t count_ = 0;
     std::vector<Cell> cells_;
-    std::array<std::vector<float>, 3> normal_;  // normals of the cells, one array per coordinate
+    std::array<std::vector<float>, 3> normal_;  // normals of the collected pixels, one array per coordinate
     std::vector<float> agreement_;
-    std::vector<float> spread_, along_, towards_;  // members of SeenNormals, one entry per cell
-    std::vector<std::vector<float>> shares_;       // per light, the mean cosine of the angle of incidence at each cell
+    std::vector<float> spread_, along_, towards_;  // members of SeenNormals as arrays, one entry per pixel
+    std::vector<std::vector<float>> shares_;       // per light, mean cosine of the angle of incidence at each pixel
 };
 
-// Computes the radiance of surface points towards the eye. Points without a finish are matt, without specular
-// reflection.
+// Computes the radiance of surface points towards the eye, with the finish (simplified material) of each triangle.
+// Points without specular reflection are collected and shaded row by row.
 class Shading {
 public:
-    // Prepares the shading of a level's image. shade() and endRow() write the radiance to `cells`.
+    // Prepares the shading of a level's image. shade() and endRow() write the radiance to the pixels `cells`.
     Shading(const PyramidLevel& level, bool coarse, const Eye& eye, std::span<glm::vec3> cells)
         : level_(level),
           coarse_(coarse),
@@ -292,7 +292,7 @@ public:
         return result;
     }
 
-    // Shades the cell with index `cell`. Cells with a matt surface are deferred to endRow().
+    // Shades the pixel (x, y), whose index is `cell`. Pixels that show a matt surface are shaded later, by endRow().
     void shade(const SeenTriangle& triangle, std::size_t cell, int x, int y) {
         const Finish& finish = *triangle.finish;
         const auto [b, c] = triangle.weights.at(static_cast<float>(x), static_cast<float>(y));
@@ -336,8 +336,8 @@ public:
         matt_.shade([&](std::size_t cell, const glm::vec3& light) { put(cell, light); });
     }
 
-    double sum = 0;           // sum over all cells of the mean of the three colour channels
-    std::size_t covered = 0;  // number of shaded cells
+    double sum = 0;           // sum over all pixels of the radiance's mean over the three colour channels
+    std::size_t covered = 0;  // number of shaded pixels
 
 private:
     void put(std::size_t cell, const glm::vec3& light) {

@@ -291,7 +291,7 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
     const Vertices& vertices = asTheyAre ? mesh.vertices : joined;
     WeldedPositions positions = weldPositions(vertices.positions);
 
-    // Simplify the mesh; fit finished levels on other threads in the meantime.
+    // Simplify the mesh. In the meantime, other threads fit the attributes of finished levels to the mesh.
     Pyramid pyramid;
     Simplification simplification;
     double diagonal = 0;
@@ -300,8 +300,8 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
         simplification.end = *end;
     } else {
         const VertexGroups smoothing = smoothingGroups(vertices.normals, positions);
-        // Data for the fit of all levels. They are created only when level 1 is complete, because memory use peaks
-        // while the complete mesh is being collapsed.
+        // Data for fitting the attributes of all levels to the mesh. They are created only when level 1 is complete,
+        // because memory use peaks while the complete mesh is being collapsed.
         std::optional<FitSource> source;
         std::once_flag prepared;
         const auto prepare = [&] { source.emplace(prepareFit(vertices, positions, smoothing, levels[0].triangles)); };
@@ -476,7 +476,7 @@ std::uint64_t trianglesOf(std::span<const Mesh> meshes) {
 std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all) {
     const double share =
         static_cast<double>(mesh.triangleCount()) / static_cast<double>(std::max<std::uint64_t>(1, all));
-    // Keep the number of hardware threads, because hardware_concurrency() makes a system call.
+    // Cache the number of hardware threads, because hardware_concurrency() makes a system call.
     static const unsigned available = std::max(1u, std::thread::hardware_concurrency());
     const auto cores = std::llround(share * available);
     return static_cast<std::size_t>(std::max(1ll, cores) - 1);

@@ -41,9 +41,9 @@ struct Cluster {
     IndexRange indices;       // range of indices within one primitive
     glm::vec3 centre{0};      // centre of a bounding sphere of the vertices
     float radius = 0;         // radius of the bounding sphere
-    glm::vec3 axis{0, 0, 1};  // unit axis of a cone that contains the unit normals n of all triangles
-    float minCosine = -1;     // min cosine of the angle between a normal n and the axis
-    float planes = 0;         // min over the triangles of n·(p − centre), for a point p on the triangle's plane
+    glm::vec3 axis{0, 0, 1};  // unit axis of a cone that contains the unit normals of all triangles
+    float minCosine = -1;     // min cosine of the angle between the normal of a triangle and `axis`
+    float planes = 0;         // min over the triangles of n·(p − centre): unit normal n, point p on the plane
     // Smallest altitude of any triangle. Triangles with coinciding corners are ignored, because they draw nothing.
     float minAltitude = 0;
 };
@@ -77,7 +77,7 @@ struct PyramidLevel {
     // matt surface with such normals reflects less light.
     std::vector<glm::vec3> positions;  // vertexCount entries
     std::vector<glm::vec3> normals;    // vertexCount entries
-    std::vector<glm::vec4> colors;     // vertexCount entries; empty without colours; may lie outside [0, 1]
+    std::vector<glm::vec4> colors;     // vertexCount entries, which may lie outside [0, 1]; empty without colours
     std::vector<glm::vec2> uv0, uv1;   // vertexCount entries; empty without texture coordinates
 
     // Mean edge length over all faces, in object units; an edge counts once per face. The value is raised where needed:

@@ -13,7 +13,9 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double maxSpread = 2;  // max mean distance between vertex indices, in units of √(vertex count)
+// Max mean difference between vertex indices in the same triangle or in consecutive triangles, in units of √(vertex
+// count).
+constexpr double maxSpread = 2;
 
 }  // namespace
 
