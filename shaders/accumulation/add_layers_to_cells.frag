@@ -34,7 +34,8 @@ void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel) {
 }
 
 // Returns a bit mask of the blur classes that are not empty. The sums are cumulative, so a class is not empty if its
-// sum and the next class's sum have different numbers of samples. `samples` is the number of all samples in the pixel.
+// sum and the next class's sum have different numbers of samples. `samples` is the total number of samples in the
+// pixel.
 uint heldBy(vec4 sums[cellClasses], float samples) {
     uint held = 0u;
     for (int k = 0; k < cellsInFront; ++k) held |= sums[k].a != (k + 1 < cellsInFront ? sums[k + 1].a : samples) ? 1u << k : 0u;

@@ -1,20 +1,21 @@
 // Sums the images of a block of lens samples. Each sample represents a part of the lens, its lens cell
 // (include/cells.glsl), and the sample's image is blurred as this part of the lens would blur it. The samples are
-// sorted by blur into classes. The blurred classes are composited from farthest to nearest; a class is blurred by
-// linear interpolation of its means over squares of pixels. Unblurred samples are composited between the classes behind
-// the focus plane and the classes in front of the focus plane. In pixels where all samples show the blurred foreground,
-// the foreground also replaces the unknown background.
+// sorted by blur into classes. A class is blurred by averaging its samples over squares of pixels and interpolating the
+// averages linearly. The blurred classes are composited from farthest to nearest. Unblurred samples are composited
+// between the classes behind the focus plane and the classes in front of the focus plane. Where all samples of a pixel
+// show the blurred foreground, no sample shows the background, so the foreground also takes the background's place.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;
 layout(binding = 1) uniform sampler2D blockSum;
 layout(binding = 2) uniform usampler2D spreadClasses;
-// Means per pixel of the blur classes in front of the focus plane (layer 0) and behind it (layer 1). shownMeans: summed
-// radiance (rgb) and number (alpha) of the samples in a class. openMeans: number of the samples that nearer classes do
-// not hide.
+// Averages over squares of pixels, from cell_means.frag. Layer 0 holds the blur classes in front of the focus plane,
+// and layer 1 the classes behind it. shownMeans: summed radiance (rgb) and number (alpha) of a class's samples per
+// pixel. openMeans: number of samples per pixel that nearer classes do not hide.
 layout(binding = 3) uniform sampler2DArray shownMeans;
 layout(binding = 4) uniform sampler2DArray openMeans;
-// Columns and rows of the grid of squares over which the means of blur class 0 are computed.
+// Columns and rows of the grid of 1 × 1 px squares for which the averages of blur class 0, the least blurred class, are
+// stored.
 layout(location = 0) uniform ivec2 firstSquares;
 // > 0: number of samples in the block, by which the sum is divided. 0: the sum is divided by the number of samples in
 // the pixel. −1: the output is the undivided sum.
@@ -27,8 +28,8 @@ layout(location = 1) out vec4 compensationOut;
 // coverage of a class is the number of its samples divided by the number of all samples that nearer classes do not
 // hide.
 void layOver(inout vec3 image, int k, float side) {
-    // The means of blur class k are taken over squares of 2ᵏ px per side. For class 0, the squares are centred at pixel
-    // corners.
+    // The samples of blur class k are averaged over squares of 2ᵏ px per side. For class 0, the squares are centred at
+    // pixel corners.
     vec2 square = clamp((gl_FragCoord.xy + (k == 0 ? 0.5 : 0.0)) / float(1 << k), vec2(0.5), vec2(firstSquares >> k) - 0.5);
     vec3 place = vec3((square + vec2(meansOrigin(firstSquares, k))) / vec2(textureSize(openMeans, 0).xy), side);
     vec4 shown = textureLod(shownMeans, place, 0.0);

@@ -1,20 +1,23 @@
-// Reduces one blur class of lens cells (include/cells.glsl) to one tent-weighted mean per square of side × side px. The
-// tent extends to the centres of the neighbouring squares. Squares of one pixel are centred at pixel corners. meanOut
-// is the radiance and the number of the class's lens samples, summed per pixel and averaged over the square. openOut is
-// the mean number of samples per pixel that no nearer class hides. The quotient meanOut / openOut is the colour and
-// coverage of the class where it is not hidden. A blurred surface therefore keeps its colour and coverage up to the
-// edges of its occluders.
+// Reduces one blur class of lens cells (include/cells.glsl), a group of samples with similar blur, to one tent-weighted
+// mean per square of side × side px. The tent extends to the centres of the neighbouring squares. Squares of one pixel
+// are centred at pixel corners, so that the tent covers 2 × 2 pixels; centred in a pixel, it would cover only that
+// pixel.
+//
+// meanOut is the radiance and the number of the class's lens samples, summed per pixel and averaged over the square.
+// openOut is the number of samples per pixel that no nearer class hides, averaged over the square. The quotient
+// meanOut / openOut is the colour and coverage of the class where it is not hidden. A blurred surface therefore keeps
+// its colour and coverage up to the edges of its occluders.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;
 layout(binding = 1) uniform sampler2D blockSum;
 layout(binding = 2) uniform usampler2D spreadClasses;
-// Index of the blur class. With nearestClass, the class is the most blurred one in front of the focus plane. No other
-// class hides this class.
+// Index of the blur class. If the define nearestClass is set, this is the most blurred class in front of the focus
+// plane, which no other class hides.
 layout(location = 0) uniform int classIndex;
-// Side of the squares in px, a power of 2.
+// Side in px of the squares over which samples are averaged, a power of 2.
 layout(location = 1) uniform int side;
-// Lower left texel of the blur class in the render target, from meansOrigin().
+// Lower left texel of the region of the render target that holds the class's means, from meansOrigin().
 layout(location = 4) uniform ivec2 origin;
 
 layout(location = 0) out vec4 meanOut;

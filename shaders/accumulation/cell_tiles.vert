@@ -1,12 +1,13 @@
-// Draws point sprites over the tiles where the means of one blur class (include/cells.glsl) must be written: tiles with
-// non-zero means and their neighbours. Point sprites without such tiles are moved outside the image.
+// Draws point sprites over the tiles in which cell_means.frag must write the mean radiance of one blur class, a group
+// of samples with similar blur (include/cells.glsl). These are the tiles where the mean is not 0, and their neighbours.
+// All other point sprites are moved outside the image.
 #include "include/cells.glsl"
 
 layout(binding = 2) uniform usampler2D spreadClasses;
 layout(location = 0) uniform int classIndex;
-// Side in px of the squares of the blur class; each square has one mean.
+// Side in px of the squares over which the samples of the blur class are averaged; each square has one mean.
 layout(location = 1) uniform int side;
-// Number of tiles along the side of a point sprite; > 1 for classes with large squares.
+// Number of tiles along the side of a point sprite; > 1 for blur classes whose samples are averaged over large squares.
 layout(location = 2) uniform int pointTiles;
 layout(location = 3) uniform ivec2 points;
 

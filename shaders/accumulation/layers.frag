@@ -65,9 +65,10 @@ vec2 movement() {
 #endif
 
 #ifdef NUMBER_SLOT
-// Returns 1 if the lens sample counts the surface's object and material, else 0. An alpha-blended surface is counted
-// with probability alpha, independently of other surfaces, and replaces the surfaces behind it. The fraction of samples
-// that count a surface is therefore alpha · Π (1 − alpha of each nearer surface), the surface's weight in the image.
+// Returns 1 if the surface's object and material are counted in this lens sample, else 0. An alpha-blended surface is
+// counted with probability alpha, independently of other surfaces, and replaces the surfaces behind it. A surface is
+// therefore counted in the fraction alpha · Π (1 − alpha of each nearer surface) of the samples, its weight in the
+// image.
 float chosen(float alpha) {
 #ifdef CHOOSES_BY_ALPHA
     if (alphaBlended) return alpha > alphaThreshold(pixelOfImage()) ? 1.0 : 0.0;
@@ -80,7 +81,7 @@ void main() {
     readSurface();
     layerOut = surfaceLight();
 #ifdef TRANSMISSIVE
-    float alpha = 1.0;   // a transmissive surface hides the data behind it
+    float alpha = 1.0;   // in the data layers (depth, normal, …), a transmissive surface is opaque
 #else
     float alpha = alphaBlended ? surfaceBase.a : 1.0;
 #endif

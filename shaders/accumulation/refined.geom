@@ -1,8 +1,13 @@
 // Cuts a triangle at the near plane and along the kinks of the circle of confusion C (abrupt changes of its slope),
 // then shears the pieces. Inside each piece C is linear (Munkberg, Toth and Akenine-Möller 2012, Figures 2 and 10), and
-// |C/w| never exceeds its values at the piece's vertices. From front to back, the kinks lie where (symbols as in
-// src/lens/circle_of_confusion.h)
-//   F·factor + added = −R₁ | F = 0 | B = 0 | B·factor + added = R₂
+// |C/w| (w: depth) never exceeds its values at the piece's vertices. From front to back, the kinks lie where
+//   F·factor + added = −R₁   (the blur in front of the focus plane reaches its limit R₁)
+//   F = 0                    (the range of sharp depths begins)
+//   B = 0                    (the range of sharp depths ends)
+//   B·factor + added = R₂    (the blur behind the focus plane reaches its limit R₂)
+// F and B are the blur in front of and behind the focus plane as functions of 1/w; `factor` and `added` are the
+// surface's blur factor and added blur (src/lens/circle_of_confusion.h).
+//
 // Each cut position on a triangle's edge depends only on the edge's two ends, and not on their order. Neighbouring
 // triangles therefore cut their shared edge at the same position, and no gap opens.
 
@@ -81,8 +86,8 @@ void emit(Piece piece) {
 
 void main() {
     if (chromatic) bandShift = unsheared[0].bandShift;
-    // Values of five linear functions at the triangle's corners. The zeros of the first four are the kinks of the
-    // circle of confusion, from front to back. The zeros of the last lie on the near plane.
+    // Values of five linear functions at the triangle's corners. The first four are 0 at the kinks of the circle of
+    // confusion as a function of depth, from front to back. The last is 0 on the near plane.
     vec3 atLimitInFront, front, behind, atLimitBehind, beyondNear;
     for (int i = 0; i < 3; ++i) {
         vec3 pinhole = unsheared[i].pinhole;
@@ -97,7 +102,8 @@ void main() {
     if (any(lessThan(beyondNear, vec3(0.0)))) whole = kept(whole, beyondNear);
     if (whole.count < 3) return;
 
-    // Without a focus range, F = B (src/lens/circle_of_confusion.h), and C has no kink between its two limits.
+    // Without a range of sharp depths, the blur follows the same function in front of and behind the focus plane. The
+    // circle of confusion then has no kink between its two limits.
     bool range = frame.coc.x != frame.cocOther.x || frame.coc.y != frame.coc.w;
     if (any(lessThan(atLimitInFront, vec3(0.0)))) emit(kept(whole, -atLimitInFront));
     Piece middle = any(lessThan(atLimitInFront, vec3(0.0))) ? kept(whole, atLimitInFront) : whole;

@@ -1,5 +1,5 @@
 // Composites the blurred far field over the sharp image, and the blurred near field over both. The far field covers
-// only pixels behind the focus plane. Pixels of a field are often coarser than pixels of the image.
+// only pixels behind the focus plane. A pixel of a field (field pixel) covers reduction × reduction image pixels.
 #include "include/frame.glsl"
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"
@@ -7,7 +7,7 @@
 
 layout(binding = 2) uniform sampler2D farBlurred;
 layout(binding = 3) uniform sampler2D nearBlurred;
-layout(binding = 4) uniform sampler2D nearRadii;     // radius within which the near field was gathered, px of the field
+layout(binding = 4) uniform sampler2D nearRadii;     // radius in field pixels within which the near field was gathered
 layout(location = 2) uniform float perNearDiameter;  // 1 / (largest CoC diameter in px in front of the focus plane)
 // 0: there is no near field. ≥ 1: factor by which the near field's coverage is multiplied.
 layout(location = 0) uniform float blendBias;
@@ -25,8 +25,8 @@ vec3 radianceOf(vec4 field, float own, vec3 sharp) {
 // Returns the near field's coverage of a pixel, from the blurred weight `weight`.
 float coverageOf(float weight, vec2 place) {
     if (nearPremultiplied) {
-        // Divides by the weight that split.frag gives to a surface with the gathered blur. Surfaces with that blur then
-        // cover the pixel fully, and less blurred surfaces cover it partially.
+        // Divide the blurred weight by the weight that split.frag gives to a surface whose blur radius is the gathering
+        // radius. Surfaces with this blur then cover the pixel fully, and less blurred surfaces cover it partially.
         float diameter = 2.0 * float(reduction) * textureLod(nearRadii, place, 0.0).r;
         weight /= max(clamp(diameter, 0.0, 1.0) * min(diameter * perNearDiameter, 1.0), 1e-6);
     }
@@ -51,7 +51,7 @@ void main() {
     vec2 place = gl_FragCoord.xy / (float(reduction) * vec2(textureSize(farBlurred, 0)));
     vec4 behind = textureLod(farBlurred, place, 0.0);
     float own = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
-    // The far field fades in at diameters from 1 to 2 px of the field.
+    // The far field fades in as the blur diameter grows from 1 to 2 field pixels.
     float farShare = clamp(diameter / float(reduction) - 1.0, 0.0, 1.0);
     vec3 color = mix(sharp, radianceOf(behind, own, sharp), farShare);
     vec4 before = textureLod(nearBlurred, place, 0.0);

@@ -4,12 +4,14 @@
 
 layout(binding = 0) uniform sampler2D field;
 layout(binding = 1) uniform sampler2D radii;
-layout(binding = 2) uniform sampler2D brightest;       // x: max radiance, y: max weight; read only if bracketed
-// per component: offset and scale (Bracket) of the real part, then of the imaginary part
+// Max radiance (red) and max weight (green) of the field. Read only if `bracketed` is set, which means that the sums
+// are mapped to [0, 1] for storage in ten bits.
+layout(binding = 2) uniform sampler2D brightest;
+// per component: offset and scale of the real part for the mapping to [0, 1], then of the imaginary part
 layout(location = 16) uniform vec4 brackets[components];
 layout(location = 15) uniform int firstComponent;
 
-// Two outputs per component: the real part and the imaginary part of the sum. If bracketed (sums mapped to [0, 1];
+// Two outputs per component: the real part and the imaginary part of the sum. If `bracketed` (sums mapped to [0, 1];
 // Bracket in src/render/circular/complex_blur.h), three outputs per component: the real part of rgb, the imaginary part
 // of rgb, and the weight's real part, imaginary part and mean. The last output is then the mean rgb.
 layout(location = 0) out vec4 sums[bracketed ? 3 * components + 1 : 2 * components];

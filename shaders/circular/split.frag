@@ -26,8 +26,8 @@ void main() {
         for (int x = first.x; x <= last.x; ++x) {
             float diameter = pinholeCircleOfConfusion(ivec2(x, y), 0);
             vec4 color = vec4(clearColor(ivec2(x, y)), 1.0);
-            // Pixels with a diameter below one pixel belong partly to the sharp image. Behind the focus plane, the
-            // weight is proportional to the diameter (Garcia's premultiplied far field). Nearly sharp surfaces
+            // Pixels whose blur diameter is below one pixel belong partly to the sharp image. Behind the focus plane,
+            // the weight is proportional to the blur diameter (Garcia's premultiplied far field). Nearly sharp surfaces
             // therefore leak little into the wide disks behind them.
             float behind = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
             float before = clamp(-diameter, 0.0, 1.0);

@@ -1,5 +1,5 @@
-// Computes the max of red and of green over each tile of tileSize × tileSize pixels. With ofChannels, computes the max
-// over all colour channels (radiance) and the max of alpha (weight) of a field.
+// Computes the max of red and of green over each tile of tileSize × tileSize pixels. With ofChannels, the input is the
+// near or far field, and the outputs are the max over its colour channels (radiance) and the max of alpha (weight).
 layout(binding = 0) uniform sampler2D values;
 
 layout(location = 0) out vec2 largest;

@@ -1,7 +1,7 @@
 // Filters the columns of the complex row sums from horizontal.frag and adds the components. The output is the blurred
-// field, divided by the sum of the kernel over all taps. If the rows used other radii, that sum is inexact, but the
-// ratio of radiance to weight stays correct. kernelAxes: horizontal and vertical semi-axis of an elliptical blur,
-// relative to the disk's radius.
+// near or far field, divided by the sum of the kernel over all taps. If the radii of the rows differ from this pixel's
+// radius, that sum is inexact, but the ratio of radiance to weight stays correct. kernelAxes: horizontal and vertical
+// semi-axis of an elliptical blur, relative to the disk's radius.
 #include "include/complex_kernel.glsl"
 
 // Sums over rows, the output of horizontal.frag.
@@ -76,6 +76,7 @@ void main() {
             kernelSum += times(times(weightOf(kernel[c]), rowNorm), norm).x;
         }
     }
-    blurred = sum * (tapCount(rowTaps) / kernelSum);   // undoes the division of the rows by their number of taps
+    // The factor tapCount() undoes the division by the number of taps in horizontal.frag.
+    blurred = sum * (tapCount(rowTaps) / kernelSum);
     if (bracketed) blurred *= texelFetch(brightest, ivec2(0), 0).rrrg;
 }

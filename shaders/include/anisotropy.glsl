@@ -4,7 +4,7 @@
 
 // Returns π·(n·l)·D·V, with the normal n, the distribution of normals D and the visibility V, for light from the unit
 // direction l = `toLight`. `spread`: 2σ², where σ² is the variance of the normals' slopes over the sample's footprint.
-// `spread` is added to the squares of both widths, except for masking, as in lobeOf().
+// `spread` is added to the squared GGX widths of the distribution D, but not to those of the masking, as in lobeOf().
 float anisotropicReflection(SurfacePoint point, float nl, float nv, float spread, vec3 toLight) {
     if (nl <= 0.0 || nv <= 0.0) return 0.0;
     vec2 widths2 = point.widths * point.widths;

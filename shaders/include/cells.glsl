@@ -4,31 +4,34 @@
 // texture of sums has one layer per class.
 //
 // Layer k < cellsInFront sums all samples except the samples in front of the focus plane that belong to class k or to a
-// more blurred class. Layer cellsInFront + k sums the samples behind the focus plane that belong to class k or to a
-// more blurred class. A class is the difference of two adjacent layers. RGB is radiance, and alpha counts samples.
+// class of larger blur. Layer cellsInFront + k sums the samples behind the focus plane that belong to class k or to a
+// class of larger blur. A class is the difference of two adjacent layers. RGB is radiance, and alpha counts samples.
 
 const int cellClasses = cellsInFront + cellsBehind;
 // Number of blur classes whose sums are colour attachments. OpenGL guarantees 8 attachments; the sum of all samples
 // takes one. The sums of further classes are written with imageStore.
 const int drawnClasses = min(cellClasses, 7);
 
-// Side in px of the tiles for which a bit mask of the contained classes is recorded. Most tiles contain few classes.
+// Side in px of the tiles. A bit mask records the blur classes of each tile's samples; most tiles contain few classes.
 const int cellTile = 8;
-const int besideSpread = 16;   // index of the first bit of the second mask in spread_classes.frag
+// spread_classes.frag packs two bit masks of blur classes into an integer: the classes that a tile reads, and the
+// classes that must be written in it. This is the index of the first bit of the second mask.
+const int besideSpread = 16;
 
 // Returns the blur variance of blur class k in px², like cellClassVariance() in src/plan/lens_cells/lens_cells.h. Class
 // −1 is unblurred.
 float classVariance(int k) { return k < 0 ? 0.0 : exp2(float(2 * k)) / 3.0 + 1.0 / 6.0; }
 
 // Returns the total weight, 0 … 1, with which a lens sample of blur variance `variance` is counted in blur class k and
-// all more blurred classes. It increases linearly from 0 at the variance of class k − 1 to 1 at that of class k.
+// all classes of larger blur. It increases linearly from 0 at the variance of class k − 1 to 1 at that of class k.
 float reachOfClass(float variance, int k) {
     return clamp((variance - classVariance(k - 1)) * (1.0 / (classVariance(k) - classVariance(k - 1))), 0.0, 1.0);
 }
 
-// Returns the lower left texel of class k in the texture with the means of all blur classes. Class 0 is on the left;
-// the other classes are stacked to its right. `firstSquares`: columns and rows of the means of class 0. Separate
-// textures or mip levels are slower, because software drivers query their size for each pixel.
+// Returns the lower left texel of class k in the texture with the mean radiance of all blur classes over squares of
+// pixels. Class 0 is on the left; the other classes are stacked to its right. `firstSquares`: columns and rows of the
+// squares of class 0. Separate textures or mip levels are slower, because software drivers query their size for each
+// pixel.
 ivec2 meansOrigin(ivec2 firstSquares, int k) {
     return k == 0 ? ivec2(0) : ivec2(firstSquares.x, firstSquares.y - (firstSquares.y >> (k - 1)));
 }

@@ -1,13 +1,17 @@
-// Computes the smooth terms of the clip-space circle of confusion C; src/lens/circle_of_confusion.h defines F, B, R₁
-// and R₂. Unlike C itself, the terms are also defined behind the near plane. They are linear if C has no curved terms
-// and the surface's blur modifiers are uniform.
+// Computes the smooth terms of the clip-space circle of confusion C, the signed CoC times the depth w:
 //   C = clamp(factor·(min(0, front) + max(0, behind)) + added, −R₁·w, R₂·w)
+// R₁ and R₂ are the max blur in front of and behind the focus plane, as fractions of the image's width
+// (src/lens/circle_of_confusion.h). Unlike C itself, the terms have no kinks, and they are also defined behind the near
+// plane. They are linear across a triangle if the focus surface is not curved, the blur does not vary with the distance
+// from the image's centre, and the surface's blur modifiers are uniform.
 
 struct CocPieces {
-    float factor;   // blur factor of the surface times (1 + g·r²), as in circle_of_confusion.h
-    float front;    // w·F of circle_of_confusion.h; negative in front of the focus plane
-    float behind;   // w·B of circle_of_confusion.h; positive behind the focus plane
-    float added;
+    // Blur factor of the surface times the radial gain 1 + g·r², with the distance r from the image's centre and the
+    // coefficient g in frame.cocField.
+    float factor;
+    float front;    // w times the blur of the lens in front of the focus plane, where it is negative
+    float behind;   // w times the blur of the lens behind the focus plane, where it is positive
+    float added;    // w times the added blur of the surface
 };
 
 CocPieces cocPieces(vec3 pinhole, vec2 own) {

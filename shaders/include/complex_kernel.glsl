@@ -1,8 +1,10 @@
-// Computes taps of the complex separable kernels F(x) = e^(−a·x²)·(cos b·x² + i·sin b·x²), x = tap / radius (Niemitalo
-// 2010; Garcia 2018). src/render/circular/circular_kernel.h documents the mathematics. With exactTaps, there is one tap
-// per pixel; otherwise eight taps on each side of the centre are spread over the radius.
+// Computes taps of the complex separable kernels F(x), where x = tap / radius (Niemitalo 2010; Garcia 2018).
+// src/render/circular/circular_kernel.h documents the mathematics. With exactTaps, there is one tap per pixel;
+// otherwise eight taps on each side of the centre are spread over the radius.
 
-layout(location = 0) uniform vec4 kernel[kernelSize];   // per component: a and b of F; weights A of Re F and B of Im F
+// Per component: decay a and frequency b of the kernel F(x) = e^(−a·x²)·(cos b·x² + i·sin b·x²); weights A of Re F and
+// B of Im F.
+layout(location = 0) uniform vec4 kernel[kernelSize];
 
 struct Taps {
     int count;      // number of taps on each side of the centre
@@ -27,14 +29,14 @@ float tapCount(Taps taps) {
 
 vec2 times(vec2 p, vec2 q) { return vec2(p.x * q.x - p.y * q.y, p.x * q.y + p.y * q.x); }
 
-// Returns q = F(1/R) for a radius of R taps. The recurrence F((i + 1)/R) = F(i/R)·q^(2i + 1) evaluates F at all taps
-// without further exponentials.
+// Returns q = F(1/R), the complex kernel F of a component at the first tap, for a radius of R taps. The recurrence
+// F((i + 1)/R) = F(i/R)·q^(2i + 1) evaluates F at all taps without further exponentials.
 vec2 firstRatio(vec4 component, Taps taps) {
     float u = 1.0 / (taps.radius * taps.radius);
     return exp(-component.x * u) * vec2(cos(component.y * u), sin(component.y * u));
 }
 
-// Returns the sum over all taps of F times fade().
+// Returns the sum of a component's complex kernel F over all taps, each multiplied by its weight fade().
 vec2 tapSum(vec4 component, Taps taps) {
     vec2 ratio = firstRatio(component, taps);
     vec2 grow = times(ratio, ratio);
@@ -48,5 +50,6 @@ vec2 tapSum(vec4 component, Taps taps) {
     return sum;
 }
 
-// Returns a component's complex weight A − i·B, with which A·Re z + B·Im z = Re((A − i·B)·z).
+// Returns a component's complex weight A − i·B. Re((A − i·B)·z) is A·Re z + B·Im z, the weighted sum of the real and
+// imaginary parts of z.
 vec2 weightOf(vec4 component) { return vec2(component.z, -component.w); }

@@ -3,13 +3,18 @@
 
 layout(std140, binding = 0) uniform FrameBlock {
     vec4 projection;      // 1/tan(θx/2), 1/tan(θy/2) for angles of view θ; near plane (m); unused
-    vec4 coc;             // xy: a, b₁ of the CoC C (lens/circle_of_confusion.h); z: image width (px); w: b₂
+    // Coefficients of the circle of confusion (CoC) as a fraction of the image's width. It is a/depth + b₁·q in front
+    // of the focus plane and a₂/depth + b₂·q behind it, where q is 1 unless the focus surface is tilted or curved
+    // (src/lens/circle_of_confusion.h). x: a; y: b₁; z: image width (px); w: b₂.
+    vec4 coc;
     vec4 cocField;        // xy: tilt t of the focus plane; z: field curvature κ; w: radial blur gain g
-    vec4 cocLimits;       // xy: blur limits R₁, R₂; z: 1/k² (k: aspect ratio); w: max error of C in a triangle (px)
-    // x: a₂ of the circle of confusion C; y: fraction of the image's width per mm on the sensor, for added vertex blur;
-    // zw: coefficients A of astigmatism and B of coma (src/lens/aberrations.h).
+    // xy: max CoC in front of and behind the focus plane, as fractions of the image's width; z: 1/k² with the image's
+    // aspect ratio k; w: max error (px) of interpolating the CoC linearly in a triangle.
+    vec4 cocLimits;
+    // x: coefficient a₂ of the CoC behind the focus plane (see `coc`); y: fraction of the image's width per mm on the
+    // sensor, for added vertex blur; zw: coefficients A of astigmatism and B of coma (src/lens/aberrations.h).
     vec4 cocOther;
-    vec4 window;          // xy: position in the image of the layers' pixel (0, 0); zw: image size (px)
+    vec4 window;          // xy: position of the layers' pixel (0, 0) within the image; zw: image size (px)
     mat4 worldFromView;   // rotation from view space to world space
     vec4 lightPositions[maxLights];  // xyz: relative to the camera, in m, world axes; w: range (m), 0: unlimited
 } frame;
@@ -25,7 +30,8 @@ struct Object {
     // x: number of texels per pose; y: number of joints; z: number of active morph targets; w: number of texels per
     // attribute of a morph target.
     ivec4 posing;
-    // x: max deviation of the drawn levels from full detail (m); y: max number of parts of an edge (refined.tesc).
+    // x: max deviation of the drawn levels from full detail (m); y: max number of parts into which tessellation divides
+    // an edge (refined.tesc).
     vec2 levels;
 };
 layout(location = 96) uniform Object object;   // uniform locations 96 to 100

@@ -1,15 +1,19 @@
 // Applies the clip-space lens shear p' = p + C·(u, k·v, 0, 0) for lens point (u, v) and aspect ratio k (Munkberg, Toth
-// and Akenine-Möller 2012; here C > 0 behind the focus plane). src/lens/circle_of_confusion.h documents C and its
-// terms. Without cocControls, C is a + b·w. `own` holds the surface's blur modifiers: a factor and an added fraction of
-// the image's width. Depth is reversed with an infinite far plane: z = near, so z/w runs from 1 at the near plane to 0
-// at infinity.
+// and Akenine-Möller 2012; here C > 0 behind the focus plane). C is the signed circle of confusion times the depth w;
+// src/lens/circle_of_confusion.h documents C and its terms. Without the define cocControls, C is that of a thin lens,
+// a + b·w. `own` holds the surface's blur modifiers: a factor and an added fraction of the image's width. Depth is
+// reversed with an infinite far plane: z = near, so z/w runs from 1 at the near plane to 0 at infinity.
 
-float bandShift = 0.0;   // change in the CoC coefficients b₁ and b₂ due to the sample's wavelength; 0 unless chromatic
+// Change in the CoC coefficients b₁ and b₂ (frame.coc) due to the sample's wavelength; 0 unless chromatic.
+float bandShift = 0.0;
 
+// Terms of the signed circle of confusion (CoC) C/w, as fractions of the image's width.
 struct CocTerms {
-    float factor;   // blur factor of the surface times (1 + g·r²), as in circle_of_confusion.h
-    float front;    // F of circle_of_confusion.h; negative in front of the focus plane
-    float behind;   // B of circle_of_confusion.h; positive behind the focus plane
+    // Blur factor of the surface times the radial gain 1 + g·r², with the distance r from the image's centre and the
+    // coefficient g in frame.cocField.
+    float factor;
+    float front;    // CoC of the lens in front of the focus plane, where it is negative: a/depth + b₁·q (frame.coc)
+    float behind;   // CoC of the lens behind the focus plane, where it is positive: a₂/depth + b₂·q (frame.coc)
 };
 
 CocTerms cocTerms(float inverseDepth, vec2 ndc, float ownFactor) {
@@ -19,8 +23,8 @@ CocTerms cocTerms(float inverseDepth, vec2 ndc, float ownFactor) {
                     frame.cocOther.x * inverseDepth + (frame.coc.w + bandShift) * focus);
 }
 
-// Returns C/w, the signed diameter of the circle of confusion as a fraction of the image's width, for the inverse depth
-// 1/w and an image position in normalised device coordinates.
+// Returns the signed diameter of the circle of confusion as a fraction of the image's width. `inverseDepth`: 1 / depth;
+// `ndc`: image position in normalised device coordinates; `own`: the surface's blur modifiers.
 float relativeCircleOfConfusion(float inverseDepth, vec2 ndc, vec2 own) {
     if (!cocControls) return frame.coc.x * inverseDepth + frame.coc.y + bandShift;
     CocTerms terms = cocTerms(inverseDepth, ndc, own.x);

@@ -111,9 +111,9 @@ void toMiddle(vec2 moment, inout Posed vertex, inout vec3 eye) {
 }
 
 // Returns the vertex at the time `moment`: x is the index of a shutter time, y is the fraction of the way to the next
-// shutter time. Between the two, the clip position is linear in time (Munkberg et al. 2012), and C is evaluated at the
-// interpolated position. For a plain lens, C is then linear in time as in the paper; with blur controls, C equals the
-// value in a still frame.
+// shutter time. Between two shutter times, the clip position is linear in time (Munkberg et al. 2012). The caller
+// evaluates the clip-space circle of confusion C at the interpolated position. For a thin lens, C is then linear in
+// time as in that paper; with blur controls, C is the same as in a still frame with the vertex at that position.
 Vertex vertexAt(vec2 moment, Posed rest, vec3 eye) {
     Posed posed = posedVertex(moving ? int(moment.x) : 0, rest);
     if (moving && moment.y > 0.0) posed = between(posed, posedVertex(int(moment.x) + 1, rest), moment.y);

@@ -29,12 +29,12 @@ struct SurfacePoint {
     vec3 toEye;           // unit vector
     vec3 emission;        // emitted radiance; set only if emissive
     vec3 normalRight;     // change in the interpolated normal over one pixel to the right
-    vec3 normalUp;        // change in the interpolated normal over one pixel up
+    vec3 normalUp;        // change in the interpolated normal from a pixel to the pixel above it
     // The next three members are set only if coarseLevel.
     float agreement;      // length |n| of the mean of the unit normals that `normal` represents, in (0, 1]
-    float spread;         // result of normalSpread(agreement)
+    float spread;         // spread of the unit normals that `normal` represents, from normalSpread()
     vec3 seen;            // mean of the visible normals, see seenNormal()
-    float grazing;        // reflectance at grazing angles, F90; 1 unless ownReflectance
+    float grazing;        // reflectance at grazing angles, F90; 1 unless the define ownReflectance is set
     vec3 transmitted;     // radiance from behind the surface, before the loss by reflection
     // The next two members are set only if the material has sheen.
     vec3 sheen;           // colour of the sheen
@@ -43,48 +43,49 @@ struct SurfacePoint {
     float coat;           // coated fraction of the surface
     float coatRoughness;  // perceptual roughness
     vec3 coatNormal;      // unit vector
-    // The next four members are set only if anisotropic.
+    // The next four members are set only if the material is anisotropic.
     vec3 stretch;         // unit vector along the surface in which highlights are stretched
     vec3 across;          // unit vector along the surface, perpendicular to `stretch`
     vec2 widths;          // GGX widths α along `stretch` and `across`
     vec3 mirror;          // normal for reflections of the environment
-    // The next three members are set only if iridescent.
-    float iridescence;    // fraction of the surface with a film
-    float film;           // thickness of the film (nm)
-    vec3 filmBase;        // F0 with which Schlick's term gives the film's reflectance towards the eye
-    vec3 through;         // albedo of the diffuse light from behind; set only if diffusesThrough
+    // The next three members are set only if the material is iridescent (KHR_materials_iridescence).
+    float iridescence;    // fraction of the surface that a thin film covers
+    float film;           // thickness of the thin film (nm)
+    vec3 filmBase;        // F0 for which Schlick's approximation equals the film's reflectance in the view direction
+    vec3 through;         // albedo for diffuse light that comes from behind the surface; set only if diffusesThrough
     // Irradiance from the environment that occluders block, divided by π. Set only if `shadowed`.
     vec3 hidden;
 };
 
 vec3 lightShares[lightCount + 1];   // fraction of each light that reaches the surface; set only if `shadowed`
 
-// Reflected light, summed over all lights, without the factors F0 and albedo. n, l, v, h: unit vectors of the normal,
-// to the light, to the eye, and halfway between l and v. E: illuminance of a surface that faces the light.
-// D: distribution of normals. V: masking / (4·(n·l)·(n·v)). g: weight (1 − v·h)⁵ of Schlick's Fresnel term.
+// Reflected light without the factors F0 and albedo. Σ: sum over all lights. n, l, v, h: unit vectors of the normal, to
+// the light, to the eye, and halfway between l and v. The irradiance of a light is its illuminance of a surface that
+// faces the light, times n·l. D: distribution of normals. V: visibility, masking / (4·(n·l)·(n·v)).
 struct LightSums {
-    vec3 diffuse;         // diffuse part beneath the Fresnel reflection: Σ E·(n·l)·(1 − g) / π
-    vec3 specular;        // specular part at reflectance 1: Σ E·(n·l)·D·V
-    vec3 grazing;         // specular part at reflectance g: Σ E·(n·l)·D·V·g
-    vec3 matt;            // diffuse part without Fresnel loss: Σ E·(n·l) / π
-    vec3 sheen;           // sheen of colour 1: Σ E·(n·l)·D·V, with D and V of the sheen
-    // The next two sums are for iridescent surfaces. F: the film's reflectance at v·h.
-    vec3 film;            // specular part of the film: Σ E·(n·l)·D·V·F
-    vec3 beneathFilm;     // diffuse part beneath the film: Σ E·(n·l)·(1 − max F) / π
-    vec3 behind;          // diffuse light from behind: Σ E·max(−n·l, 0) / π; set only if diffusesThrough
+    vec3 diffuse;         // diffuse light beneath the Fresnel reflection: Σ irradiance·(1 − g)/π, with g = (1 − v·h)⁵
+    vec3 specular;        // specular light for reflectance 1: Σ irradiance·D·V (normal distribution D, visibility V)
+    vec3 grazing;         // specular light for reflectance g = (1 − v·h)⁵, Schlick's weight: Σ irradiance·D·V·g
+    vec3 matt;            // diffuse light without Fresnel loss: Σ irradiance/π
+    vec3 sheen;           // sheen of colour 1: Σ irradiance·D·V, with the sheen's distribution D and visibility V
+    // The next two sums are for iridescent surfaces, which a thin film covers.
+    vec3 film;            // specular light of the thin film: Σ irradiance·D·V·F, with the film's reflectance F at v·h
+    vec3 beneathFilm;     // diffuse light beneath the film: Σ irradiance·(1 − F)/π, with F of the strongest channel
+    vec3 behind;          // diffuse light from behind: Σ (irradiance of the back)/π; set only if diffusesThrough
 };
 
 // Returns the mean of max(n·l, 0) over the normals n that a coarse level's normal represents. `mean` is the mean of
 // n·l, and `cosine` is the cosine between the shading normal and the light. With isotropic spread, the variance of n·l
-// is proportional to 1 − cosine². For a normal distribution (μ, σ²), the mean of the positive part is approximately
+// is proportional to 1 − cosine². For a Gaussian distribution (μ, σ²), the mean of the positive part is approximately
 // (μ + √(μ² + 2σ²/π)) / 2. `spread` is 2σ²/π for light perpendicular to the shading normal.
 float meanCosine(float mean, float cosine, float spread) {
     return 0.5 * (mean + sqrt(mean * mean + spread * max(1.0 - cosine * cosine, 0.0)));
 }
 
 // Returns the spread S for which the mean of meanCosine() over all light directions is 1/4, as for a single normal. The
-// surface then reflects as much light as it receives: |n| + S / √(|n|² − S) · arsinh √(|n|²/S − 1) = 1, where |n| is
-// `agreement`. The polynomial is a fit; its error is 7e-4 relative to the mean 1/4.
+// surface then reflects as much light as it receives. S is the solution of |n| + S / √(|n|² − S) · arsinh
+// √(|n|²/S − 1) = 1, where |n| is `agreement`. The code approximates S by a polynomial. The error of the mean is 7e-4,
+// relative to 1/4.
 float normalSpread(float agreement) {
     float lost = 1.0 - agreement;
     float root = sqrt(lost);
@@ -120,14 +121,15 @@ struct Spread {
 
 // Variance of the normals within a pixel, which widens highlights. The equations follow Kaplanyan et al. 2016
 // (Filtering Distributions of Normals for Shading Antialiasing), with the bound of Tokuyoshi and Kaplanyan 2019
-// (Improved Geometric Specular Antialiasing). σ² is the variance of the normals over an area of 8 · footprint² px
-// (WaveBlock), at most one pixel, weighted by a normal distribution whose σ is half the width of the area. With half of
-// this area, 64 samples miss up to 12 % of the sun's light that a mirror ball reflects, because its highlight is far
-// smaller than a pixel. With a larger area, the additional blur of highlights outweighs the lower noise.
+// (Improved Geometric Specular Antialiasing). σ² is the variance of the normals over a square whose area is 8 times the
+// area over which a sample's texture lookups are filtered (WaveBlock::footprint), but at most one pixel. The points of
+// the square are weighted by a Gaussian whose standard deviation is half the square's side. With half of this area, 64
+// samples miss up to 12 % of the sun's light that a mirror ball reflects, because its highlight is far smaller than a
+// pixel. With a larger area, the additional blur of highlights outweighs the lower noise.
 //
 // The same variance is used in all directions. On a wire, however, normals vary by half a turn across the wire and
-// hardly along it. A highlight that is widened along the wire would light parts that face away from the light. The
-// variance along the wire is therefore at most 2σ² = 0.03, unless normals vary more in this direction.
+// hardly along it. A highlight that is widened along the wire would light parts that face away from the light. Along
+// the wire, 2σ² is therefore limited to 0.03 (σ = 7°), unless normals vary more in this direction.
 Spread slopeSpread(SurfacePoint point) {
     float right2 = dot(point.normalRight, point.normalRight);
     float up2 = dot(point.normalUp, point.normalUp);
@@ -139,7 +141,7 @@ Spread slopeSpread(SurfacePoint point) {
                                   : product * point.normalRight + (deviation - difference) * point.normalUp;
     axis -= point.normal * dot(point.normal, axis);
     float axis2 = dot(axis, axis);
-    float ofEqual = 0.5 * mean;   // 2σ² over the pixel, with the same variance in all directions
+    float ofEqual = 0.5 * mean;   // 2σ² of the normals over a full pixel, if σ² is the same in all directions
     vec2 ofPixel = vec2(ofEqual, min(ofEqual, max(0.5 * (mean - deviation), 0.03)));
     vec2 spread = min(ofPixel * min(8.0 * wave.footprint * wave.footprint, 1.0), 0.18);
     if (coarseLevel) spread += coarseSpread(point);
@@ -148,27 +150,29 @@ Spread slopeSpread(SurfacePoint point) {
 
 float meanSpread(Spread spread) { return 0.5 * (spread.along + spread.across); }
 
-// Specular lobe of GGX slopes of width α, convolved with a normal distribution of slopes of variance σ². If σ
+// Specular lobe of GGX slopes of width α, convolved with a Gaussian distribution of slopes of variance σ². If σ
 // dominates, the result is close to Beckmann's distribution, but its far tail remains that of GGX. The model mixes
 // Beckmann with weight 2σ² / (α² + 2σ²) and GGX with the rest, both of squared width α² + 2σ². This mix preserves GGX's
-// tail α²/(π tan⁴). Beckmann's distribution has different widths along and across the axis of the variance. GGX and the
-// weights use the mean of 2σ² over both directions.
+// tail α²/(π tan⁴ θ) at large angles θ from the normal. The variance differs along and across an axis (Spread), so
+// Beckmann's distribution has two widths. GGX and the weights use the mean of 2σ² over both directions.
 //
 // Masking: normals that only add to σ belong to other positions in the pixel, or to level 0, and don't mask each other
 // like microfacets. Masking therefore uses α. Beckmann's part is reflected by the normals at the half vector h, so its
 // masking term uses the cosine v·h for both the light and the eye. The masking term of GGX's part uses n·l and n·v.
 //
 // Coarse levels: normals that face the eye cover more pixels, so each is weighted by v·h divided by the mean of v·h. In
-// the masking term of Beckmann's part, the cosine to the eye is therefore this mean. Where the microfacets themselves
-// are rough, a fraction α of them reflects from the underlying normal, masked as usual.
+// the masking term of Beckmann's part, the cosine to the eye is therefore this mean. Of the weight that the variance of
+// a coarse level gives to Beckmann's part, a fraction α stays with GGX's part, whose masking uses n·l and n·v.
 struct Lobe {
-    float width;          // width α of the GGX distribution
-    float alpha2;         // α² + 2σ², with the mean of 2σ²
-    vec3 axis;            // direction of the larger variance (Spread::axis)
-    vec2 widths2;         // α² + 2σ² along and across the axis
+    float width;          // width α of the GGX distribution of microfacets
+    float alpha2;         // squared GGX width α² + 2σ²; σ²: variance of the normals' slopes, mean of both directions
+    vec3 axis;            // direction in which the normals' slopes vary more (Spread::axis)
+    vec2 widths2;         // squared Beckmann widths α² + 2σ² along and across `axis`; σ²: variance of the slopes
     float share;          // weight of Beckmann's distribution
-    float shown;          // cosine between the eye and the normals of Beckmann's part: shown + shownOfH · v·h
-    float shownOfH;       // coefficient of v·h in the cosine shown + shownOfH · v·h
+    // Masking of Beckmann's part uses the cosine `shown` + `shownOfH` · (v·h) between its normals and the view
+    // direction v, where h is the half vector.
+    float shown;
+    float shownOfH;       // factor of v·h in that cosine: 1 for full detail
 };
 
 Lobe lobeOf(SurfacePoint point, float nv, Spread spread) {
@@ -244,7 +248,8 @@ vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toL
     float distance2 = max(dot(offset, offset), 1e-8);
     toLight = offset * inversesqrt(distance2);
     float falloff = 1.0 / distance2;
-    if (positionRange.w > 0.0) {                                       // range falloff that the extension recommends
+    // Attenuates the light towards its range, as KHR_lights_punctual recommends.
+    if (positionRange.w > 0.0) {
         float ratio2 = distance2 / (positionRange.w * positionRange.w);
         falloff *= clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
     }
@@ -309,9 +314,10 @@ vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusio
         float roughness = sqrt(sqrt(min(width * width + spread, 1.0)));
         reflection = environmentRadiance(reflect(-point.toEye, anisotropic ? point.mirror : point.normal), roughness * environmentLevels);
     } else if (environmentType == 2) {
-        // A gradient depends only on the height (y) of a direction, here of the mirrored direction 2 (n·v) n − v. The
-        // spread of the normals scales the mean height of mirrored directions by 1 − 2·spread. Diffuse reflection
-        // scales the height by 2/3, so mixing in the fraction 6·spread of diffuse light gives the same mean height.
+        // The radiance of a gradient environment depends only on the height (y) of a direction, here of the mirrored
+        // direction 2 (n·v) n − v. The spread of the normals scales the mean height of mirrored directions by
+        // 1 − 2·spread. Diffuse reflection scales the height by 2/3, so mixing in the fraction 6·spread of diffuse
+        // light gives the same mean height.
         float mirroredHeight = anisotropic ? reflect(-point.toEye, point.mirror).y : 2.0 * nv * point.normal.y - point.toEye.y;
         diffuse = gradientDiffuse(mattNormal(point).y);
         if (diffusesThrough) behind = gradientDiffuse(-mattNormal(point).y);

@@ -12,10 +12,11 @@
 // reversed: the comparison uses the depth of a plane that rises from the receiver as steeply as the facet descends, but
 // by at most 45°. This never darkens the receiver, and it leaves facets that face the light unchanged.
 //
-// At grazing light the facet is steep in the map. Let θ be the angle between n and the light, and r half a texel's
-// diagonal. At distance r from the texel centre, the plane is r·tan θ nearer to the light. An offset d along n moves
-// the receiver by d/cos θ towards the light. So d = r·sin θ ≤ r is sufficient for any slope, and the offset is at most
-// a texel.
+// At grazing incidence of the light, the facet is steep in the map, so the offset along n grows from a quarter of a
+// texel to at most one texel. Let θ be the angle between n and the light, and r half a texel's diagonal. At distance r
+// from the texel centre, the facet's plane may be r·tan θ nearer to the light than at the centre. An offset of d along
+// n moves the receiver by d/cos θ towards the light. An offset of d = r·sin θ ≤ r is therefore sufficient for any
+// slope.
 
 #include "include/shadow_projection.glsl"
 
@@ -59,7 +60,7 @@ vec3 litAt(int slot, Facet facet, vec3 toLight) {
     vec2 toMiddle = (vec2(at) + 0.5) * (2.0 / float(shadowSize)) - 1.0 - place;
     float rise = depthAlongFacet(texel, clip, facet.normal, width, toMiddle);
     vec4 diagonal = shadowDirection(texel, toLight * (0.5 * float(shadowSize) * length(toMiddle) * width));
-    // depth change along a plane that rises at 45°
+    // depth change from the receiver to the texel centre along a plane that rises towards the light at 45° to the map
     float steepest = (diagonal.z - clip.z / clip.w * diagonal.w) / clip.w;
     float depth = clip.z / clip.w + (rise < 0.0 ? min(-rise, steepest) : rise);
     vec3 nearest = texelFetch(shadowMaps, ivec3(at, gl_Layer * (shadowPoints * shadowMapCount) + slot), 0).rgb;

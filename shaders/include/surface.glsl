@@ -10,13 +10,13 @@ struct Surface {
     vec3 toEye;           // vector from the surface to this sample's lens point (m)
     vec3 position;        // position relative to the camera (m)
     vec2 lens;            // lens point (u, k·v) of the sample; k: aspect ratio
-    float bandShift;      // change in the CoC coefficient b due to the sample's wavelength, as in lens.glsl
+    float bandShift;      // change in the CoC coefficients b₁ and b₂ (lens.glsl) due to the sample's wavelength
     vec4 uv;              // texture coordinates of both UV sets
     vec4 tangent;
     vec2 ownBlur;         // the surface's blur factor, and its added blur as a fraction of the image's width
-    int facet;            // index of the triangle's last vertex, as the triangle's id; set only if choosesByAlpha
+    int facet;            // index of the triangle's last vertex, used as its id; set only with CHOOSES_BY_ALPHA
     float sampleNumber;   // index of the lens sample within the frame
     float layer;
-    vec3 opening;         // clip-space (x, y, w) through a pinhole when the shutter opens; set only with MOTION_SLOT
-    vec3 closing;         // clip-space (x, y, w) through a pinhole when the shutter closes; set only with MOTION_SLOT
+    vec3 opening;         // clip position (x, y, w) through a pinhole at shutter opening; set only with MOTION_SLOT
+    vec3 closing;         // clip position (x, y, w) through a pinhole at shutter closing; set only with MOTION_SLOT
 };

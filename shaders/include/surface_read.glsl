@@ -1,5 +1,6 @@
-// Returns the surface read from the varyings SURFACE_IN, an expression that may contain `corner`. Attributes that the
-// material doesn't need are 0, except that an unneeded ownBlur is (1, 0).
+// Returns the surface read from its varyings. The macro SURFACE_IN is an expression for the varyings' block; it may use
+// `corner`, the index of a corner of the triangle. Attributes that the material doesn't need are 0, except the blur
+// modifiers ownBlur, which are then (1, 0): factor 1 and no added blur.
 
 Surface surfaceAt(int corner) {
     Surface s = Surface(vec4(0.0), vec4(0.0), vec4(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0), vec2(0.0), 0.0, vec4(0.0),

@@ -6,9 +6,9 @@
 #include "include/surface_output.glsl"
 
 layout(location = 6) in vec4 lensAndJitterIn;   // per instance: lens point (u, k·v), k: aspect ratio; jitter (NDC)
-layout(location = 7) in vec4 eyeAndSampleIn;    // per instance: lens point (m), index in the frame, layer
+layout(location = 7) in vec4 eyeAndSampleIn;    // per instance: lens point (m); sample index in the frame; layer
 layout(location = 13) in vec3 momentIn;         // per instance: shutter time, `moment` of vertexAt()
-layout(location = 14) in float bandShiftIn;     // per instance: CoC change that the wavelength causes, as in lens.glsl
+layout(location = 14) in float bandShiftIn;     // per instance: bandShift (lens.glsl), the CoC change by the wavelength
 // Min and max of the vertex colours of all triangles that share the vertex. Each channel is 256 · max + min, in units
 // of 1/255.
 layout(location = 15) in vec4 colorRangeIn;
@@ -16,7 +16,7 @@ layout(location = 15) in vec4 colorRangeIn;
 Vertex instanceVertex() { return vertexAt(momentIn, vec3(eyeAndSampleIn.xy, 0.0)); }
 
 #ifdef MOTION_SLOT
-// Returns the clip-space (x, y, w) of the vertex through a pinhole at a shutter time.
+// Returns the clip position (x, y, w) of the vertex as seen through a pinhole, at the shutter time with index `pose`.
 vec3 placeInPose(int pose) {
 #ifdef POSED
     return pinholePosition(posedVertex(moving ? pose : 0, Posed(positionIn, normalIn, tangentIn.xyz)).position);

@@ -16,9 +16,9 @@ struct Posed {
 };
 
 struct Vertex {
-    Posed view;     // vertex in the view space in the middle of the exposure
-    vec3 eye;       // point on the lens (m) in the view space of `view`
-    vec3 pinhole;   // clip-space (x, y, w) through a pinhole, at the time of the lens sample
+    Posed view;     // vertex in the view space of the camera at the middle of the exposure
+    vec3 eye;       // point on the lens (m) in the view space of the camera at the middle of the exposure
+    vec3 pinhole;   // clip position (x, y, w) seen through a pinhole, at the time of the lens sample
 };
 
 #ifdef POSED

@@ -23,19 +23,21 @@ layout(location = 2) uniform vec2 pinhole;                  // subpixel position
 
 layout(location = 0) out vec4 layerOut;
 
-const float rounded = 0.05;   // tolerance for rounding when a ray hits a plane, in px of blur
-const float oneSurface = 1.0; // max difference between adjacent planes of one surface, in px of blur
+const float rounded = 0.05;   // tolerance for rounding errors of a ray's hit on a plane, as a blur diameter in px
+// The planes of two neighbouring pixels belong to one surface if their blur diameters differ by less than this (px) at
+// the pixels' common border.
+const float oneSurface = 1.0;
 const int maxSurfaces = blendedLayers ? 16 : 1;
 
 struct Hit {
     float depth;   // reversed depth; < 0: no hit
-    float end;     // blur at which the ray leaves the pixel of the hit
+    float end;     // position along the ray, measured as signed blur (px), at which the ray leaves the hit's pixel
     ivec3 texel;
 };
 
 // A ray as a line in the pinhole image, parameterised by the signed blur of the surfaces that it meets.
 struct Ray {
-    vec2 start;      // position in px at blur 0
+    vec2 start;      // position in px where the ray crosses the focus plane (blur 0)
     vec2 slope;      // change of position in px per px of blur
     vec2 perSlope;   // 1 / slope, for x and y
     float shift;     // blur in px that is added to all surfaces
@@ -47,7 +49,9 @@ vec2 placeAt(Ray ray, float blur) { return ray.start + blur * ray.slope; }
 // considered.
 void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
     vec2 reach = texelFetch(layerReach, ivec3(gl_FragCoord.xy, layer), 0).xy + vec2(-rounded, rounded) + ray.shift;
-    if (!usesOwnBlur) reach.y = min(reach.y, hit.end);   // blur grows along the ray, so hits beyond hit.end are farther
+    // Blur grows with depth along the ray unless surfaces modify their blur, so no surface beyond hit.end is nearer
+    // than `hit`.
+    if (!usesOwnBlur) reach.y = min(reach.y, hit.end);
     ivec2 size = textureSize(layerSurfaces, 0).xy;
     vec2 toFirst = -ray.start * ray.perSlope;
     vec2 toLast = (vec2(size) - ray.start) * ray.perSlope;
@@ -60,7 +64,7 @@ void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
     ivec2 texel = clamp(ivec2(floor(placeAt(ray, reach.x))), ivec2(0), size - 1);
     float begin = reach.x;
     bool connected = false;   // true if the previous pixel has a surface
-    float before = 0.0;       // px of blur by which the ray was behind the surface on leaving the previous pixel
+    float before = 0.0;       // how far the ray was behind the surface, in px of blur, when it left the previous pixel
     while (true) {
         vec2 ends = (vec2(texel + max(forward, 0)) - ray.start) * ray.perSlope;
         float end = min(min(ends.x, ends.y), reach.y);

@@ -17,7 +17,7 @@ layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };
 layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
 
 layout(location = 2) uniform uint recordCount;
-layout(location = 3) uniform uvec2 tiles;   // the lists of tiles [x, y) are in `entries`
+layout(location = 3) uniform uvec2 tiles;   // `entries` has the triangle lists of the tiles from tiles.x to tiles.y − 1
 
 // Variables of the current ray. They are initialised because drivers warn about uninitialised values.
 vec2 lens = vec2(0.0);

@@ -36,8 +36,8 @@ void add(inout Area area, vec4 clip, float aspect) {
     area.maximum = max(area.maximum, place + reach);
 }
 
-// Extends the area by the part of the triangle beyond the near plane, as seen from all lens points. C/w and the image
-// position are monotonic along an edge, so the corners of this part bound the area.
+// Extends the area by the part of the triangle beyond the near plane, as seen from all lens points. The diameter of the
+// circle of confusion and the image position are monotonic along an edge, so the corners of this part bound the area.
 void add(inout Area area, vec4 corners[3], float aspect) {
     float near = frame.projection.z;
     for (int i = 0; i < 3; ++i) {
@@ -52,8 +52,10 @@ void add(inout Area area, vec4 corners[3], float aspect) {
     }
 }
 
-// Returns the polar form of (Nx, Ny, det) in src/plan/visible/visibility.h: a function of three triangles that is
-// linear in each of them. It equals (Nx, Ny, det) of a triangle if all three arguments are that triangle.
+// Returns the polar form of the coefficients (Nx, Ny, det). The determinant of a triangle seen from the lens point
+// (u, v) is det + u·Nx + k·v·Ny, with the aspect ratio k (src/plan/visible/visibility.h). The polar form is a function
+// of three triangles that is linear in each of them. It equals (Nx, Ny, det) of a triangle if all three arguments are
+// that triangle.
 vec3 polarForm(vec4 a[3], vec4 b[3], vec4 c[3]) {
     vec2 slope = vec2(0.0);
     for (int i = 0; i < 3; ++i) slope += a[i].w * cross(b[(i + 1) % 3].xyz, c[(i + 2) % 3].xyz).xy;
@@ -62,7 +64,7 @@ vec3 polarForm(vec4 a[3], vec4 b[3], vec4 c[3]) {
 
 float overLens(vec3 coefficients, float aspect) { return coefficients.z + length(coefficients.xy * vec2(1.0, aspect)); }
 
-// Returns an upper bound on the rounding error of the determinant.
+// Returns an upper bound on the rounding error of a triangle's determinant.
 float roundingOf(vec4 p[3]) {
     vec3 a = abs(p[0].xyz);
     vec3 b = abs(p[1].xyz);
@@ -70,13 +72,13 @@ float roundingOf(vec4 p[3]) {
     return 1e-6 * dot(a, b.yzx * c.zxy + b.zxy * c.yzx);
 }
 
-// Returns true if the entire lens sees the triangle's back (Munkberg, Toth and Akenine-Möller 2012, Equation 5 and
-// Appendix A).
+// Returns true if the triangle's back is visible from the entire lens (Munkberg, Toth and Akenine-Möller 2012, Equation
+// 5 and Appendix A).
 bool facesAway(vec4 p[3], float aspect) { return overLens(polarForm(p, p, p), aspect) < -roundingOf(p); }
 
-// Returns true if the entire lens sees the triangle's back while its corners and their circles of confusion move
-// linearly from `p` to `q` (Munkberg et al. 2012, Equations 7 and 8): all Bernstein coefficients of the facing test
-// as a polynomial in time are negative.
+// Returns true if the triangle's back is visible from the entire lens while its corners and their circles of confusion
+// move linearly from `p` to `q` (Munkberg et al. 2012, Equations 7 and 8): all Bernstein coefficients of the facing
+// test as a polynomial in time are negative.
 bool facesAway(vec4 p[3], vec4 q[3], float aspect) {
     vec3 second = (polarForm(q, p, p) + polarForm(p, q, p) + polarForm(p, p, q)) / 3.0;
     vec3 third = (polarForm(p, q, q) + polarForm(q, p, q) + polarForm(q, q, p)) / 3.0;
@@ -98,8 +100,8 @@ void main() {
     Area area = Area(vec2(1e30), vec2(-1e30));
     add(area, corners, aspect);
     if (moving) {
-        // While a vertex moves in front of the camera, its image position and C/w stay between their values at the
-        // start and the end. No such bound exists if a corner crosses the near plane.
+        // While a vertex moves in front of the camera, its image position and the diameter of its circle of confusion
+        // stay between their values at the start and the end. No such bound exists if a corner crosses the near plane.
         vec4 later[3] = vec4[3](clipAtEnd(triangle.x), clipAtEnd(triangle.y), clipAtEnd(triangle.z));
         float near = frame.projection.z;
         float minimum = min(min(min(corners[0].z, corners[1].z), corners[2].z), min(min(later[0].z, later[1].z), later[2].z));

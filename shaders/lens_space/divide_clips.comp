@@ -1,5 +1,5 @@
 // Computes the vertices of divided triangles (divide.glsl) at one time within the exposure. Positions and blur
-// modifiers are interpolated, and C is evaluated at each vertex.
+// modifiers are interpolated, and the circle of confusion is evaluated at each vertex.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"

@@ -3,8 +3,8 @@
 
 struct Group {
     uint count;
-    uint first;      // index in the list of the group's first record (ray hit)
-    uint listed;     // number of the group's records listed so far
+    uint first;      // position of the group's first record in the list
+    uint listed;     // how many of the group's records have been written to the list so far
     uint unused;
 };
 

@@ -1,5 +1,5 @@
 // Decides for the records (ray hits) of one cut-out or blended material whether the ray stops at the surface. A ray
-// that goes on gets a negative weight, and behind.comp finds its next hit.
+// that passes through gets a negative weight, and behind.comp finds its next hit.
 //
 // A cut-out stops a ray where alpha reaches the cutoff; see alpha_mask.glsl for minified cut-outs. A blended surface of
 // opacity α stops the fraction α of all rays, so that the mean over the rays is the blended colour (Enderton, Sintorn,
@@ -18,11 +18,13 @@
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 4) readonly buffer DrawBlock { Draw draws[]; };
-layout(std430, binding = 5) buffer CountBlock { uint goOn; };   // number of rays that continue behind their hit
+layout(std430, binding = 5) buffer CountBlock { uint goOn; };   // number of rays that pass through their hit
 
 layout(location = 2) uniform uint group;
 layout(location = 3) uniform uint recordCount;
-layout(location = 4) uniform bool first;   // true: process all records; false: only records with negative weight
+// True in the first pass, which processes all records. Later passes process only records with negative weight: rays
+// that passed through their previous hit.
+layout(location = 4) uniform bool first;
 
 // Owen-scrambles a number whose bits are reversed (Laine and Karras 2011, Stratified Sampling for Stochastic
 // Transparency; constants of Burley 2020, Practical Hash-based Owen Scrambling).

@@ -4,16 +4,17 @@
 // pixels have the same points on the lens, in the pixel and in time.
 
 struct Ray {
-    // xy: lens point (u, k·v) with the aspect ratio k, or the vector from the lens centre to the rim along a line; zw:
-    // position in px from the pixel's centre.
+    // xy: for a point sample, the lens point (u, k·v), where k is the image's aspect ratio; for a line sample, a line
+    // through the lens centre, the vector from the centre to the lens's rim along the line. zw: position in px relative
+    // to the pixel's centre.
     vec4 lensAndPixel;
     // Point sample: x is the time within the current part of the exposure, [0, 1]. Line sample: the line's points are p
-    // times the vector to the rim, with p from −x to 1; y is the fraction of the line's light at p > 0; z is the
-    // position of the shading point within a segment, [0, 1).
+    // times the vector to the rim, with p from −x to 1; y is the fraction of the line's light that passes at p > 0; z
+    // is the position, [0, 1), at which each visible segment of the line is shaded.
     vec4 values;
 };
 
-layout(std430, binding = 6) readonly buffer RayBlock { Ray rays[]; };   // index of a ray: ray · rayVariants + variant
+layout(std430, binding = 6) readonly buffer RayBlock { Ray rays[]; };   // ray r of set s has index r · rayVariants + s
 
 layout(location = 0) uniform ivec2 imageSize;
 layout(location = 1) uniform uint firstRay;   // index of the first ray of the current batch (wave)
@@ -24,8 +25,8 @@ uint mixedBits(uint x) {   // finaliser of MurmurHash3 (Appleby)
     return x ^ (x >> 16);
 }
 
-// Returns the index of the set of rays that a pixel uses. Bayer's matrix (1973) assigns successive sets to distant
-// pixels of a square, and each square of 8 × 8 pixels flips random bits of the index.
+// Returns the index of the set of rays that a pixel uses. Within a square of 8 × 8 pixels, Bayer's matrix (1973)
+// assigns successive sets to distant pixels. In each square, random bits of the index are flipped.
 uint variantOf(uvec2 pixel) {
     uint order = 0u;
     for (uint bit = 0u; bit < 3u; ++bit) {
@@ -40,8 +41,9 @@ uint variantOf(uvec2 pixel) {
 // Sampling). The shift keeps the stratification of (t, m, s)-nets in base 2.
 float shifted(float x, uint flips) { return float(min(uint(x * 16777216.0), 16777215u) ^ (flips >> 8)) / 16777216.0; }
 
-// Returns ray number `ray`, counted from firstRay, of a pixel. In all sets, the ray with this number passes through
-// nearly the same small part of the lens. A point sample takes its lens point from a randomly chosen set.
+// Returns ray number `ray`, counted from firstRay, of a pixel. In all sets of rays, the rays with equal numbers pass
+// through nearly the same small part of the lens. A point sample can therefore take its lens point from a randomly
+// chosen set.
 Ray rayOf(uint ray, uvec2 pixel) {
     uint first = (firstRay + ray) * rayVariants;
     Ray own = rays[first + variantOf(pixel)];

@@ -1,5 +1,5 @@
-// Shades the records of rays that hit no surface with the radiance of the sky. The sky lies at infinite depth w, where
-// the relative circle of confusion C/w = (a + b·w)/w equals b.
+// Shades the records of rays that hit no surface with the radiance of the sky. The sky is blurred like a surface at
+// infinite depth, whose inverse depth is 0.
 
 #include "lens_space/shade.glsl"
 

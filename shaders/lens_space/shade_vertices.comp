@@ -1,7 +1,7 @@
-// Third part of kernel 1 of the lens-space methods: shades the front and the back of vertices as seen from the lens
-// centre, for surfaces with the same material and features. The radiance is interpolated between vertices. Texture
-// lookups and highlights are therefore filtered over half the distance to the two neighbouring vertices in the frame's
-// first triangle that contains the vertex.
+// Third part of kernel 1 of the lens-space methods, which prepares vertices and triangles: shades both sides of the
+// surface at each vertex, as seen from the lens centre. One dispatch shades surfaces with the same material and
+// features. The radiance is interpolated between vertices. Texture lookups and highlights are therefore filtered over
+// half the distance to the two neighbouring vertices in the frame's first triangle that contains the vertex.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -12,7 +12,7 @@
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 4) readonly buffer DrawBlock { Draw draws[]; };
-// per vertex: radiance of the front, of the back
+// two entries per vertex: radiance of the front, then radiance of the back
 layout(std430, binding = 5) writeonly buffer LightBlock { vec4 lights[]; };
 // per vertex: lowest index of a triangle with this vertex, or noTriangle
 layout(std430, binding = 6) readonly buffer FirstBlock { uint firstTriangles[]; };

@@ -20,11 +20,13 @@ struct Surface {
     float agreement;
     bool showsFront;
     // UV at the right and upper edges of the area over which textures are filtered, as seen from the lens point of the
-    // hit.
+    // ray that hit the surface.
     vec4 uvRight;
     vec4 uvUp;
-    vec3 normalRight;   // interpolated normal one pixel to the right, as seen from the lens point of the hit
-    vec3 normalUp;      // interpolated normal one pixel up, as seen from the lens point of the hit
+    // Interpolated normals one pixel to the right and one pixel up, as seen from the lens point of the ray that hit the
+    // surface.
+    vec3 normalRight;
+    vec3 normalUp;
 };
 // Initialised only to avoid driver warnings: functions read this variable before the source line that assigns it.
 Surface surface = Surface(vec4(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec4(0.0), vec4(0.0), 1.0, true, vec4(0.0), vec4(0.0), vec3(0.0),

@@ -1,5 +1,6 @@
-// Second part of kernel 1 of the lens-space methods: converts a range of a level's indices to triangles of the frame,
-// which are counter-clockwise in the image if the front is visible.
+// Second part of kernel 1 of the lens-space methods, which prepares vertices and triangles: converts a range of the
+// vertex indices of a level of detail to triangles of the frame. A triangle is counter-clockwise in the image if its
+// front is visible.
 
 layout(local_size_x = 256) in;
 

@@ -1,8 +1,9 @@
 // Triangles of a frame as seen from a point of the lens.
 //
-// A vertex is (x, y, w, C), with C the clip-space circle of confusion. Seen from the lens point l = (u, k·v) its clip
-// position is (x, y) + C·l (Munkberg, Toth and Akenine-Möller 2012). Relative to an image position s this is
-// q = (x, y) + C·l − w·s. The edge from vertex i to vertex j has the function
+// A vertex is (x, y, w, C): its clip position and the clip-space circle of confusion C, the signed CoC times the depth
+// w. Let (u, v) be a point of the unit disk that stands for the lens, and k the image's aspect ratio. Seen from the
+// lens point l = (u, k·v), the clip position is (x, y) + C·l (Munkberg, Toth and Akenine-Möller 2012). Relative to an
+// image position s this is q = (x, y) + C·l − w·s. The edge from vertex i to vertex j has the function
 //   e_ij = q_i × q_j,
 // the volume spanned by the ray and the edge. All three functions are ≥ 0 if the ray meets the triangle's front at w >
 // 0, and ≤ 0 if it meets the back. This also holds for vertices behind the camera (Olano and Greer 1997, Triangle Scan
@@ -12,11 +13,11 @@
 // between them.
 
 struct Draw {
-    uint firstRay;      // only rays [firstRay, endRay) of each pixel see the draw's triangles
+    uint firstRay;      // only rays [firstRay, endRay) of each pixel can hit the draw's triangles
     uint endRay;
     uint group;         // group of surfaces with the same shader
     uint doubleSided;
-    uint seeThrough;    // 1: surfaces are cut out or blended, so rays may go on behind them
+    uint seeThrough;    // 1: surfaces are cut out or blended, so rays may pass through them
 };
 
 const uint noTriangle = 0xffffffffu;
@@ -32,21 +33,22 @@ vec4 clipAtEnd(uint vertex) { return clips[vertex]; }
 // xyz: vertex indices; w: index of the Draw
 layout(std430, binding = 2) readonly buffer TriangleBlock { uvec4 triangles[]; };
 
-// Returns a vertex (x, y, w, C) at the time `fraction` in the current part of the exposure. Positions and C are linear
-// in time.
+// Returns a vertex, clip position (x, y, w) and clip-space circle of confusion, at the time `fraction` in the current
+// part of the exposure. All four values are linear in time.
 vec4 clipAt(uint vertex, float fraction) {
     return moving ? mix(clips[vertex], clipAtEnd(vertex), fraction) : clips[vertex];
 }
 
-// Returns q, the vertex relative to the image position `place` as seen from lens point `lens`. For a plain lens, where
-// C = a + b·w, the compiler reduces the terms of the lens to one multiplication and one addition per coordinate.
+// Returns q, the vertex relative to the image position `place` as seen from lens point `lens`. The circle of confusion
+// of a thin lens is linear in the depth w, C = a + b·w. The compiler then reduces the offset by the lens to one
+// multiplication and one addition per coordinate.
 vec2 relativeTo(vec4 clip, vec2 lens, vec2 place) {
     precise vec2 q;
     if (cocControls)
         q = clip.xy + clip.w * lens - clip.z * place;
     else
         q = clip.xy + frame.coc.x * lens + clip.z * (frame.coc.y * lens - place);
-    // Astigmatism and coma make C a function of the lens point, with two components.
+    // The image offset by astigmatism and coma is not proportional to the lens point.
     if (aberrations) {
         float w = max(clip.z, frame.projection.z);
         q += w * aberration(clip.xy / w, lens);

@@ -10,7 +10,8 @@ struct Piece {
 
 // Double buffer of the list of pieces: adding a segment reads one list and writes the other.
 vec2 pieceEnds[2 * segmentCapacity];
-// 1/w = E/D (line.glsl). x: E at p = 0; y: slope of E; z: D at p = 0; w: slope of D.
+// The inverse depth of a piece is E/D, where E and D are linear in the position p along the line (line.glsl). x: E at
+// p = 0; y: slope of E; z: D at p = 0; w: slope of D.
 vec4 pieceDepths[2 * segmentCapacity];
 uint pieceTriangles[2 * segmentCapacity];
 uint pieceCount = 0u;
@@ -20,7 +21,7 @@ uint nextList = 0u;
 vec2 lineSides;
 float lost = 0.0;                 // fraction of the line's light in pieces that were dropped because the list was full
 uint lostPieces = 0u;
-float hidden = 0.0;               // min visible 1/w if the entire line is covered, else 0
+float hidden = 0.0;               // min visible 1/w (w: depth) if the entire line is covered, else 0
 float nextMin = 1e30;           // min visible 1/w in the list being written
 bool nextHasGaps = false;
 
@@ -51,8 +52,9 @@ void emitPiece(float first, float last, uint triangle, vec4 depth) {
     ++nextCount;
 }
 
-// Returns the coefficients (constant, linear, quadratic) of a polynomial in p that is > 0 where `a` is nearer than `b`:
-// (E₁/D₁ − E₂/D₂)·D₁·D₂. The determinants D are positive where the triangles are visible.
+// Returns the coefficients (constant, linear, quadratic) of a polynomial in the position p along the line that is > 0
+// where `a` is nearer than `b`. With the inverse depths E₁/D₁ of `a` and E₂/D₂ of `b` (pieceDepths), the polynomial is
+// (E₁/D₁ − E₂/D₂)·D₁·D₂. D is positive where a triangle is visible, so the sign is that of the difference.
 vec3 nearness(vec4 a, vec4 b) {
     return vec3(a.x * b.z - b.x * a.z, a.x * b.w + a.y * b.z - b.x * a.w - b.y * a.z, a.y * b.w - b.y * a.w);
 }
@@ -62,8 +64,8 @@ bool nearer(vec3 f, float p, uint a, uint b) {
     return value > 0.0 || (value == 0.0 && a < b);
 }
 
-// Returns the two positions p, in ascending order, where two segments with nearness polynomial `f` intersect. Values
-// above 2 mean no intersection.
+// Returns the two positions p along the line, in ascending order, where two segments intersect. `f`: nearness() of the
+// segments, which is 0 there. Values above 2 mean no intersection.
 vec2 crossings(vec3 f) {
     if (f.z == 0.0) return vec2(f.y == 0.0 ? 4.0 : -f.x / f.y, 4.0);
     float discriminant = f.y * f.y - 4.0 * f.x * f.z;

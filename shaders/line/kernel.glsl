@@ -1,5 +1,5 @@
-// Declares the inputs and outputs of the kernel that finds the visible segments of lines. A workgroup processes one
-// tile and one line of each of the tile's pixels.
+// Declares the inputs and outputs of the kernel that finds the visible segments of line samples, which are lines over
+// the lens. A workgroup processes one tile and one line sample of each of the tile's pixels.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -23,20 +23,21 @@ layout(std430, binding = 1) buffer OutputBlock {
     uint laterJobs;         // jobs deferred to later dispatches
     uint unfinishedJobs;    // jobs of this dispatch that are not finished
     // The array has three ranges. The first holds (first record, number of records) for each line that is traced in
-    // this draw. The second holds two elements for each deferred job: (tile, line) and (next entry, status). The third
-    // holds the saved states of the lines of unfinished jobs.
+    // this draw. The second holds two elements for each deferred job: (tile, line), and (index of the next entry in the
+    // tile's triangle list, status such as jobIsNew). The third holds the saved states of the lines of unfinished jobs.
     uvec2 ranges[];
 };
 struct Bounds {
-    // Bounding box of the line's variants (rays.glsl): min (u, k·v), max (u, k·v), with the aspect ratio k.
+    // Bounding box of the line's variants, its versions in different pixels (rays.glsl). xy: min (u, k·v); zw: max
+    // (u, k·v), for lens points (u, v) of the unit disk and the image's aspect ratio k.
     vec4 box;
-    // xy: unit vector in (u, v) perpendicular to the mean of the line's variants (rays.glsl); z: max distance of a
-    // variant's points from that mean line.
+    // xy: unit vector in (u, v) perpendicular to the mean of the line's variants, its versions in different pixels; z:
+    // max distance of a variant's points from that mean line.
     vec4 strip;
 };
 layout(std140, binding = 7) uniform BoundBlock { Bounds lensBounds[maxRays]; };
 
-layout(location = 2) uniform uint firstTile;       // first tile whose list is in `entries`
+layout(location = 2) uniform uint firstTile;       // first tile whose triangle list is in `entries`
 layout(location = 3) uniform uint recordCapacity;
 // A segment has one shading point for each shadingStep px that its surface moves in the image between the segment's
 // ends; 0: one shading point per segment.
@@ -44,36 +45,39 @@ layout(location = 5) uniform float shadingStep;
 // A job is the work of a workgroup: one tile, and one line sample of each of its pixels. Mesa's software driver ends
 // the loops of a thread after a total of 65,535 iterations (rounds). Jobs that need more continue in later dispatches.
 layout(location = 6) uniform uint maxRounds;      // approximate max number of iterations per dispatch; 0: unlimited
-// x: 1 to run deferred jobs, 0 to run all tiles and lines. y, z and w are indices into `ranges`. y: first deferred job
-// to run; z: start of the saved states; w: position for storing deferred jobs.
+// x: 1 to run deferred jobs, 0 to run the jobs of all tiles and lines. y, z and w are indices into `ranges`. y: first
+// deferred job to run; z: first saved state of a line; w: where newly deferred jobs are stored.
 layout(location = 7) uniform uvec4 jobs;
 
 layout(location = 8) uniform uint binSize;         // max triangles per tile; only the nearest are kept; 0: unlimited
 
 const uint threads = uint(tileSize * tileSize);
 const uint maxKept = 64u;
-// Max number of scans of the tile's list before the segments of the triangles found so far are added. A scan tests one
-// entry per thread.
+// Max number of scans of the tile's triangle list before the segments of the triangles found so far are added to the
+// lines. A scan tests one entry per thread.
 const uint maxScans = 1024u;
 shared vec4 keptCorners[maxKept * 3u];
-shared uvec2 kept[maxKept];    // triangles that the tile's lines may see; x: index, y: 1 if double-sided, else 0
+shared uvec2 kept[maxKept];    // triangles that the tile's line samples may hit; x: index, y: 1 if double-sided, else 0
 shared uint keptHere[2];        // one bit per thread: set if the thread's triangle is added to `kept`
 shared uint keptCount;
 shared uint nextBase;
-shared uint open;               // 1 if some line may still see later triangles of the list, else 0
+shared uint open;               // 1 if a line sample may still hit later triangles of the list, else 0
 shared uint halted;             // bits set by threads to interrupt the job: hasSegments, hasNoRounds
 
-const uint hasSegments = 1u;    // a thread has visible segments that are not yet added
-const uint hasNoRounds = 2u;    // a thread has reached its max loop iterations
+const uint hasSegments = 1u;    // a thread has visible segments that it has not yet added to its line
+const uint hasNoRounds = 2u;    // a thread has reached the max number of loop iterations
 
+// Status of a job. jobGoesOn: it resumes at the entry of the tile's triangle list whose index it saved. jobHasSeen: it
+// resumes there, too, and saved bit masks tell which of the next triangles are visible and must still be added to
+// lines.
 const uint jobIsNew = 0u;
-const uint jobGoesOn = 1u;      // the job continues with the triangles from the entry that it stored
-const uint jobHasSeen = 2u;     // the job first adds the remaining segments of triangles that it knows to be visible
+const uint jobGoesOn = 1u;
+const uint jobHasSeen = 2u;
 const uint jobIsDone = 3u;
 
 // Max number of threads per SIMD vector. All threads of a vector run a loop as often as the slowest thread.
 const uint widestVector = 16u;
-uint commonRounds = 0u;         // iterations of loops that all threads run equally often
+uint commonRounds = 0u;         // iterations of loops whose number of iterations is the same in all threads
 uint ownRounds = 0u;            // this thread's iterations of loops that run a different number of times in each thread
 
 bool hasRoundsFor(uint more, uint maximum) { return maxRounds == 0u || commonRounds + widestVector * ownRounds + more < maximum; }

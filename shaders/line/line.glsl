@@ -1,19 +1,21 @@
 // Describes a triangle as seen along a line through the lens (Tzeng et al. 2012, High-Quality Parallel Depth-of-Field
 // Using Line Samples).
 //
-// The line has the direction d = (cos φ, k·sin φ), k = image width / height. Seen from lens point p·d, a vertex (x, y,
-// w, C) lies at q(p) = α + p·β relative to an image position s, with α = (x, y) − w·s and β = C·d. All β are parallel,
-// so the edge functions are linear in p:
+// The line has the direction d = (cos φ, k·sin φ), k = image width / height. A vertex has the clip position (x, y, w)
+// and the clip-space circle of confusion C, the signed CoC times w. Seen from lens point p·d, the vertex lies at
+// q(p) = α + p·β relative to an image position s, with α = (x, y) − w·s and β = C·d. All β are parallel, so the
+// functions of the edges from vertex i to vertex j are linear in p:
 //   e_ij(p) = α_i × α_j + p·(α_i × β_j + β_i × α_j).
-// The line sees the triangle's front where all e_ij ≥ 0; the paper writes C + u·A(y) − v·B(x) ≥ 0. There, w follows
-// from 1/w = E/D, with E = Σ e and the triangle's determinant D = Σ e·w. Both are linear in p. So is D − near·E, which
-// is ≥ 0 for the part of the triangle beyond the near plane.
+// The triangle's front is visible from the positions p where all e_ij ≥ 0. There, the depth w of the triangle follows
+// from 1/w = E/D. E is the sum of the e_ij. The determinant D is their sum weighted by the w of the vertex opposite to
+// each edge. Both are linear in p. So is D − near·E, which is ≥ 0 for the part of the triangle beyond the near plane.
 
 struct OnLine {
     vec3 edgesAt0;
     vec3 edgeSlopes;
-    vec2 sums;         // sum E of the edge functions: value at p = 0, slope in p
-    vec2 determinant;  // determinant D: value at p = 0, slope in p
+    // x: value at the position p = 0 on the line; y: slope in p.
+    vec2 sums;         // sum E of the edge functions
+    vec2 determinant;  // the triangle's determinant D; the inverse depth is E/D
 };
 
 struct Interval {
@@ -52,7 +54,8 @@ OnLine onLine(vec4 a, vec4 b, vec4 c, vec2 direction, vec2 place) {
     return line;
 }
 
-// Returns the triangle's functions along the line with front and back exchanged.
+// Returns the triangle's edge functions, their sum and the determinant along the line, negated, so that front and back
+// are exchanged.
 OnLine turned(OnLine line) { return OnLine(-line.edgesAt0, -line.edgeSlopes, -line.sums, -line.determinant); }
 
 void cut(inout Interval interval, float at0, float slope) {
@@ -65,7 +68,7 @@ void cut(inout Interval interval, float at0, float slope) {
     else interval.last = min(interval.last, root);
 }
 
-// Returns the interval of positions p, within `whole`, in which the line sees the triangle's front.
+// Returns the part of `whole`, an interval of positions p along the line, from which the triangle's front is visible.
 Interval seen(OnLine line, Interval whole) {
     Interval interval = whole;
     if (line.sums == vec2(0.0)) return Interval(whole.first, whole.first);   // degenerate triangle

@@ -4,6 +4,7 @@
 //   merge       it is joined with a stored segment that it continues, if colours, depths, orientations and slopes agree
 //               within the tolerances below;
 //   length      it is dropped if it is too short;
+//   eviction    if the buffer is full, the shortest segment is dropped.
 // The paper gives no thresholds; the constants below are this program's choice. After all segments have arrived, a
 // sweep along the line finds the nearest segments. Where segments intersect, the sweep switches between them only at an
 // end of a segment.
@@ -21,38 +22,41 @@ struct Piece {
 
 struct Segment {
     vec2 ends;        // positions p of both ends on the line
-    vec2 depths;      // 1/w at both ends
+    vec2 depths;      // inverse depth 1/w at both ends
     uint triangle;
     bool front;       // true: the triangle's front is visible
     vec3 color;       // radiance in the middle of the segment, mapped to [0, 1]; set only if vertices are lit
 };
 
 const float minLength = 1.0 / 512.0;         // min length of a kept segment, as a fraction of the line
-const float sameColor = 1.0 / 16.0;          // max difference in a colour channel where two segments join
-const float sameDepth = 0.02;                // max relative difference of 1/w where two segments join
-// Max difference of the slopes d(1/w)/dp where two segments join, times their joint length, relative to 1/w.
+// Two segments are joined only if no colour channel differs by more than this.
+const float sameColor = 1.0 / 16.0;
+// Two segments are joined only if 1/w (w: depth) at their common end differs by at most this fraction.
+const float sameDepth = 0.02;
+// Two segments are joined only if the difference of their slopes d(1/w)/dp, times their total length, is at most this
+// fraction of 1/w. p: position along the line; w: depth.
 const float sameSlope = 0.02;
 // Max gap, in position p along the line, between a segment and its continuation.
 const float continuation = shortIntervals ? 1.0 / 127.0 : 1e-3;
 
 const uint slots = threads * uint(segmentCapacity);
 shared vec2 longEnds[shortIntervals ? 1u : slots];
-shared uint endsAndColors[slots];            // lower half: both ends, if shortIntervals; upper half: colour
+shared uint endsAndColors[slots];            // upper 16 bits: colour; lower: both ends if shortIntervals, else unused
 shared vec2 segmentDepths[slots];
-shared uint segmentTriangles[slots];         // index of the triangle; bit 31 is set if the line sees its back
+shared uint segmentTriangles[slots];         // index of the triangle; bit 31 is set if its back is visible
 const uint backBit = 0x80000000u;
 uint segmentCount = 0u;
 vec2 lineSides;
 float lost = 0.0;
 uint lostSegments = 0u;
 uint merged = 0u;
-float hidden = 0.0;      // surfaces with a smaller 1/w are hidden by a segment over the entire line
+float hidden = 0.0;      // a segment over the entire line hides all surfaces with an inverse depth 1/w below this
 
 #ifdef LIGHTS_VERTICES
 // Two values per vertex: the radiance of the front, then the radiance of the back.
 layout(std430, binding = 8) readonly buffer LightBlock { vec4 lights[]; };
 
-// Returns the radiance of a triangle at position p of the line, mapped to [0, 1].
+// Returns the radiance of a triangle at position p along the line. The radiance is mapped to [0, 1].
 vec3 colorAt(uint triangle, OnLine line, bool front, float p) {
     vec3 edges = line.edgesAt0 + p * line.edgeSlopes;
     vec3 weights = edges / (edges.x + edges.y + edges.z);

@@ -29,9 +29,11 @@ bool mayCover(vec4 corners[3], Bounds bounds, vec2 tileMin, vec2 tileMax) {
 // moves in the image.
 uint shadingPoints(uint triangle, float p1, float p2, vec2 direction) {
     if (shadingStep == 0.0) return 1u;
-    float blur = 0.0;   // CoC diameter |C|/w, as a fraction of the image's width
+    float blur = 0.0;   // CoC diameter, as a fraction of the image's width
     if (triangle == noTriangle) {
-        if (backgroundType == 3) blur = frame.coc.w;   // only an environment map varies enough to need several points
+        // Only an environment map varies enough within its blur to need several shading points; other backgrounds use
+        // one.
+        if (backgroundType == 3) blur = frame.coc.w;
     } else {
         uvec4 vertices = triangles[triangle];
         for (int i = 0; i < 3; ++i) {
@@ -39,7 +41,8 @@ uint shadingPoints(uint triangle, float p1, float p2, vec2 direction) {
             blur = max(blur, abs(clip.w) / max(clip.z, frame.projection.z));
         }
     }
-    float way = 0.5 * abs(blur) * (p2 - p1) * length(direction * vec2(imageSize));   // path in the image, px
+    // Distance in px that the surface moves in the image between the ends of the piece.
+    float way = 0.5 * abs(blur) * (p2 - p1) * length(direction * vec2(imageSize));
     return uint(clamp(ceil(way / shadingStep), 1.0, float(maxShadingPoints)));
 }
 
@@ -51,17 +54,17 @@ uint writeRecords(uint at, uint ray, uint triangle, float p1, float p2, Ray mine
     for (uint i = 0u; i < count; ++i) {
         float from = i == 0u ? p1 : placeOfShare(p1, p2, float(i) / float(count));
         float to = i + 1u == count ? p2 : placeOfShare(p1, p2, float(i + 1u) / float(count));
-        // With shadingStep = 0, the middle is shaded, as published. Otherwise the position is random, so that the
-        // expected value is the mean radiance along the segment.
+        // With shadingStep = 0, the middle of the segment is shaded, as in Tzeng et al. 2012. Otherwise a random
+        // position is shaded, so that the expected value is the mean radiance along the segment.
         float place = shadingStep == 0.0 ? 0.5 * (from + to) : placeOfShare(from, to, mine.values.z);
         records[at + i] = Record(triangle, ray, place, lightBetween(from, to, sides));
     }
     return count;
 }
 
-// Collects in `kept` the next triangles that the tile's lines may see, from entry `base` of the tile's list on. Stops
-// after maxKept triangles or maxScans scans. All threads must call this function. The triangles stay in list order,
-// because the order determines which segments a full segment buffer drops.
+// Collects in `kept` the next triangles that the tile's line samples may hit, from entry `base` of the tile's list on.
+// Stops after maxKept triangles or maxScans scans, each of which tests one entry per thread. All threads must call this
+// function. The triangles stay in list order, because the order determines which segments a full segment buffer drops.
 void keepMore(inout uint base, uint end, uint ray, vec2 tileMin, vec2 tileMax) {
     uint count = 0u;
     uint word = gl_LocalInvocationIndex >> 5u;
@@ -120,7 +123,7 @@ OnLine keptOnLine(uint i, vec2 direction, vec2 place) {
     return onLine(keptCorners[3u * i], keptCorners[3u * i + 1u], keptCorners[3u * i + 2u], direction, place);
 }
 
-// Returns bit masks of the triangles in `kept` that this thread's line sees: xy for visible front faces, zw for visible
+// Returns bit masks of the triangles in `kept` that may be visible on this thread's line: xy for front faces, zw for
 // back faces. addSeen() then adds the nth visible triangle of every line in iteration n, so that SIMD lanes rarely
 // idle.
 uvec4 seenOfKept(vec2 direction, vec2 place, Interval whole) {
@@ -139,8 +142,8 @@ uvec4 seenOfKept(vec2 direction, vec2 place, Interval whole) {
     return sides;
 }
 
-// Adds the segments of the triangles in the masks `sides`, and clears their bits, until the max loop iterations are
-// reached.
+// Adds the segments of the triangles whose bits are set in the masks `sides` (seenOfKept()) to this thread's line, and
+// clears these bits. Stops when the max number of loop iterations is reached.
 void addSeen(inout uvec4 sides, vec2 direction, vec2 place, Interval whole) {
     while (sides != uvec4(0u) && hasRoundsFor(0u, maxRounds)) {
         ++ownRounds;
@@ -195,7 +198,8 @@ void main() {
     while (!finished) {
         uint first = base;
         keepMore(base, end, ray, tileMin, tileMax);
-        // Triangles are sorted by min depth. The job is done once nearer surfaces cover all lines of the tile.
+        // Triangles are sorted by min depth. The tile is finished once surfaces nearer than all remaining triangles
+        // cover all its lines.
         if (isOpen()) atomicOr(open, 1u);
         barrier();
         if (open == 0u) {
@@ -217,8 +221,8 @@ void main() {
         }
         if (halted == 0u) continue;
 
-        // Jobs of the first dispatch are deferred and restart later. In later dispatches, the state of an unfinished
-        // job is saved.
+        // A job that does not finish in the first dispatch is deferred and restarts later. In later dispatches, the
+        // state of an unfinished job is saved.
         bool putOff = jobs.x == 0u;
         if (gl_LocalInvocationIndex == 0u) {
             if (putOff) {

@@ -1,11 +1,14 @@
 // Computes the fraction of a line's light that passes through a part [p₁, p₂] of the line. Lines are denser near the
-// lens centre, so parts are weighted by their distance from the centre. For a disk and p ∈ [−1, 1] the fraction is
-// κ(p₁, p₂) = (p₂|p₂| − p₁|p₁|)/2 (Tzeng et al. 2012, with p from −1/2 to 1/2). In general the two sides of the centre
-// have different fractions. Within a side, the density is 1 + a·(2t − 1), where t is the fraction of the unobstructed
-// area that lies nearer to the centre (src/lens/aperture.h). If areaWeights is false, parts are weighted by their
-// length alone, without κ (Figure 4 of the paper).
+// lens centre, so parts are weighted by their distance from the centre. For a disk and positions p ∈ [−1, 1] along the
+// line, the fraction is κ(p₁, p₂) = (p₂|p₂| − p₁|p₁|)/2 (Tzeng et al. 2012, with p from −1/2 to 1/2). In general,
+// different fractions of the light pass on the two sides of the centre. Within a side, the density of the light is
+// 1 + a·(2t − 1), with the coefficient a of spherical aberration and the fraction t of the unobstructed area that lies
+// nearer to the centre (src/lens/aperture.h). If areaWeights is false, parts are weighted by their length alone,
+// without κ (Figure 4 of the paper).
 
-layout(location = 4) uniform vec2 lightOverRadius;   // x: coefficient a of the light's density; y: obstructed fraction
+// x: coefficient a of the light density 1 + a·(2t − 1), where t is the fraction of the unobstructed aperture area that
+// lies nearer to the centre; y: fraction of the aperture's area that a central obstruction covers.
+layout(location = 4) uniform vec2 lightOverRadius;
 
 float lightWithin(float radius) {
     if (!areaWeights) return radius;
@@ -13,9 +16,9 @@ float lightWithin(float radius) {
     return t * (1.0 - lightOverRadius.x + lightOverRadius.x * t);
 }
 
-// Returns the fraction of the line's light between the lens centre and p, negated for p < 0. The line's points have
-// positions p from −sides.x to 1. sides.x: length of the part with p < 0. sides.y: fraction of the line's light that
-// passes through the part with p > 0.
+// Returns the light through the part of the line between the lens centre and p, as a fraction of the light through the
+// whole line; negative for p < 0. The line's points have positions p from −sides.x to 1. sides.x: length of the part
+// with p < 0. sides.y: fraction of the line's light that passes through the part with p > 0.
 float lightUpTo(float p, vec2 sides) {
     return p < 0.0 ? -(1.0 - sides.y) * lightWithin(-p / sides.x) : sides.y * lightWithin(p);
 }

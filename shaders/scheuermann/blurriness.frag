@@ -15,13 +15,14 @@ layout(location = 1) uniform vec4 planes;
 
 layout(location = 0) out vec4 colorAndBlurriness;
 
-// Returns the blurriness as published: linear in depth, −1 at the near plane, 0 at the focus plane, 1 at the far plane.
+// Returns the blurriness as in Scheuermann 2004: linear in depth, −1 at the near plane, 0 at the focus plane, 1 at the
+// far plane.
 float blurrinessByPlanes(ivec2 pixel, int index) {
     float depth = texelFetch(pinholeDepth, pixel, index).r;
     // Infinite depth counts as 3e38 m behind the focus plane.
     float beyondFocus = depth > 0.0 ? frame.projection.z / depth - planes.x : 3.0e38;
     float blurriness = beyondFocus < 0.0 ? beyondFocus * planes.y : min(beyondFocus * planes.z, planes.w);
-    return frame.coc.x == 0.0 ? 0.0 : blurriness;   // a pinhole (a = 0 in C = a + b·w) has no blur
+    return frame.coc.x == 0.0 ? 0.0 : blurriness;   // a pinhole has no blur; its CoC a/depth + b has a = 0
 }
 
 void main() {

@@ -20,7 +20,8 @@ void main() {
     readSurface();
     vec4 color = texturedColor(surface.color);
 #ifdef CHOOSES_BY_ALPHA
-    // Thresholds are chosen as if the maps of a lens sample lay side by side, so that they differ between maps.
+    // The alpha thresholds of texels are chosen as if the shadow maps of a lens sample lay side by side. The thresholds
+    // therefore differ between maps.
     uint map = uint(surface.layer) % uint(shadowPoints * shadowMapCount);
     uvec2 texel = uvec2(gl_FragCoord.xy) + uvec2(map * uint(shadowSize), 0u);
     if (alphaTested && maskHides(color.a, surface.color.a, texel, 0.0)) discard;

@@ -1,7 +1,7 @@
 // Kernel 3 of the method "stochastic": finds the first hit of each ray of a tile's pixels. A workgroup processes one
 // tile and one ray of each of the tile's pixels. These rays pass through a small part of the lens. The rays are tested
-// only against the triangles that this part sees in the tile (Munkberg, Toth and Akenine-Möller 2012, Section 4: tile
-// tests with bounds of u and v).
+// only against the triangles that may be visible in the tile from this part (Munkberg, Toth and Akenine-Möller 2012,
+// Section 4: tile tests with bounds of u and v).
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -22,7 +22,7 @@ layout(std140, binding = 7) uniform BoundBlock { vec4 lensBounds[maxRays]; };
 // Number of tests of a triangle against all rays of a workgroup; 64-bit, low word first.
 layout(std430, binding = 8) buffer TestBlock { uint tests[2]; };
 
-layout(location = 2) uniform uint firstTile;   // first tile whose list is in `entries`
+layout(location = 2) uniform uint firstTile;   // first tile whose triangle list is in `entries`
 // x: first entry of each tile's list that this dispatch tests; y: number of entries. Mesa's software driver ends the
 // loops of a thread after a total of 65,535 iterations. Long lists therefore need several dispatches, each of which
 // continues where the previous dispatch ended.

@@ -14,7 +14,8 @@ layout(location = 0) uniform vec4 size;        // xy: output size in px; z: expo
 layout(location = 1) uniform ivec4 choices;    // x: tone curve; y: overlay; z: flags; w: unused
 layout(location = 2) uniform float divider;    // fraction of the width in which the first image is drawn
 layout(location = 3) uniform float cocScale;   // output px per px of cocImage
-// x: 1 / number of lens samples in workImage; y: 1 / log2(1 + triangles per sample) at the end of the colour map.
+// x: 1 / number of lens samples in workImage; y: 1 / log2(1 + n), where n is the number of triangles per lens sample
+// that the last colour of the colour map stands for.
 layout(location = 4) uniform vec2 workScale;
 
 layout(location = 0) out vec4 display;

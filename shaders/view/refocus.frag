@@ -1,8 +1,8 @@
-// Computes the mean of images that are moved by whole pixels (src/refocus/refocus.h).
+// Computes the mean of lens images, each moved by whole pixels (src/refocus/refocus.h).
 
 layout(binding = 0) uniform sampler2DArray images;
 layout(location = 0) uniform int imageCount;
-// xy: texel of the image at pixel (0, 0) of the mean; z: layer.
+// For each lens image, xy: its texel that is added to pixel (0, 0) of the mean; z: its layer in `images`.
 layout(location = 1) uniform ivec3 moves[blockSamples];
 
 layout(location = 0) out vec4 mean;
