@@ -71,8 +71,8 @@ bool isViewable(const Array& array) {
     return array.ndim() == 2 || array.shape(2) == 1 || array.strides(2) == step;
 }
 
-// Returns a view of the array's pixels without a copy; it is valid as long as the array. The package passes arrays with
-// 2 or 3 axes whose strides are positive and whose channels are contiguous.
+// Returns a view of the array's pixels without a copy; it is valid as long as the array exists. The package passes
+// arrays with 2 or 3 axes whose strides are positive and whose channels are contiguous.
 defocus::ImageView viewOf(const Array& array) {
     if (array.ndim() != 2 && array.ndim() != 3) return {};
     if (array.size() == 0) return {};
@@ -116,7 +116,7 @@ public:
     }
 
 private:
-    // Throws UsageError if this thread already uses the object, which would be a deadlock.
+    // Throws UsageError if this thread already uses the object, because waiting for its own call would be a deadlock.
     void refuseReentry() const {
         if (user_ == std::this_thread::get_id())
             throw defocus::UsageError("a " + noun_ + " cannot be used from its own progress function");

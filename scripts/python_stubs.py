@@ -2,7 +2,7 @@
 """Writes the keywords of defocus/_defocus.pyi from the settings table of the built module.
 
     PYTHONPATH=build/release/python /usr/bin/python3 scripts/python_stubs.py          # writes the file
-    PYTHONPATH=build/release/python /usr/bin/python3 scripts/python_stubs.py --check  # exit code 1 if it differs
+    PYTHONPATH=build/release/python /usr/bin/python3 scripts/python_stubs.py --check  # exit code 1 if it is outdated
 """
 
 import sys

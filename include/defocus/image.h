@@ -43,7 +43,7 @@ private:
 // Distances in memory between neighbouring pixels of an ImageView, in floats.
 struct ImageStrides {
     std::size_t pixel = 0;  // distance to the next pixel of the row
-    std::size_t row = 0;    // distance to the same pixel of the next row
+    std::size_t row = 0;    // distance to the pixel in the same column of the next row
     bool operator==(const ImageStrides&) const = default;
 };
 

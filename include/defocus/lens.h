@@ -38,8 +38,9 @@ struct LensSettings {
     std::optional<double> focusRangeFront;    // extent in m of the sharp range in front of the focus distance
     std::optional<double> focusRangeBehind;   // extent in m of the sharp range behind the focus distance
     std::optional<bool> focusRangeRefocuses;  // true: surfaces behind the range blur as if its far end were in focus
-    std::optional<double> focusTilt;          // degrees about the horizontal axis; > 0: focus plane's top is nearer
-    std::optional<double> focusSwing;         // degrees about the vertical axis; > 0: focus plane's right is nearer
+    // Rotations of the focus plane in degrees.
+    std::optional<double> focusTilt;   // about the horizontal axis; > 0: the top of the plane is nearer to the camera
+    std::optional<double> focusSwing;  // about the vertical axis; > 0: the right side of the plane is nearer
     // κ of the curved focus surface with depth s/(1 + κr²), where s is the focus distance. r is the distance from the
     // image's centre; r = 1 at the left and right edges.
     std::optional<double> fieldCurvature;

@@ -28,7 +28,8 @@ namespace defocus {
 
 // Settings that can be chosen after rendering. refocusSettings() lists them; any other setting throws UsageError.
 struct RefocusSettings {
-    Focus focus = {};        // FocusDistance or FocusPixel; CameraFocus: focus distance of the rendered images
+    // Focus of the picture: a FocusDistance or FocusPixel. CameraFocus keeps the focus distance of the rendered images.
+    Focus focus = {};
     LensSettings lens = {};  // f-number and shape of the aperture; an unset value: as in the rendered images
     bool fillGaps = true;    // true: blurs each lens image, so that blur does not show as separate copies of a surface
 };
@@ -38,11 +39,12 @@ struct LightFieldInfo {
     int width = 0;                  // px
     int height = 0;                 // px
     double focusDistance = 1;       // focus distance of the rendered images, m
-    double fStop = 1;               // f-number of the rendered aperture; the smallest that can be chosen
+    double fStop = 1;               // f-number of the rendered aperture; refocusing cannot use a smaller one
     double focalLength = 0;         // focal length in mm; 0: unknown
     double horizontalAperture = 0;  // sensor width in mm; 0: unknown
     FocusRange focusRange;          // focus distances in m that can be chosen
-    bool fullDisk = true;           // true: f-number and aperture shape can be chosen; false: both are fixed
+    // true: the rendered aperture is a full disk, so f-number and aperture shape can be chosen; false: both are fixed
+    bool fullDisk = true;
     // For a focus at s, the image of lens point (u, v) moves by pixelsPerDioptre · (1/s − 1/focusDistance) · (u, v) px.
     double pixelsPerDioptre = 0;
     // Lens point (u, v) of each image in the unit disk; u points right, v up.
@@ -64,8 +66,8 @@ public:
     // Render the lens images of a request to a file with the extension .exr, and open the file. `range`: focus
     // distances that can be chosen later, in addition to the request's own distance; nullopt: from the nearest to the
     // farthest visible surface. Throw UsageError if the request's method, samples or target error don't suit lens
-    // images. Throw Error under the conditions of SceneRenderer. Also throw Error if a change of focus would do more
-    // than shift the lens images, as with a tilted focus plane. A failure leaves no file.
+    // images. Throw the errors of SceneRenderer's constructor. Also throw Error if a change of focus would do more than
+    // shift the lens images, as with a tilted focus plane. A failure leaves no file.
     static LightField render(const Request& request, const std::filesystem::path& path,
                              std::optional<FocusRange> range = {}, const Progress& progress = {});
     static LightField render(const Scene& scene, const Request& request, const std::filesystem::path& path,
@@ -80,7 +82,7 @@ public:
 
     // Returns an image computed from the lens images: linear, premultiplied RGBA. Throws Error if the focus distance or
     // the f-number is outside the rendered range, if no lens point lies within the aperture, or if the file is damaged.
-    // Also throws Error for another aperture size or shape if the rendered aperture is not a full disk.
+    // Also throws Error if the settings change the aperture's size or shape and LightFieldInfo::fullDisk is false.
     [[nodiscard]] Image refocus(const RefocusSettings& settings = {}, const Progress& progress = {});
     // Returns a focal stack of `count` ≥ 2 images. RefocusSettings::focus must be CameraFocus.
     [[nodiscard]] FocalStack stack(int count, const RefocusSettings& settings = {}, const Progress& progress = {});

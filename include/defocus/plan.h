@@ -38,7 +38,7 @@ struct PlannedObject {
     double lambda = 0;         // fractional level of detail λ (Jeong, Kim and Lee 2011)
     double pixelRate = 1;      // resolution per axis relative to the image's; < 1 for strong blur (method "multirate")
     bool blended = false;      // true if the object has alpha-blended materials
-    bool transmits = false;    // true if the object has transmitting materials
+    bool transmits = false;    // true if the object has transmissive materials
     bool moves = false;        // true if the object moves during the exposure
     std::vector<PlannedDraw> draws;  // one or two draws; the one with the coarser level first
     // For a sample that mixes both levels (LodMode::continuous): fraction of its pixels that draw the coarser level.
@@ -70,22 +70,21 @@ struct Plan {
     double focusDistance = 0;     // focus distance in m; +∞ for focus at infinity
     double apertureDiameter = 0;  // m
     bool usesLens = true;         // false: no blur reaches half a pixel, so a pinhole is drawn
-    // Lens samples of the frame.
-    std::uint32_t samples = 0;
-    std::uint32_t positions = 1;  // number of subpixel positions of each lens sample
+    std::uint32_t samples = 0;    // number of lens samples
+    std::uint32_t positions = 1;  // number of subpixel positions per lens sample
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;
     double cocTolerance = 0;          // tolerance in px; see Request::cocTolerance
     std::uint64_t moments = 0;        // number of instants at which the scene is posed; 0: nothing moves
-    std::uint64_t movingObjects = 0;  // objects that move during the exposure
+    std::uint64_t movingObjects = 0;  // number of objects that move during the exposure
     // Settings of the levels of detail; thresholds that the Request leaves unset have their defaults here.
     LodMode lod = LodMode::fractional;
     LodMetric lodMetric = LodMetric::automatic;
     LodCoc lodCoc = LodCoc::smallest;
     LevelVertices levelVertices = LevelVertices::fitted;
     double blurThreshold = 0;   // target edge length relative to the blur diameter
-    double sizeThreshold = 0;   // min target edge length, px
-    double lightThreshold = 0;  // max edge length · shading error, px; see Request::lightThreshold
+    double sizeThreshold = 0;   // target edge length where nothing is blurred, px
+    double lightThreshold = 0;  // max product of edge length (px) and shading error; see Request::lightThreshold
     // Shadow maps and their sampling.
     std::vector<PlannedShadowMap> shadowMaps;  // empty: no shadows
     int shadowMapSize = 0;                     // side of each shadow map, px

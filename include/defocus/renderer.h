@@ -25,7 +25,7 @@ namespace defocus {
 // Cost of a frame. Times are wall-clock milliseconds.
 struct RenderStatistics {
     std::uint32_t samples = 0;                // lens samples drawn
-    std::uint32_t positions = 1;              // subpixel positions of each lens sample: 1 or 4
+    std::uint32_t positions = 1;              // number of subpixel positions per lens sample: 1 or 4
     double loadMilliseconds = 0;              // time to read the scene and to pose it
     double pyramidMilliseconds = 0;           // time to build pyramids, or to read them from the cache
     double setupMilliseconds = 0;             // time for uploads and shader compilation
@@ -34,7 +34,7 @@ struct RenderStatistics {
     std::uint64_t trianglesAtFullDetail = 0;  // value of trianglesDrawn if all objects were drawn at full detail
     std::uint64_t gpuBytes = 0;               // peak size of the renderer's GPU resources
     std::string device;
-    StopReason stopped = StopReason::sampleCount;  // why the frame ended
+    StopReason stopped = StopReason::sampleCount;  // why no further samples were drawn
     std::optional<double> estimatedError;          // RMSE of the display-encoded image; nullopt: not estimated
 };
 
@@ -59,8 +59,8 @@ public:
     SceneRenderer& operator=(SceneRenderer&&) noexcept;
 
     // Starts a frame for the constructor's request, or for another request with the same scene. The other request may
-    // have another camera, lens, time, number of samples, levels of detail and method. Throws Error under the
-    // conditions of the constructor, and if the request has another scene.
+    // have another camera, lens, time, number of samples, levels of detail and method. Throws Error in the same cases
+    // as the constructor, and if the request has another scene.
     void start();
     void start(const Request& request);
     // Draws further samples. Returns false once the frame is complete. A frame that exceeds Request::memory is drawn in
@@ -99,7 +99,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// Returns the image of a request. Throws Error under the conditions of SceneRenderer.
+// Returns the image of a request. Throws Error in the same cases as SceneRenderer's constructor and start().
 DEFOCUS_API Image render(const Request& request, const Progress& progress = {});
 
 // Sets one setting of a request from text, for bindings and files. `name` is a name in docs/settings.md, such as

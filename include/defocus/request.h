@@ -43,7 +43,7 @@ struct TransparentBackground {
 using Background = std::variant<EnvironmentBackground, TransparentBackground, Color>;
 
 struct Request {
-    // Scene and lights.
+    // ---- scene and lights ----
     std::filesystem::path scene;    // .gltf or .glb; empty: the built-in school of fish
     bool strict = false;            // true: throw Error for missing or damaged parts of the file, such as textures
     std::string variant;            // name of a material variant of the file; empty: the default materials
@@ -69,7 +69,7 @@ struct Request {
     std::optional<double> lightAngle;   // angular diameter of directional lights in degrees. Default: each light's own
     std::optional<double> lightRadius;  // radius of point and spot lights in m. Default: each light's own
 
-    // Camera and image.
+    // ---- camera and image ----
     CameraChoice camera;
     // Camera in a separate file, such as "shot.usda:/World/cam"; replaces the scene's camera. Empty: none.
     std::string cameraFrom;
@@ -78,12 +78,12 @@ struct Request {
     std::optional<Vector3> cameraUp;        // replaces the camera's up vector
     ImageSize size;
 
-    // Lens.
+    // ---- lens and focus ----
     LensSettings lens;
     Focus focus;
     std::map<std::string, double> nodeBlur;  // node name or index → blur factor ≥ 0 of the node and its descendants
 
-    // Samples and levels of detail.
+    // ---- samples and levels of detail ----
     std::optional<std::uint32_t> samples;  // number of lens samples, 1 … maxSamples. Default: automatic, from `quality`
     // Number of subpixel positions at which each lens sample is drawn, 1 or 4; other values throw Error. Default: 4 for
     // a still image of method "auto" with an automatic number of samples, many triangles and little blur, else 1.
@@ -103,14 +103,15 @@ struct Request {
     std::optional<LodMode> lod;
     // Target length of triangle edges relative to the blur diameter. Default: depends on the number of samples.
     std::optional<double> blurThreshold;
-    std::optional<double> sizeThreshold;  // min target edge length in px. Default: depends on the number of samples
+    // Target length of triangle edges in px where nothing is blurred. Default: depends on the number of samples.
+    std::optional<double> sizeThreshold;
     // For LodMetric::measured: max product of a level's projected edge length in px and its relative shading error.
     // Default: depends on the number of samples.
     std::optional<double> lightThreshold;
     std::filesystem::path cacheFolder;  // cache of mesh pyramids; empty: $XDG_CACHE_HOME/defocus or ~/.cache/defocus
     bool noCache = false;               // true: pyramids are built without reading or writing the cache
 
-    // Rendering method and its settings.
+    // ---- rendering method ----
     std::string method = "auto";
     std::map<std::string, std::string> methodSettings;  // name of a setting → value; missing: defaults
     LayerFormat layerFormat = LayerFormat::automatic;
@@ -120,17 +121,17 @@ struct Request {
     std::vector<Layer> layers;
     ExrNames exrNames = ExrNames::nuke;
 
-    // Conversion to PNG, JPEG and video.
+    // ---- conversion to PNG, JPEG and video ----
     ToneMap toneMap = ToneMap::neutral;
     Exposure exposure;
 
-    // Settings for developers.
+    // ---- settings for developers ----
     LodMetric lodMetric = LodMetric::automatic;
     LevelVertices levelVertices = LevelVertices::fitted;
     LodCoc lodCoc = LodCoc::smallest;
     // Max error in px, > 0, of linear interpolation of the circle of confusion within a triangle.
     double cocTolerance = 0.5;
-    bool keepAll = false;                 // true: disables culling, and draws even blur below half a pixel
+    bool keepAll = false;  // true: disables culling, and draws all lens samples even if no blur reaches half a pixel
     std::optional<std::uint64_t> memory;  // memory limit in bytes. Default: 3/4 of the free memory
     // Number of lens samples drawn at once, 1 … 64; does not change the image. Default: as many as fit into memory.
     std::optional<std::uint32_t> wave;

@@ -26,12 +26,12 @@ enum class Sequence {
 };
 
 // Level-of-detail mode. Objects are drawn with simplified meshes if their blur or size hides the simplification (Jeong,
-// Kim and Lee 2011). λ is the fractional level of an object.
+// Kim and Lee 2011). Each object has a fractional level λ, a real number: 0 is full detail, larger values are coarser.
 enum class LodMode {
-    fractional,  // some samples draw level ⌊λ⌋, the others level ⌊λ⌋ + 1
-    continuous,  // like fractional, but one sample may draw both levels, in different pixels
-    nearest,     // all samples draw level round(λ)
-    off,         // level 0, full detail
+    fractional,  // some lens samples draw level ⌊λ⌋ (λ rounded down), the others the next coarser level
+    continuous,  // like fractional, but one lens sample may draw both levels, in different pixels
+    nearest,     // all lens samples draw the level nearest to λ
+    off,         // all lens samples draw level 0, full detail
 };
 
 // Criterion for the level of an object.
@@ -68,7 +68,7 @@ enum class Shadows {
     off,
 };
 
-// Point of the exposure at which the animation has the frame's time.
+// Whether the frame's animation time is the start, the centre or the end of the exposure.
 enum class ShutterPosition { start, centre, end };
 
 // Exact motion: the scene is posed separately for each lens sample, so that the paths of vertices are exact.

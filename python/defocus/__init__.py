@@ -113,7 +113,7 @@ class Statistics(NamedTuple):
     """Time, memory and triangle counts of a frame; times are wall-clock times."""
 
     samples: int
-    positions: int  # subpixel positions of each lens sample: 1 or 4
+    positions: int  # number of subpixel positions per lens sample: 1 or 4
     load_milliseconds: float
     pyramid_milliseconds: float
     setup_milliseconds: float
@@ -122,7 +122,7 @@ class Statistics(NamedTuple):
     triangles_at_full_detail: int
     gpu_bytes: int
     device: str
-    stopped: Literal["samples", "target error", "time limit", "nothing blurred"]  # why the frame ended
+    stopped: Literal["samples", "target error", "time limit", "nothing blurred"]  # why no more samples were drawn
     estimated_error: Optional[float]  # RMSE of the display-encoded image at EV 0; only with target_error or time_limit
 
 
@@ -132,7 +132,7 @@ class LightFieldInfo(NamedTuple):
     width: int  # px
     height: int  # px
     focus_distance: float  # focus distance of the rendered images, m
-    f_stop: float  # f-number of the rendered aperture; the smallest that can be chosen
+    f_stop: float  # f-number of the rendered aperture; refocusing cannot use a smaller one
     focal_length: float  # mm
     horizontal_aperture: float  # sensor width, mm
     focus_range: Tuple[float, float]  # focus distances in m that can be chosen

@@ -178,7 +178,7 @@ std::string outputFault() {
     std::cout.flush();  // writes the text of --help or --version
     errno = 0;
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout) return {};
-    if (errno == 0) {  // an earlier write failed; another write sets errno
+    if (errno == 0) {  // an earlier write failed, and errno no longer tells why; write again to set it
         std::clearerr(stdout);
         std::fputc('\n', stdout);
         std::fflush(stdout);
@@ -264,7 +264,8 @@ int runProgram(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return printFault(failed, "out of memory; try a smaller --size or --wave, or a scene with fewer triangles");
     } catch (const std::exception& error) {
-        // fmt::print throws an exception that doesn't name standard output.
+        // If fmt::print cannot write, it throws an exception whose message doesn't mention standard output. Print a
+        // message that does.
         return printFault(failed, std::ferror(stdout) != 0 ? outputFault() : error.what());
     }
 }

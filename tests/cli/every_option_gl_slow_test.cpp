@@ -1,7 +1,7 @@
-// Tests that every setting that a command offers has the effect that the table of settings names: on the linear image,
+// Tests that every setting that a command offers has the effect listed in the table of settings: on the linear image,
 // only on PNG and JPEG, or only on time and memory. For commands without an image, the printed text or the measurements
-// must change. A setting without a case fails the test. every_own_option_gl_slow_test.cpp covers the options that
-// belong to single commands, and tests/view covers the viewer.
+// must change. A setting without a test case (option_cases.h) fails the test. every_own_option_gl_slow_test.cpp covers
+// the options that belong to single commands, and tests/view covers the viewer.
 
 #include <functional>
 
@@ -36,8 +36,8 @@ Results printedPyramids(const Folder&, const Outcome& outcome) {
     return {{}, {}, withoutTimes(json::parse(outcome.out)).dump()};
 }
 
-// Returns "limited " for the memory limit that option_cases.h sets, else "", since the default limit depends on free
-// memory.
+// Returns "limited " for the memory limit that option_cases.h sets, else "". The default limit depends on the free
+// memory, so its number would differ from run to run.
 std::string seenOfLimit(const json& limit) {
     return limit == std::uint64_t{3} << 30 ? "limited " : "";
 }

@@ -1,5 +1,5 @@
 // Tests that every option that belongs to a single command has an effect; every_option_gl_slow_test.cpp checks the
-// settings. option_cases_test.cpp checks that each option of each command has a case or a test.
+// settings. option_cases_test.cpp checks that each option of each command has a test case or a test of its own.
 
 #include <set>
 
@@ -135,8 +135,8 @@ TEST_F(OwnOption, shaderFolderIsReadOrRefused) {
     }
 }
 
-// A bench that was built from changed sources refuses to write results without --allow-changed. The test works for
-// builds from changed and from unchanged sources.
+// A program built from changed sources refuses to write results of `defocus bench` without --allow-changed. The test
+// works for builds from changed and from unchanged sources.
 TEST_F(OwnOption, changedSourcesAreRefusedUnlessAllowed) {
     EXPECT_THROW(refuseChangedSources("out", false, "0123-changed"), Error);
     EXPECT_NO_THROW(refuseChangedSources("out", true, "0123-changed"));
@@ -150,9 +150,9 @@ TEST_F(OwnOption, changedSourcesAreRefusedUnlessAllowed) {
     }
 }
 
-// `bench scaling` varies the scene property that --axes names. The test varies "blur", which takes seconds. --large
-// needs the axis "triangles", which takes minutes; the test only checks that --large without this axis is an error and
-// that it adds points.
+// `bench scaling` varies the scene property that --axes names. The test runs "blur", which takes seconds. --large adds
+// larger scenes to the axis "triangles", which takes minutes. The test therefore checks only the list of scenes on this
+// axis, and that --large without this axis is an error.
 TEST_F(OwnOption, scalingGoesAlongItsAxis) {
     const Words line = {"bench", "scaling", "--axes", "blur", "--allow-changed"};
     // --runs defaults to three, so 1 proves that the option has an effect.
@@ -170,8 +170,8 @@ TEST_F(OwnOption, scalingGoesAlongItsAxis) {
     EXPECT_GT(scalingPoints(ScalingAxis::triangles, true).size(), scalingPoints(ScalingAxis::triangles, false).size());
 }
 
-// `bench stability` checks whether it can write its output file before the first case, since all cases together take
-// minutes.
+// All cases of `bench stability` together take minutes. Before the first case, the command therefore checks whether it
+// can write its output file.
 TEST_F(OwnOption, stabilityWritesWhereItIsTold) {
     for (const Words& output : std::vector<Words>{{"-o", "ball.glb/none.json"}, {"--report", "ball.glb/none"}}) {
         const Outcome outcome = run(joined({"bench", "stability", "--allow-changed"}, output));

@@ -138,8 +138,8 @@ TEST_F(Faults, aBenchThatIsKilledLeavesWholeReports) {
            });
 }
 
-// If a bench is killed while its child process draws the plots, the folder has the previous report page or a complete
-// new one.
+// If `defocus bench` is killed while its child process draws the plots, the folder has the previous report page or a
+// complete new one.
 TEST_F(Faults, aReportThatIsKilledIsWhole) {
     if (std::system("python3 -c 'import matplotlib, PIL' 2>/dev/null || "
                     "/usr/bin/python3 -c 'import matplotlib, PIL' 2>/dev/null") != 0)

@@ -1,6 +1,6 @@
 #pragma once
-// Lists, for every setting of the program and of its methods, a value that must change a command's text, image or
-// measurements. Also builds the small scene that the commands render.
+// Lists, for every setting of the program and of its methods, a value that must change a command's printed text, image
+// or measurements. Also builds the small scene that the commands render.
 
 #include <algorithm>
 #include <filesystem>
@@ -27,7 +27,7 @@ inline Words joined(Words words, const Words& more) {
 }
 
 // Test case of an option. `words` are the option and its value. `with` are further options that the case needs; the
-// test leaves out those that the tested command does not have. `against` is the option with another value to compare
+// test leaves out those that the tested command does not accept. `against` is the option with another value to compare
 // with; if empty, the comparison is with a command line without the option.
 struct OptionCase {
     Words words;
@@ -348,7 +348,7 @@ struct CommandLine {
     Words rest;
 };
 
-// Returns the options in `words` that the command has, each with its values.
+// Returns those options in `words` that the command accepts, each with its values.
 inline Words taken(const std::string& command, const Words& words) {
     Words known;
     for (const CLI::Option* option : optionsOffered(command))

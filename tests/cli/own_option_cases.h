@@ -1,6 +1,6 @@
 #pragma once
-// Lists two command lines, which differ by a single option, for each option that belongs to only one command.
-// option_cases.h lists the settings of the program and of its methods.
+// Lists a test case for each option that belongs to only one command. Each case compares two command lines: one with
+// the option and one without it. option_cases.h lists the settings of the program and of its methods.
 
 #include "cli/option_cases.h"
 
@@ -8,13 +8,13 @@ namespace defocus::engine {
 
 struct OwnOptionCase {
     Words words;                     // the option with its value
-    Words more = {};                 // further options that both command lines have
-    Words without = {};              // options of usualLines() that both command lines omit
+    Words more = {};                 // further options that are on the command lines with and without the option
+    Words without = {};              // options of usualLines() that are on neither of the two command lines
     std::vector<Words> before = {};  // command lines to run before the case
 };
 
-// Returns, for each command, arguments with which it runs quickly. Options of a test case replace the same options of
-// these arguments.
+// Returns, for each command, arguments with which it runs quickly. If the `words` or `more` of a test case begin with
+// one of these options, they replace it.
 inline const std::map<std::string, Words>& usualLines() {
     static const Words ball = {"ball.glb", "--size", "16x12", "--fstop", "0.5"};
     static const Words written = {"-o", "result", "--allow-changed"};
@@ -60,8 +60,8 @@ inline Words withoutOption(Words line, const std::string& option) {
     return line;
 }
 
-// Returns the command line of a case, with or without its option. A case whose name has no dash, such as "A" or "SHOT",
-// is a positional argument and gives all words of the line.
+// Returns the command line of a case, with or without its option. If `tried.words` does not begin with an option, it
+// contains all arguments of the command, to test a positional argument such as "SHOT".
 inline Words lineOfOwnCase(const std::string& command, const OwnOptionCase& tried, bool with) {
     Words line = usualLine(command);
     for (const std::string& option : tried.without) line = withoutOption(line, option);

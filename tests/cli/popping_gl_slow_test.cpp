@@ -4,9 +4,10 @@
 // measure the section of each movement with the most level changes (measurements: eval/popping/popping.h).
 //
 // If one of N samples switches its level, the image changes by √(c/w)/N of a full change, for a blur of c px and a
-// deviation of w px between the levels. Here c/w is at most about 30/0.4, so one sample changes at most 8.7/N. If k
-// samples of an object switch in the same frame, their changes add up like noise, by √k. In movements of 480 frames, at
-// most three of 64 samples switch per frame. In a walk at 24 frames per second, at most twelve of 128 do, which is 0.23
+// deviation of w px between the levels. Here c/w is at most about 30/0.4, so one sample changes the image by at most
+// 8.7/N of a full change. If k samples of an object switch in the same frame, their changes add up like independent
+// noise, to √k times the change of one sample. In movements of 480 frames, at most three of 64 samples switch per
+// frame. In a walk at 24 frames per second, at most twelve of 128 samples switch; they change the image by up to 0.23
 // of a full change.
 
 #include <gtest/gtest.h>
@@ -159,7 +160,7 @@ TEST_F(NoPopping, ofTheFoxInAWalkCycle) {
     options_.focus = FocusDistance{125};
     PoppingOptions popping;
     popping.movements = {Movement::clip};
-    popping.clip = 1;  // clip 1 is Walk, 0.708 s
+    popping.clip = 1;  // the clip "Walk", which takes 0.708 s
     popping.frames = 17;
     popping.pathFrames = 17;
     expectNone(popping, 128);

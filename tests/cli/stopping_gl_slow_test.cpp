@@ -1,5 +1,5 @@
-// Tests that a signal or the time limit ends a render soon, even in the middle of a block of samples that takes a long
-// time.
+// Tests that a signal or the time limit ends a render promptly, even in the middle of a block of samples that takes a
+// long time.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -88,7 +88,7 @@ TEST_F(Stopping, partialImagesAreKeptOnDemand) {
 }
 
 // One step of the method `line` (a call of Renderer::advance()) takes seconds, so the signal usually arrives within a
-// step. On a fast machine, the first step can end before.
+// step. On a fast machine, the first step may end before the signal arrives.
 TEST_F(Stopping, aLongStepIsNotAwaited) {
     warmUp({"render", "--quiet", "--size", "512x384"});
     const Words words = {"render",    "--quiet", "--size",         "512x384", "--method", "line",

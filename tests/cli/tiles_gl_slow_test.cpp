@@ -76,8 +76,8 @@ TEST_F(ShortOfMemory, aFineSceneInTilesKeepsToIt) {
     EXPECT_LE(stats.at("peakBytes").get<double>(), 400 << 20);
 }
 
-// If the driver's copies of fine meshes leave too little memory for the image, the error message names a sufficient
-// limit. A run with this limit stays within it.
+// If the driver's copies of fine meshes leave too little memory for the image, the error message names a memory limit
+// that is sufficient. A run with this limit stays within it.
 TEST_F(ShortOfMemory, aFineSceneKeepsToTheMemoryThatIsSaidToDo) {
     if (!createHeadlessContext()->software()) GTEST_SKIP() << "no option limits a GPU's own memory";
     const auto fish = [&](const std::string& memory) {

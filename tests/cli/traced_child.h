@@ -47,9 +47,10 @@ public:
     [[nodiscard]] bool traced() const { return traced_; }  // false if the system does not allow tracing
     [[nodiscard]] int calls() const { return calls_; }     // number of counted calls so far
 
-    // Continues the child to its end. Sends `signal` to the child before counted call number `call` (1 is the first) is
-    // executed. Calls `look` with the child's process id before each counted call, while the calling thread is stopped.
-    // Returns the exit code, or 128 + the number of the signal that ended the child.
+    // Continues the child to its end. Before the child executes its counted system call number `call` (1 is the first;
+    // the constructor says which calls count), sends `signal` to the child. Before each counted call, calls `look` with
+    // the child's process id while the thread of the child that makes the call is stopped. Returns the exit code, or
+    // 128 + the number of the signal that ended the child.
     int end(int call = 0, int signal = 0, const std::function<void(pid_t)>& look = {}) {
         while (exitCode_ < 0) {
             int status = 0;

@@ -79,8 +79,8 @@ private:
         xcb_flush(connection_.get());
     }
 
-    // Waits up to `seconds` for a message of the target window, and returns whether the message accepts the drop: its
-    // second value is not 0. Meanwhile, serves the target's requests for the files.
+    // Waits up to `seconds` for a message from the target window. Returns whether the message accepts the drop, that
+    // is, whether its second value is not 0. Meanwhile, answers the target's requests for the list of files.
     bool answered(const char* message, double seconds) {
         const xcb_atom_t expected = atom(message);
         for (double waited = 0; waited < seconds; waited += 0.01) {

@@ -1,6 +1,6 @@
-// Tests that every option of `defocus view` affects the window's initial state: the command's own options, and the
-// options for the table of settings and for the methods. option_cases_test.cpp checks that each option has a case or a
-// test.
+// Tests that every option of `defocus view` affects the window's initial state: the command's own options, the options
+// of the settings table, and the options of the methods. option_cases_test.cpp checks that each option has an entry in
+// option_cases.h or a test of its own.
 
 #include <map>
 
@@ -38,8 +38,8 @@ protected:
         return state();
     }
 
-    // Returns a text with three results: the command that the viewer shows for rendering its image (with all
-    // non-default settings), the value of --wave, and the cache folders that exist.
+    // Returns a string with everything that an option may change: the command that the viewer shows for rendering its
+    // image (with all non-default settings), the value of --wave, and the cache folders that exist.
     const std::string& seenOf(const Words& line) {
         const auto known = seen_.find(line);
         if (known != seen_.end()) return known->second;

@@ -1,4 +1,4 @@
-// Tests that the viewer's text of a `defocus render` command gives the viewer's view when the command is parsed.
+// Tests that the `defocus render` command that the viewer writes for its view gives the same view when it is parsed.
 
 #include "frame/report/render_command_text.h"
 

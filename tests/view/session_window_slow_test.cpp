@@ -62,7 +62,7 @@ TEST_F(View, dividerMovesUnderTheHandAndPsnrIsShown) {
     EXPECT_TRUE(reaches([](const json& s) { return std::abs(s.at("divider").get<double>() - 0.75) < 0.01; }))
         << state();
     key("x");  // switches to a comparison with level mode `nearest`
-    key("x");  // switches to a comparison with the reference image, whose samples differ
+    key("x");  // switches to a comparison with the reference image, which has other lens samples than the view
     EXPECT_TRUE(reaches([](const json& s) {
         return s.at("comparison") == 3 && s.at("psnr").is_number() && s.at("psnr") > 20;
     })) << state();

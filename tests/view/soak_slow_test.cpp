@@ -1,4 +1,4 @@
-// Tests that a viewer that opens scene after scene does not accumulate memory or open files. scripts/soak opens more
+// Tests that a viewer that opens scene after scene does not leak memory or file descriptors. scripts/soak opens more
 // scenes.
 
 #include <fmt/format.h>
@@ -41,12 +41,12 @@ TEST_F(ViewSoak, scenesInTurnTakeNoMoreMemoryAndLeaveNoHandleOpen) {
     }
     fmt::print("{} scenes: {:.1f} MB after {}, {:.1f} MB at the end; {} and {} handles\n", scenes, before.megabytes,
                early, after.megabytes, before.handles, after.handles);
-    // The memory that allocators hold stops growing after some tens of scenes. A short run finds leaks of one image of
+    // The memory that allocators hold stops growing after a few dozen scenes. A short run finds leaks of one image of
     // the window's size per scene; a long run finds any leak.
     const double settled = 0.02 * before.megabytes;
     const double imagesKept = (scenes - early) * 320 * 240 * 4e-6;
     EXPECT_LE(after.megabytes - before.megabytes, scenes < 500 ? imagesKept : settled);
-    // the file of one scene may still be open; a leak per scene would add some tens of file descriptors
+    // the file of one scene may still be open; a leak per scene would add dozens of file descriptors
     EXPECT_LT(after.handles, before.handles + 5);
 }
 

@@ -86,7 +86,8 @@ protected:
         start(arguments);
         ::setenv("PATH", before.c_str(), 1);
     }
-    // Waits until the state contains the widget's position, then clicks on the widget until `condition` holds.
+    // Waits until the state that the window reports contains the widget's position, then clicks on the widget until
+    // `condition` holds.
     [[nodiscard]] bool clicks(const std::string& place,
                               const std::function<bool(const nlohmann::json&)>& condition) const {
         if (!reaches([&](const nlohmann::json& s) { return s.at("places").contains(place); })) return false;

@@ -212,7 +212,8 @@ private:
         const nlohmann::json now = state();
         return now.empty() ? 0 : now.at("frames").get<std::uint64_t>();
     }
-    // Returns whether the program runs. Does not reap the process, so that ended() can return its exit code.
+    // Returns whether the program is still running. Does not reap the process, so that ended() can return its exit
+    // code.
     [[nodiscard]] bool alive() const {
         siginfo_t info{};
         return program_ > 0 && ::waitid(P_PID, static_cast<id_t>(program_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&

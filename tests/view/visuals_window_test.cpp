@@ -1,4 +1,4 @@
-// Tests the window on screens with unusual colour depths instead of 24 bits, and on screens without OpenGL.
+// Tests the window on screens whose colour depth is not the usual 24 bits, and on screens without OpenGL.
 
 #include <algorithm>
 

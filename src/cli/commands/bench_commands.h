@@ -13,22 +13,22 @@
 
 namespace defocus::engine {
 
-// Destinations of the results of a bench.
+// Destinations of the results of a `defocus bench` command.
 struct BenchOutput {
     std::filesystem::path folder;  // folder of the results; empty: print the table only
-    std::filesystem::path report;  // folder of the report, which replaces `folder`; empty: no report
+    std::filesystem::path report;  // folder of results and HTML report, used instead of `folder`; empty: no report
     bool allowChanged = false;     // true: accept a program built from changed sources
 };
 
-// Adds the options --output, --report and --allow-changed. `results` names the files, such as "the result view.json".
-// A bench without figures has no --report.
+// Adds the options --output, --report and --allow-changed. `results` names the result files in the help text of
+// --output, such as "the result view.json". `hasReport`: whether to add --report; false for commands without plots.
 void addBenchOutput(CLI::App& command, BenchOutput& output, const std::string& results, bool hasReport = true);
 
 // Returns the folder of the results. Calls refuseChangedSources and makeOutputFolder for it.
 std::filesystem::path openBenchOutput(const BenchOutput& output, std::initializer_list<const char*> files);
 
-// Creates `folder` and checks that `files` can be written there, before any long work. Does nothing for an empty path.
-// Throws Error if the folder or a file cannot be written.
+// Creates `folder` and checks that `files` can be written there, so that a long measurement doesn't fail at its end.
+// Does nothing for an empty path. Throws Error if the folder or a file cannot be written.
 void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list<const char*> files);
 
 // Adds the option --allow-changed. It sets `allowed` to true, which allows results of a program built from changed
@@ -40,11 +40,12 @@ void addAllowChanged(CLI::App& command, bool& allowed);
 void refuseChangedSources(const std::filesystem::path& output, bool allowed,
                           const std::string& commit = programCommit());
 
-// Returns the default request of a bench. The scene's unit is a metre, so that no result depends on a guessed unit.
+// Returns the default request of the `defocus bench` commands. The scene's unit is a metre, so that no result depends
+// on a guessed unit.
 Request measuredRequest();
 
-// Describes what a bench measures: program, command, machine and the device of `context`. The second overload adds the
-// scene, camera and lens of `frame`, and `runs`, the number of runs of each frame.
+// Describes what a `defocus bench` command measures: program, command, machine and the device of `context`. The second
+// overload adds the scene, camera and lens of `frame`, and `runs`, the number of runs of each frame.
 BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global);
 BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global, const PreparedFrame& frame, int runs);
 

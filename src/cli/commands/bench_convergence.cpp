@@ -37,8 +37,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns whether the program includes ray tracers. If so, the bench bakes the scene's lighting into unlit colours,
-// because ray tracers shade differently.
+// Returns whether the program includes ray tracers. If so, `bench convergence` bakes the scene's lighting into unlit
+// colours, because ray tracers shade differently.
 bool hasRayTracers() {
     return std::ranges::any_of(methods(), [](const Method& method) { return !method.needsGl; });
 }
@@ -68,8 +68,8 @@ void makeFolders(const ConvergenceArguments& arguments) {
     makeOutputFolder(arguments.report, {"index.html", "results.csv", "results.json"});
 }
 
-// Returns the hash of the reference image, the program, the device and the settings that affect the plan. All frames of
-// a journal (runs.csv) have the same hash.
+// Returns the hash of the reference image, the program, the device and the settings that affect the plan. All frames
+// that one journal (runs.csv) records have the same hash.
 std::uint64_t subjectHash(std::uint64_t reference, const BenchSubject& bench, const Request& request) {
     std::string text = fmt::format("{} {} {} {}", bench.program, bench.commit, bench.device, bench.driver);
     for (const Setting& setting : settings()) {
@@ -107,7 +107,7 @@ public:
                   int seeds)
         : folder_(std::move(folder)), reference_(reference), subject_(std::move(subject)), hash_(hash), seeds_(seeds) {}
 
-    // Continues an earlier run in this folder: keeps its frames and the commands listed in its results.
+    // Continues an earlier run whose results are in `folder_`: keeps its frames and the commands that its results list.
     void resume(std::vector<ConvergenceRun> runs) {
         runs_ = std::move(runs);
         const fs::path results = folder_ / "results.json";
@@ -189,7 +189,7 @@ std::vector<PublishedForm> publishedForms(const Request& scene, const PreparedFr
 }
 
 void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& global) {
-    // Check scene, lens, device and folders before the long work.
+    // Check scene, lens, device and folders before the measurements, which take long.
     Progress progress = terminalProgress(global);
     ConvergenceOptions options = arguments.options;
     Request scene = arguments.request;
@@ -339,7 +339,7 @@ void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<ConvergenceArguments>();
     CLI::App* command = bench.add_subcommand(
         "convergence", "Measure the error over run time of methods and settings against a reference");
-    // Leave out settings that the bench varies itself, and exposure, because images are compared at EV 0.
+    // Leave out settings that the benchmark varies itself, and exposure, because images are compared at EV 0.
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"preset", "samples", "positions", "quality", "targetError", "timeLimit", "lod",
                                          "blurThreshold", "sizeThreshold", "lightThreshold", "method", "cacheFolder",

@@ -80,7 +80,8 @@ void addCacheCommand(CLI::App& program) {
         addSettings(*place, arguments->request, {"cacheFolder"});
         place->footer(example);
     }
-    // An empty folder name, as from an unset variable of a script, must not mean the default folder.
+    // Reject an empty folder name, which may come from an unset variable in a script. Otherwise it would select the
+    // default folder, and `clear` would remove the files there.
     const auto checked = [arguments, command, listing, clearing](void (*act)(const CacheArguments&)) {
         for (const CLI::App* place : {command, listing, clearing})
             if (place->count("--cache-dir") > 0 && arguments->request.cacheFolder.empty())

@@ -21,11 +21,12 @@ using Json = nlohmann::ordered_json;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// Circle of confusion of the points at one depth.
 struct Blur {
     double depth = 0;      // m
-    double pixels = 0;     // signed diameter; > 0 behind the focus plane
-    double onSensor = 0;   // diameter, mm; signed like `pixels`
-    bool inFocus = false;  // true: the diameter is at most CameraFacts::acceptable
+    double pixels = 0;     // signed diameter in px; > 0 behind the focus plane
+    double onSensor = 0;   // diameter on the sensor, mm; signed like `pixels`
+    bool inFocus = false;  // true: the diameter on the sensor is at most CameraFacts::acceptable
 };
 
 // All values that the report prints.
@@ -78,7 +79,7 @@ double behindFocus(const CameraFacts& facts) {
     return std::isinf(facts.lens.focusDistance) ? 0 : facts.depth.far - facts.lens.focusDistance;
 }
 
-// Returns a text such as "1/125 s" or "2.5 s".
+// Returns a string such as "1/125 s" or "2.5 s".
 std::string shutterText(double seconds) {
     return seconds < 0.4 ? fmt::format("1/{:.4g} s", 1 / seconds) : fmt::format("{:.3g} s", seconds);
 }

@@ -60,7 +60,7 @@ struct CaptureArguments {
     bool refocus = false;  // true: compute frames from lens images where possible
 };
 
-// Checks the outputs and the combination of options before any long work. Throws Error for invalid outputs and
+// Checks the outputs and the combination of options before anything is rendered. Throws Error for invalid outputs and
 // combinations.
 void checkArguments(const CaptureArguments& arguments) {
     for (const std::string& pattern : arguments.shot.outputs) {
@@ -109,7 +109,7 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
 void settleMethod(CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base) {
     const MethodUse use = chosenMethod(arguments.request);
     if (use.method->name != automaticMethod) return;
-    // The choice depends only on bounding boxes, so no levels of detail are needed.
+    // Plan the frames without levels of detail, because the rule of "auto" doesn't depend on them.
     const LodMode lod = std::exchange(prepared.settings.lod, LodMode::off);
     addPyramids(prepared);
     constexpr int maxPlanned = 16;
@@ -268,7 +268,7 @@ PreparedFrame placedFrame(const CaptureArguments& arguments, const Progress& pro
 }
 
 void runCapture(CaptureArguments& arguments, const GivenOptions& given, const GlobalOptions& global) {
-    // Check options, outputs, scene, device, and each frame's camera and lens before any long work.
+    // Check options, outputs, scene, device, and each frame's camera and lens before any frame is rendered.
     Shot& shot = arguments.shot;
     settleShot(shot, arguments.request, given);
     if (!arguments.outputs.empty()) shot.outputs = arguments.outputs;

@@ -18,7 +18,7 @@ RefocusRuns chosenRuns(const Shot& shot, const SequenceBase& base, const FilmSet
 std::string savedText(const FilmSettings& settings, const FilmFigures& figures);
 
 // Returns a line that states how many lens samples --refocus would have saved for the frames in `film`, which were
-// rendered without it. Returns an empty text if it would have saved none.
+// rendered without it. Returns an empty string if it would have saved none.
 std::string possibleSaving(const Shot& shot, const SequenceBase& base, const FilmSettings& settings,
                            const std::vector<FilmFrame>& film);
 

@@ -35,7 +35,7 @@ struct CompareArguments {
     bool json = false;
     bool hdr = false;
     HdrFlipOptions hdrFlip;
-    std::vector<std::string> failAbove;  // texts METRIC=VALUE; validated while parsing
+    std::vector<std::string> failAbove;  // strings METRIC=VALUE; validated while the command line is parsed
 };
 
 struct Metric {
@@ -136,7 +136,7 @@ void checkLimits(const CompareArguments& arguments, const Difference& difference
 }
 
 void runCompare(const CompareArguments& arguments) {
-    // Check the output file before the long work.
+    // Check that the output file can be written before the images are compared, which may take long.
     if (!arguments.errorMap.empty()) {
         checkImageOutputs({arguments.errorMap}, {}, {arguments.reference, arguments.test});
     }

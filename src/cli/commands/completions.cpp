@@ -23,8 +23,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Placeholders in the table that the shell replaces with names of files or folders. The letters are options of bash's
-// compgen.
+// Candidates that the shell replaces with the names of all files or all folders. The letters are options of compgen, a
+// command of bash.
 constexpr std::string_view anyFile = ":f";
 constexpr std::string_view anyFolder = ":d";
 
@@ -50,8 +50,8 @@ bool isLiteral(const std::string& text) {
 }
 
 // Returns the candidates for an option's value, read from the placeholder in --help: "off" and "half" for "off|half|N".
-// For a comma-separated list such as "depth,coc", each candidate begins with a comma, because a value may contain
-// several words.
+// For a comma-separated list such as "depth,coc", each candidate begins with a comma. awkProgram replaces this comma
+// with the part of the list that is already typed.
 std::vector<std::string> candidatesOf(const CLI::Option& option) {
     const std::string form = option.get_type_name();
     const bool list = form.find('|') == std::string::npos && form.find(',') != std::string::npos;

@@ -32,7 +32,7 @@ using Json = nlohmann::ordered_json;
 struct InfoOptions {
     bool json = false;
     std::string camera;  // empty: print the file's contents; else print camera data ("true" or a camera's name)
-    Request seen;        // names the scene; all other values apply to --camera only
+    Request seen;        // settings that select the scene; all other values are used only with --camera
     CameraQuestion question;
 };
 
@@ -40,7 +40,7 @@ constexpr std::size_t meshesListed = 12;  // maximum number of meshes in text ou
 const std::string flagOnly = "true";      // CLI11's value for --camera without a name
 constexpr double degrees = 57.295779513082321;
 
-// Returns `name`, or a text such as "(mesh 3)" if it is empty.
+// Returns `name`, or a placeholder such as "(mesh 3)" if the name is empty.
 std::string nameOr(const std::string& name, const char* kind, std::size_t index) {
     return name.empty() ? fmt::format("({} {})", kind, index) : name;
 }

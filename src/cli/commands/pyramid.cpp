@@ -80,7 +80,7 @@ std::vector<MeshReport> chooseMeshes(const Scene& scene, const std::string& name
     fail("there is no mesh '{}' among the {} meshes that 'defocus info' lists", name, names.size());
 }
 
-// ---- building and measuring of pyramids ---------------------------------------------------------
+// ---- building and measuring pyramids ------------------------------------------------------------
 
 void buildOne(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers, MeshReport& report) {
     using Clock = std::chrono::steady_clock;
@@ -207,7 +207,7 @@ Json reportJson(const PyramidArguments& arguments, const Scene& scene, const std
     return json;
 }
 
-// Returns a text such as "0.52 s" or "3.1 ms".
+// Returns a string such as "0.52 s" or "3.1 ms".
 std::string timeText(double seconds) {
     return seconds >= 0.1 ? fmt::format("{:.2f} s", seconds) : fmt::format("{:.1f} ms", 1000 * seconds);
 }

@@ -37,12 +37,13 @@ std::vector<std::string> ownSettings() {
 struct RefocusArguments {
     std::filesystem::path file;
     std::vector<std::filesystem::path> outputs = {"out.exr"};
-    Request request;                 // values of ownSettings()
+    Request request;                 // only the settings listed by ownSettings() are used
     std::optional<double> exposure;  // exposure in EV; nullopt: as rendered
     std::filesystem::path page;      // if not empty, write a web page to this file instead of outputs
     FocusPullFilm pull;              // video of a focus pull; written if pull.video isn't empty
-    bool fillGaps = true;            // true: blur each lens image to fill gaps between copies of blurred points
-    int stack = 0;                   // number of pictures in a focal stack; 0: write one picture
+    // true: blur each lens image to fill the gaps between the copies of an out-of-focus point, one in each lens image
+    bool fillGaps = true;
+    int stack = 0;  // number of pictures in a focal stack; 0: write one picture
 };
 
 Refocusing requested(const RefocusArguments& arguments, LightField& field) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t lineWidth = 100;
 
-// Returns the number of columns of a UTF-8 text: its number of bytes without continuation bytes.
+// Returns the number of columns of a UTF-8 string: the number of its bytes that are not continuation bytes.
 std::size_t columnsOf(std::string_view text) {
     return static_cast<std::size_t>(
         std::ranges::count_if(text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0u) != 0x80u; }));

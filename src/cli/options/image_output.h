@@ -18,7 +18,7 @@ bool isStandardOutput(const std::filesystem::path& output);
 
 // Returns the file's name; "standard output" for "-".
 std::string shownOutput(const std::filesystem::path& output);
-// Returns shownOutput of each output, separated by commas.
+// Returns the names of all outputs (see shownOutput), separated by commas.
 std::string shownOutputs(const std::vector<std::filesystem::path>& outputs);
 
 // Checks all outputs of a command. Throws Error for an unknown format, an unwritable file, an image to a terminal, two

@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the option that turns a boolean setting off: "--no-dof" for "--dof", "--cache" for "--no-cache".
+// Returns the option with the opposite effect of a boolean option: "--no-dof" for "--dof", "--cache" for "--no-cache".
 std::string negationOf(const std::string& option) {
     constexpr std::string_view no = "--no-";
     return option.starts_with(no) ? "--" + option.substr(no.size()) : std::string(no) + option.substr(2);

@@ -35,10 +35,10 @@ const Setting* settingOf(const CLI::Option& option);
 // Returns the method setting that an option sets; null if it sets none.
 const MethodSetting* methodSettingOf(const CLI::Option& option);
 
-// Groups of all settings that affect a frame, except the display settings for PNG and JPEG and the developer settings.
+// Groups of all settings that affect a frame, except the developer settings and the conversion to PNG and JPEG.
 inline const std::vector<SettingGroup> frameGroups = {SettingGroup::scene, SettingGroup::camera, SettingGroup::lens,
                                                       SettingGroup::samples, SettingGroup::method};
-// Groups of all settings that affect a frame or its display as PNG and JPEG.
+// Groups of all settings that affect a frame or its conversion to PNG and JPEG.
 inline const std::vector<SettingGroup> pictureGroups = {SettingGroup::display, SettingGroup::scene,
                                                         SettingGroup::camera,  SettingGroup::lens,
                                                         SettingGroup::samples, SettingGroup::method};

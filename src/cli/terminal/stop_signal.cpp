@@ -23,8 +23,8 @@ constexpr int stopped = 1;  // exit code of a process that a signal stopped
 volatile std::sig_atomic_t asked = 0;
 sem_t wake;  // posted by the signal handler, in which sem_post is safe
 
-// State that the main thread shares with the second thread, which calls `save` and prints the returned line before it
-// ends the process. Never destroyed, because the thread may outlive static objects.
+// State that the main thread shares with the watchdog thread, which calls `save` and prints the returned line before it
+// ends the process. Never destroyed, because the watchdog thread may outlive static objects.
 struct End {
     std::mutex mutex;
     std::function<std::string()> save = [] { return std::string("stopped"); };

@@ -20,9 +20,10 @@ struct RefocusBenchRow {
 
 // Measures the methods on the document's scene at ViewState::pictureSize. For each method, simulates three drags, with
 // one step per frame: the focus halfway (in 1/distance) to the nearest surface, the focus halfway to the farthest
-// surface, and the f-number by one stop. An image has full quality if it has the window's resolution and enough
-// samples: all stored images whose lens point is within the aperture, or as many lens samples as the maximum number of
-// stored images. Needs a current GL context. Throws Error for a method that doesn't support the scene or the settings.
+// surface, and the f-number by one stop. An image computed from stored images has full quality if it uses all of them
+// whose lens point is within the aperture. A rendered image has full quality if it has the window's resolution and
+// KeptImages::maxImages lens samples, or if it needs no further samples. Needs a current GL context. Throws Error for a
+// method that doesn't support the scene or the settings.
 void measureRefocus(Document& document, ViewState& state, const ViewBenchOptions& options,
                     const std::function<void(const RefocusBenchRow&)>& take, const Progress& progress = {});
 

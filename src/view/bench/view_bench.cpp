@@ -21,12 +21,12 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr double step = glm::radians(1.0);    // angle of the orbit per frame
-constexpr double settledSeconds = 1;          // time in s that the view rests before the movement, as in typical use
-constexpr std::uint32_t minStillSamples = 4;  // min lens samples of an accumulated image that the window shows
-constexpr double comparedShares[] = {0.25, 0.5, 0.75};  // fractions of the movement at which PSNR is measured
+constexpr double settledSeconds = 1;          // time in s that the view rests before the orbit, as in typical use
+constexpr std::uint32_t minStillSamples = 4;  // the window shows an accumulated image from this number of samples on
+constexpr double comparedShares[] = {0.25, 0.5, 0.75};  // fractions of the orbit at which PSNR is measured
 
 struct ShownFrame {
-    std::uint32_t frame = 0;  // index of the frame in the movement
+    std::uint32_t frame = 0;  // index of the frame within the camera's orbit
     View view;
     Image image;  // frame as drawn, possibly smaller than the view
 };

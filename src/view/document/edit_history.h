@@ -18,8 +18,9 @@ public:
     // Clears the history. `opened`: initial state of the scene, which reset() returns.
     void begin(const ViewEdit& opened);
 
-    // Receives the state of each frame. An edit becomes an undo step when the mouse button or key is released (`held`
-    // becomes false). Edits by mouse wheel or keys become an undo step after half a second without change.
+    // Receives the state of each frame. `held`: whether a mouse button, a key or a widget is held. `seconds`: time of
+    // the frame. An edit becomes an undo step when `held` becomes false. An edit without holding, such as by mouse
+    // wheel, becomes an undo step after half a second without change.
     void note(const ViewEdit& now, bool held, double seconds);
 
     // Return the state before the latest edit (undo) or after the next one (redo). Return nullopt if there is no such
@@ -43,7 +44,7 @@ private:
     Steps before_, after_;
     bool pending_ = false;  // true: latest_ has changes that aren't an undo step yet
     bool held_ = false;
-    double changedAt_ = 0;  // time of the latest change in s, on the clock of note()
+    double changedAt_ = 0;  // time of the latest change in s, as passed to note()
 };
 
 }  // namespace defocus::engine

@@ -28,7 +28,8 @@ public:
     SceneLoader(const SceneLoader&) = delete;
     SceneLoader& operator=(const SceneLoader&) = delete;
 
-    // Starts to open a scene. Cancels all earlier jobs that have not delivered a draft yet.
+    // Starts opening a scene in a new job. Cancels all earlier jobs that have not yet delivered a draft, that is, a
+    // scene with coarse pyramids.
     void open(const Request& options);
     // Returns the next result: a draft, the final scene, or a failure. Returns each result once; nullopt if there is no
     // new result.

@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Each lambda below ties the members of a request that are compared, applied and reverted together.
+// Each lambda below selects (with std::tie) the members of a request that are compared, applied and reverted together.
 constexpr auto cameraPart = [](auto& request) { return std::tie(request.camera); };
 constexpr auto aperturePart = [](auto& request) { return std::tie(request.lens.apertureImage); };
 constexpr auto nodeBlurPart = [](auto& request) { return std::tie(request.nodeBlur); };
@@ -28,8 +28,8 @@ constexpr auto surroundingsPart = [](auto& request) {
 };
 constexpr auto lightsPart = [](auto& request) { return std::tie(request.lightAngle, request.lightRadius); };
 
-// Calls `update` if the members tied by `part` differ between the state's request and the shown request. Reverts these
-// members in the state if `update` throws.
+// Calls `update` if the members that `part` selects differ between the state's request and the shown request. Reverts
+// these members in the state if `update` throws.
 template <typename Part, typename Update>
 void apply(const Part& part, Document& document, ViewState& state, const Update& update) {
     if (part(state.options) == part(document.shown)) return;

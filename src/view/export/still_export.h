@@ -30,7 +30,7 @@ public:
     // written.
     bool step();
     [[nodiscard]] double share() const { return driver_->share(); }  // finished fraction, 0 … 1
-    [[nodiscard]] double secondsLeft() const;                        // estimate; infinity before the first batch
+    [[nodiscard]] double secondsLeft() const;  // estimate; infinity until the first batch is drawn
     [[nodiscard]] const StillRequest& request() const { return request_; }
 
 private:

@@ -50,9 +50,9 @@ public:
         return static_cast<std::uint32_t>(imagesFor(lens).size());
     }
 
-    // Computes the picture for the lens's focus distance and f-number from the lens images that serving() counts.
-    // serving() must be at least 1, and all planned lens images must be drawn. `lens` may differ from the lens of
-    // begin() in these two values only.
+    // Computes the picture for the lens's focus distance and f-number from the lens images that can contribute to it;
+    // serving() returns their number. serving() must be at least 1, and all planned lens images must be drawn. `lens`
+    // may differ from the lens of begin() in these two values only.
     void refocus(const Lens& lens);
     // Returns the latest picture of refocus(): linear, premultiplied RGBA, row 0 at the bottom.
     [[nodiscard]] const GlTexture& picture() const { return stack_.mean(); }

@@ -17,12 +17,14 @@ using namespace std::chrono_literals;
 constexpr auto settleTime = 120ms;  // time without changes after which the view counts as at rest
 // An image with fewer samples looks worse than the last frame of the moving view.
 constexpr std::uint32_t minShownSamples = 4;
-constexpr double visibleGrowth = 1.08;     // update the window when the sample count has grown by this factor
-constexpr double softwareGrowthTime = 60;  // min ms per frame for adding samples if OpenGL runs on the CPU
+constexpr double visibleGrowth = 1.08;  // update the window when the sample count has grown by this factor
+// Min time in ms that a frame spends on adding samples if OpenGL runs on the CPU.
+constexpr double softwareGrowthTime = 60;
 constexpr auto psnrInterval = 700ms;
 
-// Returns the numeric values of a request that affect its images, in addition to settings, sides, aperture image and
-// focusKey(). Exposure time and ISO are omitted, because they affect only the display.
+// Returns the numeric values of a request that affect its images. update() compares the settings, the sides of the
+// comparison, the aperture image and focusKey() separately. Exposure time and ISO are omitted, because they affect only
+// the display.
 std::vector<double> imageKey(const PictureRequest& request) {
     const View& view = request.view;
     std::vector<double> key = {static_cast<double>(view.width), static_cast<double>(view.height), view.nearPlane,
@@ -187,7 +189,7 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     aovsCurrent_ = workCurrent_ = workGrows_ = false;
     if (showsWork_) growWork(std::numeric_limits<double>::infinity());
     const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-    // Reserve at least half of the budget for the picture, so that a slow interface doesn't lower its quality further.
+    // Keep at least half of the budget for the picture, even if a slow interface takes more than the other half.
     const double rest = std::min(request.restOfFrame, 0.5 * budget.milliseconds);
     if (!fresh_ && !request.fixedQuality && !sharp) budget = adapted(budget, milliseconds + rest);
     fresh_ = false;

@@ -1,6 +1,6 @@
 #pragma once
 // Renders the window's picture on the GPU: one image, or two images for comparison, and overlays. While the view
-// changes, each frame is drawn completely, in a quality that fits the time budget. While the view is at rest, the image
+// changes, each frame is drawn completely, at a quality that fits the time budget. While the view is at rest, the image
 // accumulates samples.
 //
 // After the first batch of samples of a view at rest, the images of its lens samples are also drawn and kept as lens
@@ -37,7 +37,7 @@ struct PictureRequest {
     RenderSettings settings;         // settings; level thresholds, if set, replace the defaults
     std::string settingsKey;         // text that identifies the settings; when it changes, the image is restarted
     std::uint64_t poseVersion = 0;   // value of Document::poseVersion
-    std::vector<PictureSide> sides;  // what each side of the picture shows; one side, or two for a comparison
+    std::vector<PictureSide> sides;  // one element, or the left and the right side of a comparison
     DisplaySettings display;
     std::uint32_t maxSamples = 4096;
     std::optional<double> targetError;         // estimated error below which accumulation stops
@@ -54,8 +54,8 @@ public:
     // Adds samples to the image of a view at rest for about the budget's time, at least 60 ms if OpenGL runs on the
     // CPU. Call this before fetching the events of a frame, so that the frame reacts to events that arrive meanwhile.
     void grow(const FrameBudget& budget);
-    // Updates the picture to match the request. While the view changes, draws a frame in about the budget's time and
-    // adapts the budget's quality.
+    // Updates the picture to match the request. While the view changes, draws a frame in about the budget's time. Then
+    // chooses the quality of the next frame and stores it in `budget`.
     void update(const PictureRequest& request, FrameBudget& budget);
 
     [[nodiscard]] const GlTexture& texture() const { return display_.texture(); }
@@ -71,7 +71,8 @@ public:
     [[nodiscard]] bool refocused() const { return refocused_.has_value(); }
     // Returns the stored lens images; null before the view first comes to rest.
     [[nodiscard]] const KeptImages* keptImages() const { return images_ ? &*images_ : nullptr; }
-    // Returns whether the image of a view at rest (the left side of a comparison) has reached its target error.
+    // Returns whether the view is at rest and its image has reached the target error. In a comparison, only the image
+    // on the left side counts.
     [[nodiscard]] bool converged() const { return growing_ && first().converged(); }
     [[nodiscard]] std::optional<double> estimatedError() const {
         return growing_ && !refocused_ ? first().estimatedError() : std::nullopt;
@@ -85,10 +86,10 @@ public:
     [[nodiscard]] std::optional<double> psnr() const { return psnr_; }  // PSNR in dB between the two sides
     [[nodiscard]] std::uint32_t workSamples() const { return work_ ? work_->samples() : 0; }
     [[nodiscard]] std::uint32_t wave() const { return sides_.empty() ? 0 : first().stats().wave; }
-    // Returns the times of the latest frame: passes from timer queries, set-up by wall clock.
+    // Returns the times of the latest frame. The GPU passes are timed with timer queries, the set-up by wall clock.
     [[nodiscard]] const std::vector<PassTime>& passes() const { return passes_; }
     [[nodiscard]] std::uint64_t changes() const { return changes_; }  // number of changes of the view or the scene
-    [[nodiscard]] std::uint64_t begun() const { return begun_; }      // number of images begun so far for views at rest
+    [[nodiscard]] std::uint64_t begun() const { return begun_; }      // number of accumulated images begun so far
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -97,7 +98,7 @@ private:
         ProgressiveImage image;
     };
 
-    // Picture computed from stored lens images, shown instead of the image of sides_[0].
+    // Picture computed from stored lens images, shown instead of the image of the left side, sides_[0].
     struct Refocused {
         FramePlan plan;
         std::uint32_t images = 0;
@@ -105,7 +106,7 @@ private:
 
     [[nodiscard]] const ProgressiveImage& first() const { return sides_[0]->image; }
     [[nodiscard]] const GlTexture& firstTexture();
-    [[nodiscard]] std::uint32_t minSamples() const;                    // smallest sample count of the sides
+    [[nodiscard]] std::uint32_t minSamples() const;                    // min sample count of the compared images
     [[nodiscard]] double growthTime(const FrameBudget& budget) const;  // time in ms that one call of grow() may take
     bool prepareSides(const PictureRequest& request);
     void drawMoving(const PictureRequest& request, FrameBudget& budget);

@@ -16,9 +16,9 @@ struct FrameQuality {
     double thresholdBias = 1;    // multiplies the level-of-detail thresholds; > 1: coarser meshes
 };
 
-// Returns the qualities from the cheapest to the best. At less than half the resolution, or with level-of-detail
-// thresholds more than four times as large, outlines would look jagged and broken. The cheapest quality is a pinhole
-// image with sharp outlines.
+// Returns the qualities from the cheapest to the best. None has less than half the window's resolution or more than
+// four times the usual level-of-detail thresholds, because outlines would look jagged and broken. The cheapest quality
+// is a pinhole image with sharp outlines.
 inline std::span<const FrameQuality> frameQualities() {
     static constexpr FrameQuality qualities[] = {
         {0.5, 1, 4}, {0.5, 2, 4}, {0.5, 4, 4}, {0.5, 8, 4}, {0.5, 16, 4}, {1, 8, 4}, {1, 16, 2}, {1, 32, 1}, {1, 64, 1},

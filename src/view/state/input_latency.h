@@ -17,8 +17,8 @@ class InputLatency {
 public:
     using Time = std::chrono::steady_clock::time_point;
 
-    // Records the fetch of events that arrived after `since`. The effect of these events may appear some frames later;
-    // the measured time begins with the earliest events whose effect has not appeared yet.
+    // Records that events were fetched that arrived after `since`. The effect of these events may appear some frames
+    // later; the measured time begins with the earliest events whose effect has not appeared yet.
     void arrived(Time since) {
         if (!waiting_) waiting_ = since;
     }

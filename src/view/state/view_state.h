@@ -43,9 +43,9 @@ enum class Navigation { orbit, fly };
 // Image that is shown on the right side of the divider and compared with the current settings on the left.
 enum class Comparison {
     none,
-    fullDetail,  // image at full detail, with the lens samples of the left side
+    fullDetail,  // image at full detail, with the same lens samples as the image on the left
     nearest,     // image with one level per object (LodMode::nearest)
-    reference,   // image at full detail, with other lens samples than the left side
+    reference,   // image at full detail, with different lens samples from the image on the left
     method,      // image drawn with the method ViewState::comparedMethod
 };
 
@@ -191,9 +191,9 @@ void tiltFocus(ViewState& state);
 void frameSelection(const PreparedFrame& frame, ViewState& state);
 void frameScene(const PreparedFrame& frame, ViewState& state);
 
-inline constexpr double poppingDuration = 8;  // duration of the test for popping (visible switches of levels), s
-// Starts or stops the popping test: a focus pull from near to far and back, which shows fractional levels on the left
-// side and nearest levels on the right.
+inline constexpr double poppingDuration = 8;  // duration of the popping test, s
+// Starts or stops the popping test, which shows visible switches between levels of detail (popping). The test is a
+// focus pull from near to far and back, with fractional levels on the left side and nearest levels on the right.
 void togglePoppingTest(ViewState& state);
 
 // Advances the focus pull and the animation by `seconds`, and ends the popping test after poppingDuration.

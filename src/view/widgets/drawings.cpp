@@ -54,7 +54,8 @@ float stopPosition(double fStop) {
 // standard stop.
 void turnRing(double& fStop, float centre, float spacing) {
     ImGui::SetItemUsingMouseWheel();  // keep the panel from scrolling
-    static float rolled = 0;  // wheel notches not yet applied: touchpads send fractions, and slow frames get several
+    // Wheel notches not yet applied. A touchpad sends fractions of a notch; a slow frame receives several notches.
+    static float rolled = 0;
     rolled = ImGui::IsItemHovered() ? rolled + ImGui::GetIO().MouseWheel : 0;
     const int notches = static_cast<int>(rolled);
     if (notches != 0) fStop = steppedStop(fStop, -notches);

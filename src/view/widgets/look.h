@@ -11,7 +11,7 @@ namespace defocus::engine {
 // ImGuiCol_PlotHistogramHovered the warning colour.
 void setStyle(bool dark, double scale);
 
-// Returns the background colour of the window, in display values.
+// Returns the background colour of the window as display-encoded (sRGB) values.
 glm::vec3 windowColor(bool dark);
 
 // Adds the system's sans-serif font or, if there is none, ImGui's bitmap font. `scale`: px per interface unit.

@@ -22,7 +22,7 @@ struct Taken {
     bool button = false;
     bool editingKey = false;
     bool text = false;
-    std::optional<bool> control;  // whether Ctrl is down for the keys taken; nullopt: no key was taken
+    std::optional<bool> control;  // whether Ctrl is held with the pressed keys; nullopt: no key was pressed
     std::set<int> pressed;
 };
 

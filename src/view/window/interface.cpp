@@ -33,7 +33,8 @@ ViewInterface::ViewInterface(Window& window) : window_(&window) {
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
-    // Install no GLFW callbacks: they would pass events to ImGui before the frame that handles these events.
+    // Install no GLFW callbacks. They would pass events to ImGui at once, but the window may handle queued events only
+    // in a later frame.
     ImGui_ImplGlfw_InitForOpenGL(window.native(), false);
     ImGui_ImplOpenGL3_Init("#version 450");
 }

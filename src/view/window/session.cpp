@@ -132,11 +132,11 @@ void act(Session& session) {
     }
 }
 
-// Records whether the frame shows an effect of the waiting input events.
+// Ends the latency measurement of input events if the frame shows their effect, or drops it if they have none.
 void noteLatency(Session& session, bool pictureChanged) {
     if (pictureChanged)
         session.times.latency.shown(Clock::now());
-    else if (!session.state.pull)  // a focus pull shows its first step in the next frame
+    else if (!session.state.pull)  // a focus pull that the events have started shows its first step in the next frame
         session.times.latency.forget();
 }
 

@@ -79,7 +79,8 @@ ordered_json windowJson(const Session& session) {
     const InputLatency::Summary latency = session.times.latency.summary();
     return {
         {"fault", state.fault},
-        {"frames", session.framesDrawn},  // number of frames drawn; the state reflects all events up to two frames ago
+        // Number of frames drawn. The effect of an input event may appear in these values only two frames later.
+        {"frames", session.framesDrawn},
         {"typing", inputContext(session).typing},
         {"openPath", state.openPath},
         {"frameMilliseconds", session.times.frame},

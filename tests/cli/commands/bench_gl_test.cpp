@@ -84,10 +84,10 @@ TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
     expectRefused("has 12 frames of an earlier run; continue with --resume, or start over with --overwrite", {});
     expectRefused("has results of another scene", {"--focus-distance", "3"});
     expectRefused("has results of another scene", {"--resume", "--focus-distance", "3"});
-    // refused, although the seed does not change the reference image
+    // another seed is refused with --resume, although the seed does not change the reference image
     expectRefused("has results of another scene", {"--resume", "--seed", "7"});
 
-    // The folder contains a reference image but no measured runs, as after a bench that was killed before its first
+    // The folder contains a reference image but no measured runs, as after a program that was killed before its first
     // run.
     fs::remove(folder() / "out/runs.csv");
     const std::string reference = textOf(folder() / "out/reference.exr");
@@ -146,7 +146,7 @@ protected:
     }
 };
 
-// With --preset, the bench first measures the command with the preset, a published algorithm, and then without it.
+// With --preset, `bench speedup` first measures with the preset, a published algorithm, and then without it.
 // Further options override the preset; here they turn its levels of detail off.
 TEST_F(BenchSpeedup, measuresAPresetBesideNone) {
     const nlohmann::json plain = rows({});

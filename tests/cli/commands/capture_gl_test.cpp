@@ -67,7 +67,7 @@ TEST_F(Capture, levelsChangePixelByPixelByDefault) {
     EXPECT_EQ(lodWith({}), "off");
 }
 
-// A frame is bit-identical if it is rendered alone, in the sequence, in another shard (part of the frames), with a
+// A frame is bit-identical whether it is rendered in the sequence, alone, in a shard (part of the frames), with a
 // second output format, or with fewer samples drawn together (--wave).
 TEST_F(Capture, aFrameIsTheSameBitsHoweverItIsRendered) {
     ASSERT_EQ(capture({}).exitCode, 0);
@@ -343,7 +343,8 @@ TEST_F(Capture, filmsHaveTaggedColoursOfBt709) {
     const std::array<std::array<double, 3>, 3> colours = {{{0, 255, 0}, {255, 0, 0}, {20, 60, 200}}};
     const std::array<const char*, 3> films = {"film.mp4", "film.mkv", "film.webm"};
     for (std::size_t i = 0; i < films.size(); ++i) {
-        // Each video shows a uniform background of one colour, which PNG stores without loss.
+        // Each video shows a uniform background. Its colour has 8-bit values, so the PNG frames, from which the video
+        // is encoded, contain it exactly.
         std::string background;
         for (const double value : colours[i])
             background += (background.empty() ? "" : ",") + std::to_string(srgbDecode(static_cast<float>(value / 255)));

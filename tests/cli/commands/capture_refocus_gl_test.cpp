@@ -86,12 +86,13 @@ TEST_F(CaptureRefocus, smallAperturesHaveAsManySamples) {
         return std::get<int>(metadata.at("defocus:samples"));
     };
     EXPECT_EQ(samples(0), 256);
-    EXPECT_NEAR(samples(7), 64 * 0.827, 4);               // the hexagon has 82.7 % of the disk's area
-    document["lens"]["fStop"]["keys"][1]["value"] = 5.6;  // closing by four stops needs 16 · 64 lens images
+    EXPECT_NEAR(samples(7), 64 * 0.827, 4);  // the hexagon has 82.7 % of the disk's area
+    // Closing by four stops, to 1/16 of the area, needs 16 · 64 = 1024 lens images to give the last frame 64 samples.
+    document["lens"]["fStop"]["keys"][1]["value"] = 5.6;
     writeShot(document);
     const std::string plan = filmed("far", {"--refocus", "--dry-run"}).out;
-    // Several small sets of lens images (views from lens points), each for some frames, cost less than one set of 16 ·
-    // 64.
+    // Several small sets of lens images (views from lens points), each for some of the frames, have fewer images in all
+    // than one set of 1024 images for all frames.
     EXPECT_NE(plan.find("0000.exr (refocused)"), std::string::npos) << plan;
 }
 

@@ -68,7 +68,7 @@ TEST(Info, jsonOfARealFile) {
 }
 
 // `info` counts the faces that are repaired before simplification: here a duplicate triangle, a degenerate triangle,
-// and a third triangle at the diagonal of a square.
+// and a third triangle that shares an edge with two others (the diagonal of a square).
 TEST(Info, countsWhatIsRepairedBeforeSimplification) {
     GltfBuilder builder;
     builder.mesh({{{"attributes", {{"POSITION", builder.positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1})}}},

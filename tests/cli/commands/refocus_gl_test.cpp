@@ -27,7 +27,7 @@ protected:
         return run(words);
     }
 
-    // Expects that a command line is rejected in one line with `text`, and that it writes no file.
+    // Expects that a command line fails with a one-line error message that contains `text`, and that it writes no file.
     void expectRefused(const Words& line, const std::string& text, int exitCode = 1) const {
         const std::size_t files = fileCount();
         const Outcome outcome = run(line);

@@ -226,7 +226,8 @@ TEST_F(Render, matricesOfTheMetadataPlaceAPointWhereTheImageShowsIt) {
     Metadata metadata;
     readImage(folder() / "a.exr", metadata);
     const Image depth = readImage(folder() / "a.depth.exr");
-    const glm::vec4 inside = {-0.18f, 0.3f, -2, 1};  // points just inside and outside the left edge of the square Near
+    // Points just inside and just outside the left edge of the square named "Near".
+    const glm::vec4 inside = {-0.18f, 0.3f, -2, 1};
     const glm::vec4 outside = {-0.22f, 0.3f, -2, 1};
     const glm::vec4 camera = std::get<glm::mat4>(metadata.at("worldToCamera")) * inside;
     EXPECT_NEAR(camera.z, 2, 1e-5);
@@ -352,7 +353,7 @@ TEST_F(Render, workIsThatOfAllSamplesHoweverManyAreDrawnAtOnce) {
     }
     EXPECT_EQ(images[0].channels, 1);
     EXPECT_EQ(images[0].pixels, images[1].pixels);
-    EXPECT_EQ(*images[0].at(63, 21), 4);  // one triangle of the square Near, in each of four samples
+    EXPECT_EQ(*images[0].at(63, 21), 4);  // one triangle of the square "Near", in each of four samples
     EXPECT_EQ(*images[0].at(10, 80), 0);
 }
 

@@ -93,11 +93,13 @@ TEST_F(SceneOptionsTest, focusOnANode) {
 }
 
 TEST_F(SceneOptionsTest, focusOnAPixelTakesTheDepthAndNotTheDistance) {
-    // The centre of the quad Near is at row (1 − 0.3/(2·0.27))/2 · 768 = 170.7. The centre of the quad Far is at column
-    // (1 + 3/(8·0.36))/2 · 1024 = 1045, so that the left part of Far is in the image.
+    // The image has 1024 × 768 px; tan(θx/2) is 0.36 and tan(θy/2) 0.27. The centre of the quad "Near" is 0.3 m above
+    // the axis at a depth of 2 m, so it is at row (1 − 0.3/(2·0.27))/2 · 768 = 170.7. The centre of the quad "Far" is 3
+    // m to the right at a depth of 8 m, so it is at column (1 + 3/(8·0.36))/2 · 1024 = 1045. Only the left part of
+    // "Far" is in the image.
     EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "511,170"}), 2, 1e-6);
     EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "1000,384"}), 8, 1e-6);
-    // The upper edge of Near is at y = 0.5, row 28.4; its left edge is at x = −0.2, column 369.8.
+    // The upper edge of "Near" is at y = 0.5 m (row 28.4), its left edge at x = −0.2 m (column 369.8).
     EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "511,29"}), 2, 1e-6);
     EXPECT_EQ(run({"plan", "two quads ❤.gltf", "--focus-pixel", "511,27"}).exitCode, 1);
     EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "370,170"}), 2, 1e-6);
@@ -105,8 +107,9 @@ TEST_F(SceneOptionsTest, focusOnAPixelTakesTheDepthAndNotTheDistance) {
 }
 
 TEST_F(SceneOptionsTest, focusOnAPixelWithFocusBreathingHitsWhatThePictureShows) {
-    // Focus breathing scales tan(θx/2) by 1 − f/s, with the focal length f and the focus distance s. At 2 m, the left
-    // edge of the quad Near therefore moves outwards to column 512 − 142.2/(1 − 0.025) = 366.1.
+    // Focus breathing scales tan(θx/2) by 1 − f/s, with the focal length f = 50 mm and the focus distance s = 2 m.
+    // Without breathing, the left edge of the quad "Near" is 142.2 px left of the image's centre at column 512. With
+    // breathing, it is at column 512 − 142.2/(1 − 0.025) = 366.1.
     EXPECT_NEAR(lens("focusDistance", {"--focus-breathing", "--focus-pixel", "370,170"}), 2, 1e-6);
 }
 

@@ -128,7 +128,8 @@ TEST(ViewShot, ofAnyViewsIsReadBackAsThoseViews) {
         SCOPED_TRACE(seed);
         Dice dice(seed);
         Request options = randomOptions(dice);
-        options.environment.clear();  // no environment map, since its path would become absolute
+        // No environment map: the shot would contain its absolute path, which would differ from the path in `options`.
+        options.environment.clear();
         Lens cameraLens;
         changeFields(cameraLens, dice);
         std::vector<ShotKey> keys(static_cast<std::size_t>(dice.integer(1, 3)));

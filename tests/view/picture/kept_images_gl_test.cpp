@@ -1,5 +1,6 @@
-// Tests images that the window refocuses from the lens images (views from lens points) that it keeps: against refocused
-// images of the library, and against renders with the new focus distance.
+// Tests refocusing in the window, which keeps lens images (views from lens points) and computes images with another
+// focus distance from them. Compares the results with images refocused by src/refocus, and with renders at the new
+// focus distance.
 
 #include <gtest/gtest.h>
 
@@ -130,7 +131,7 @@ TEST_F(KeptImagesOfAView, serveSmallerAperturesAndFocusDistancesInTheirRange) {
     EXPECT_EQ(serving(range.farthest * 1.01, 0.95), 0u);
     EXPECT_NEAR(serving(2, 0.95 * std::sqrt(2)), 32, 3);
     EXPECT_EQ(serving(2, 0.9), 0u);
-    EXPECT_EQ(serving(2, 4), 0u);  // only about 4 lens points lie in the aperture: too few
+    EXPECT_EQ(serving(2, 4), 0u);  // only about 4 of 64 lens points lie in the aperture; at least 16 must
 }
 
 // Fixture whose window shows an image that no longer changes: all its lens images (views from lens points) are drawn.

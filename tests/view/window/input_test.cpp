@@ -46,8 +46,8 @@ TEST_F(ViewInputKeys, flyWhileTheyAreHeld) {
     EXPECT_EQ(flown(), 0);
 }
 
-// Keys of a keyboard shortcut do not move the camera, in any order of release. Otherwise an exported image could differ
-// from the view by some millimetres, depending on when a frame reads the keyboard.
+// Keys of a keyboard shortcut do not move the camera, even if Ctrl is released before the other key. Otherwise the
+// camera could move by some millimetres before an image is exported, depending on when a frame reads the keyboard.
 TEST_F(ViewInputKeys, commandsDontFlyWhicheverKeyIsLetGoFirst) {
     key(key::leftControl, true);
     key('E', true, true);
