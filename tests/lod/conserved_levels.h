@@ -1,5 +1,6 @@
 #pragma once
-// Expects coarse levels of a mesh to differ from level 0 by at most given limits under a wide blur.
+// Expects coarse levels of a mesh to preserve the mean colour, the reflected radiance and the silhouette area of level
+// 0 within given limits. A wide blur does not hide changes of these properties.
 
 #include <gtest/gtest.h>
 

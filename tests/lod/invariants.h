@@ -15,8 +15,8 @@
 
 namespace defocus::engine {
 
-// Expects each cluster's bounds (sphere, normal cone, altitude) to hold for its triangles. The clusters must cover the
-// index ranges of the primitives without gaps or overlaps.
+// Expects each cluster's bounds (bounding sphere, normal cone, smallest triangle altitude) to hold for its triangles.
+// The clusters must cover the index ranges of the primitives without gaps or overlaps.
 inline void expectClustersHold(const Pyramid& pyramid) {
     for (const PyramidLevel& level : pyramid.levels) {
         auto cluster = level.clusters.begin();
@@ -47,9 +47,9 @@ inline void expectClustersHold(const Pyramid& pyramid) {
 }
 
 // Expects the selected real-valued level λ to increase without jumps, from 0 to the coarsest level, as the target (an
-// edge length or an error in px) increases. From one level to the next, edges grow by at least 5 % and errors by at
-// least 25 %, which bounds the slope of λ over log(target). Between two levels, the slope for errors is largest at the
-// coarser level.
+// edge length or an error in px) increases. In every pyramid, edges grow by at least 5 % and errors by at least 25 %
+// from one level to the next. This growth bounds the slope of λ over log(target). Between two levels, the slope for
+// errors is largest at the coarser level.
 inline void expectContinuousLevels(const Pyramid& pyramid) {
     if (pyramid.levels.size() < 2) return;
     constexpr double step = 1.0005;
@@ -119,7 +119,7 @@ inline void expectPyramidInvariants(const Mesh& mesh, const Pyramid& pyramid) {
 }
 
 // Expects the connected part with the largest area to keep its shape in every level in which another part has more
-// triangles.
+// triangles than this part.
 inline void expectMainPartLasts(const Mesh& mesh, const Pyramid& pyramid) {
     const std::vector<std::uint32_t> parts = partsByPosition(mesh);
     const auto partIndices = [&](std::size_t level) {

@@ -133,7 +133,8 @@ private:
     }
 
     LargeVector<Even> even_;
-    LargeVector<std::uint32_t> changesOf_;  // per wedge, index into changes_; `none`: no dependence on position
+    // Index of each wedge in changes_, or `none` if the wedge's quadric does not depend on position.
+    LargeVector<std::uint32_t> changesOf_;
     LargeVector<Changes> changes_;
 };
 

@@ -16,7 +16,8 @@ namespace defocus::engine {
 namespace {
 
 constexpr double minTurnCosine = 0.2588;  // cosine of 75°, the max rotation of a face's normal
-constexpr double sliverQuality = 0.02;    // twice the area / sum of squared edges; 0.29 for an equilateral triangle
+// Max quality of a sliver: twice its area / sum of its squared edge lengths. An equilateral triangle has 0.29.
+constexpr double sliverQuality = 0.02;
 
 // Returns the class (good, poor or bad) of a collapse that moves corner a of the face with corners a, b and c to
 // `target`.
@@ -31,8 +32,8 @@ Fit judgeMovedFace(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     const auto edges = [&](const glm::dvec3& p) {
         return glm::dot(b - p, b - p) + glm::dot(c - p, c - p) + glm::dot(c - b, c - b);
     };
-    // The quality of a triangle is its area divided by the sum of squared edges. Compare squares of qualities to avoid
-    // square roots.
+    // The quality of a triangle is twice its area divided by the sum of its squared edge lengths. Compare squares of
+    // qualities to avoid square roots.
     const double edgesAfter = edges(target);
     if (!(squareAfter < sliverQuality * sliverQuality * edgesAfter * edgesAfter)) return Fit::good;
     const double edgesBefore = edges(a);
@@ -101,12 +102,14 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
     const WedgeTable& wedges = sides.mesh.wedges;
     const auto inPrimitive = [&](FaceHandle face, WedgeNumber) { return sides.mesh.primitive(face) == primitive; };
 
-    // The surviving vertex's wedge (attributes) in a face beside the collapsing edge. No seam separates this face from
-    // the corner with the wedge `wedge`.
+    // Wedge (attributes) of the surviving vertex in one of the two faces at the collapsing edge. In this face, the
+    // wedge of the removed vertex differs from `wedge` at most in its normal, so no seam separates them.
     WedgeNumber across;
-    WedgeNumber exact;     // like `across`, but no crease separates the face from the corner either
-    bool torn = false;     // a seam crosses the collapsing edge at the surviving vertex
-    bool creased = false;  // a crease crosses the collapsing edge at the surviving vertex
+    // Like `across`, but the removed vertex has exactly the wedge `wedge` in the face, so no crease separates them
+    // either.
+    WedgeNumber exact;
+    bool torn = false;     // at the surviving vertex, a seam separates the two faces
+    bool creased = false;  // at the surviving vertex, a crease separates the two faces
     for (const EdgeSide& side : sides.both) {
         if (!side.face.is_valid() || sides.mesh.primitive(side.face) != primitive) continue;
         if (!wedges.sameChart(side.from, wedge)) continue;
@@ -124,8 +127,10 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
         return {nearestWedge(sides, wedge, inChart), Fit::good};
     }
 
-    // A seam ends at the surviving vertex or starts at the removed vertex. Use the most similar wedge. The collapse is
-    // poor if this wedge is far from the corner's wedge in texture space.
+    // Here, a seam ends at the surviving vertex, or seams and material borders separate the corner from both faces at
+    // the collapsing edge. Use the most similar wedge of the same primitive. The collapse is poor if this wedge is far
+    // from the corner's wedge in texture space. If a seam ends, the collapse is also poor if the surviving vertex's
+    // wedge in either face is far away.
     const WedgeNumber nearest = nearestWedge(sides, wedge, inPrimitive);
     if (nearest.isValid()) {
         bool leaves = sides.jumps(wedge, nearest);

@@ -52,8 +52,8 @@ public:
     // Assigns each corner of the removed vertex its new wedge, and adds the quadrics of the old wedges to the quadrics
     // of the new wedges.
     void preprocess_collapse(const CollapseInfo& collapse) override;
-    // Copies a wedge to another half-edge after the collapse, because OpenMesh replaces a half-edge beside the removed
-    // face by a half-edge of that face.
+    // Copies wedges after the collapse. Where OpenMesh removes a face, one half-edge of this face takes the place of
+    // the neighbouring face's half-edge. It gets the wedge of the half-edge that it replaces.
     void postprocess_collapse(const CollapseInfo& collapse) override;
 
     // Selects a wedge of the surviving vertex for each remaining corner of the removed vertex, and returns the class of

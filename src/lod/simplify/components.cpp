@@ -1,7 +1,8 @@
-// Removes small components of a mesh that collapses cannot simplify further. A component shares no vertex position with
-// the rest, like a stone in a heap or a leaf on a tree. Collapses reduce it at best to a tetrahedron or a triangle.
-// Then complete components are removed, the smallest first. Their neighbours grow to preserve the visible area (Cook,
-// Halstead, Planck and Ryu 2007, Stochastic Simplification of Aggregate Detail).
+// Removes small components of a mesh that edge collapses cannot simplify further. A component shares no vertex position
+// with the rest, like a stone in a heap or a leaf on a tree. Edge collapses reduce a component at best to a tetrahedron
+// or a triangle. If a level still has too many faces, complete components are removed, the smallest first. Their
+// neighbours grow to preserve the visible area (Cook, Halstead, Planck and Ryu 2007, Stochastic Simplification of
+// Aggregate Detail).
 
 #include <algorithm>
 #include <array>
@@ -20,9 +21,10 @@ namespace defocus::engine {
 namespace {
 
 constexpr double largestRatio = 1.2;  // max size ratio among components that are removed in random order
-// Max size of the neighbour that grows to replace a removed component, relative to that component.
+// Max size of the neighbour that grows to replace a removed component, relative to the removed component.
 constexpr double maxEnlargement = 4;
-constexpr double manyShare = 0.25;        // manyAreSmallest() is true above this fraction of the faces
+// manyAreSmallest() returns true if more than this fraction of the faces are in tetrahedra or isolated triangles.
+constexpr double manyShare = 0.25;
 constexpr std::uint32_t fewestFaces = 4;  // min number of faces of a closed component: a tetrahedron
 
 // Disjoint sets of vertices (union-find).
@@ -108,7 +110,7 @@ void measureComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& trian
     for (const Component& component : s.components) s.area += component.area;
 }
 
-// For each component, counts the remaining faces and the vertices with a good or poor collapse.
+// For each component, counts the remaining faces and the vertices whose planned collapse is good or poor (simplify.h).
 void countComponents(Simplifier& s) {
     const SurfaceMesh& mesh = *s.mesh;
     forEachFace(mesh, [&](FaceHandle face) { ++s.componentAt(firstVertexOf(mesh, face)).faces; });
@@ -329,9 +331,9 @@ void removeComponents(Simplifier& s, std::size_t target) {
     std::vector<Removable> rest = removableComponents(s);
     const CentreTree tree(s.components);
 
-    // Remove components of similar size together, the smallest first. A component that has grown in place of another
-    // component is kept until all components of similar size have been considered. Removals are therefore spread
-    // evenly.
+    // Remove components of similar size together, the smallest first. When a component is removed, a neighbour grows to
+    // replace it. This neighbour is not removed until all other components of similar size have been considered, so
+    // that removals are spread evenly.
     for (std::size_t begin = 0; begin < rest.size() && s.liveFaces > target;) {
         std::size_t end = begin;
         while (end < rest.size() && rest[end].size == rest[begin].size) ++end;

@@ -14,8 +14,8 @@ namespace defocus::engine {
 
 inline constexpr int wordBits = 64;  // grid cells per 64-bit word of the bit mask
 
-// Coverage of a surface on a square grid perpendicular to a direction. Coordinates are in cells; coverage is tested at
-// cell centres.
+// Coverage of a surface on a square grid perpendicular to a direction. Coordinates are in units of cells; coverage is
+// tested at cell centres.
 class CoverGrid {
 public:
     // Creates an empty grid of `resolution`² cells over a bounding sphere of `box`. `resolution` is a multiple of 64.
@@ -31,7 +31,8 @@ public:
     [[nodiscard]] CoverGrid emptied() const;
 
     [[nodiscard]] glm::dvec2 cellsOf(const glm::vec3& position) const;
-    // Returns whether the cell at the position `cells` (in cells) is covered; false outside the grid.
+    // Returns whether the grid cell that contains the point `cells` (in units of cells) is covered; false outside the
+    // grid.
     [[nodiscard]] bool covers(const glm::dvec2& cells) const {
         if (!(cells.x >= 0 && cells.y >= 0 && cells.x < resolution_ && cells.y < resolution_)) return false;
         const auto column = static_cast<std::size_t>(cells.x);
@@ -62,8 +63,8 @@ class EdgeFill {
 public:
     explicit EdgeFill(int resolution);
 
-    // Adds an edge between two positions in cells. `triangles` is the number of triangles to the left of the edge,
-    // looking from `from` to `to`, minus the number of triangles to its right.
+    // Adds an edge between two positions, given in units of cells. `triangles` is the number of triangles to the left
+    // of the edge, looking from `from` to `to`, minus the number of triangles to its right.
     void add(const glm::dvec2& from, const glm::dvec2& to, int triangles);
     // Marks the covered cells in `grid`, removes all edges, and returns the number of covered cells.
     std::size_t fill(CoverGrid& grid);

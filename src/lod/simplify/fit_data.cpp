@@ -101,8 +101,8 @@ Numbered<MeshVertexNumber, float> vertexAreas(const std::vector<glm::vec3>& posi
 // Min fraction of the area around a vertex that counts in a fit, even if the vertex normal is perpendicular to the
 // normal of the level's triangle.
 constexpr float minForeshortening = 0.02f;
-// Two vertices with a common anchor (point on the level) are on different sides of a sharp edge if their normals differ
-// by more than 60°.
+// Two vertices that share an anchor (a point on the level's surface) are on different sides of a sharp edge if their
+// normals differ by more than 60°.
 constexpr float minSharedCosine = 0.5f;
 
 }  // namespace

@@ -1,7 +1,8 @@
 #pragma once
-// Computes the data that the fits of a level's attributes share. An anchor (level_fit.h) is the point of the level that
-// represents vertices of level 0; the data include its area and normal. The least-squares equations have one unknown
-// per group of vertices with a common value. Private to level_fit.cpp and texture_fit.cpp.
+// Computes the data that the fits of a level's attributes share. An anchor (level_fit.h) is the point on the level's
+// surface that represents vertices of level 0. The data include the area and the mean normal of the represented
+// vertices. The least-squares equations have one unknown per group of vertices with a common value. Private to
+// level_fit.cpp and texture_fit.cpp.
 
 #include <array>
 #include <cstddef>
@@ -30,11 +31,11 @@ struct Anchored {
     glm::vec3 normal{0};  // area-weighted mean of the vertices' normals
 };
 
-// Areas, normals and colours that the anchor of each mesh vertex represents; undefined for vertices that use the anchor
-// of another vertex.
+// For each mesh vertex, the area, normal and colour of all vertices that its anchor represents. Undefined for vertices
+// that share the anchor of another vertex.
 struct AnchoredValues {
     Numbered<MeshVertexNumber, Anchored> values;
-    Numbered<MeshVertexNumber, glm::vec4> colors;  // area-weighted mean colours; empty without colours
+    Numbered<MeshVertexNumber, glm::vec4> colors;  // area-weighted mean colours; empty if the mesh has none
 };
 
 AnchoredValues anchoredValues(const FitSource& source, const Numbered<MeshVertexNumber, Anchor>& anchors);
@@ -43,15 +44,16 @@ AnchoredValues anchoredValues(const FitSource& source, const Numbered<MeshVertex
 // The normal of a triangle without area is zero.
 Numbered<TriangleNumber, glm::vec3> unitNormals(const std::vector<glm::vec3>& positions, const LevelMesh& level);
 
-// Returns the effective area of an anchor (a point on the level): the projection of `area` onto the anchor's triangle,
-// but at least 2 % of `area`. `normal` is the normal of the surface with this area; `face` is the unit normal of the
-// triangle. Returns the full area if the anchor lies at a corner or the triangle has no area.
+// Returns the weight of an anchor (a point on the level's surface) in the fit: the projection of `area`, the area that
+// the anchor represents, onto the anchor's triangle. The result is at least 2 % of `area`. `normal` is the normal of
+// the represented surface; `face` is the unit normal of the triangle. Returns `area` itself if the triangle has no area
+// or the anchor is at a corner, which belongs to several triangles.
 float foreshortened(float area, const Anchor& anchor, const glm::vec3& face, const glm::vec3& normal);
 
-// Groups of the level's vertices; the vertices in one group share one value.
+// Groups of the level's vertices. The vertices in one group share one value, which is one unknown of the equations.
 struct Grouping {
     Numbered<LevelVertexNumber, UnknownNumber> of;
-    Numbered<UnknownNumber, MeshVertexNumber> sources;  // mesh vertex that provides each group's initial value
+    Numbered<UnknownNumber, MeshVertexNumber> sources;  // for each unknown, the mesh vertex with its initial value
     [[nodiscard]] std::size_t count() const { return sources.size(); }
 
     // Returns, for each group, the sum of value(vertex) over its vertices, starting from `zero`.
@@ -70,9 +72,9 @@ private:
     }
 };
 
-// Groups the level's vertices by leaderOf(mesh vertex), the vertex that represents a group. `count` is the number of
-// mesh vertices. With `sidesApart`, vertices on the back of a thin plate, such as a fin, form separate groups
-// (LevelMesh::apart).
+// Groups the level's vertices. leaderOf(v) returns the mesh vertex that represents the group of mesh vertex v, so
+// vertices with the same leader form a group. `count` is the number of mesh vertices. With `sidesApart`, vertices on
+// the back of a thin plate, such as a fin, form separate groups (LevelMesh::apart).
 template <typename LeaderOf>
 Grouping grouped(const LevelMesh& level, std::size_t count, const LeaderOf& leaderOf, bool sidesApart) {
     Numbered<MeshVertexNumber, UnknownNumber> numbers(count);

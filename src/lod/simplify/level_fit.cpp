@@ -19,16 +19,16 @@ namespace {
 // direction.
 constexpr float minAgreement = 0.125f;
 
-// Right-hand sides and weights of the least-squares fits. An anchor is the point on the level that represents a vertex
-// of level 0. For each level vertex, the arrays hold sums over the anchors on its triangles: share · weight in
-// `weights`, share · weight · value in `gaps`, `normals` and `colors`. share is the anchor's weight, and weight the
-// barycentric weight of the level vertex (least_squares.h).
+// Weights and right-hand sides of the least-squares fits. An anchor is the point on the level that represents a vertex
+// of level 0. An anchor counts for each corner of its triangle with a weight: the anchor's own weight times the
+// corner's barycentric weight at the anchor. For each level vertex, `weights` is the sum of these weights. `gaps`,
+// `normals` and `colors` are weighted sums of the anchors' offsets, normals and colours (least_squares.h).
 struct AnchorSums {
     using Three = std::array<double, 3>;
     Numbered<LevelVertexNumber, double> weights;
-    Numbered<LevelVertexNumber, Three> gaps;  // weighted offsets from anchors to vertices of level 0
+    Numbered<LevelVertexNumber, Three> gaps;  // weighted offsets from the anchors to vertices of level 0
     Numbered<LevelVertexNumber, Three> normals;
-    Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // weighted RGBA; empty without colours
+    Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // weighted RGBA; empty if the mesh has no colours
     Numbered<TriangleNumber, TriangleSums> triangles;
 
     template <std::size_t channels>
@@ -159,7 +159,7 @@ Numbered<UnknownNumber, float> agreements(const FitSource& source, const LevelMe
     return result;
 }
 
-// Fits normals as vectors, so that they are shorter than 1 where the normals of level 0 diverge. Clears
+// Fits normals without normalizing them, so that they are shorter than 1 where the normals of level 0 diverge. Clears
 // AnchorSums::normals of `sums` to free memory.
 LeastSquares::Rows meanNormals(const FitSource& source, const LevelMesh& level, const Grouping& groups,
                                AnchorSums& sums) {

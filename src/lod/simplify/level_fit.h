@@ -25,7 +25,7 @@ struct FitSource {
     const Vertices& vertices;
     const WeldedPositions& positions;
     const VertexGroups& smoothing;  // vertices in one group share a normal
-    VertexGroups shades;            // vertices in one group share a colour; empty without colours
+    VertexGroups shades;            // vertices in one group share a colour; empty if the mesh has none
     // Vertices in one group share texture coordinates; empty without texture coordinates.
     VertexGroups charts;
     // 1: the vertex is on a texture seam, since another vertex at its position has different texture coordinates; else
@@ -45,24 +45,25 @@ FitSource prepareFit(const Vertices& vertices, const WeldedPositions& positions,
                      const TriangleSet<MeshVertexNumber>& triangles);
 
 // Point on a coarser level that represents a vertex of level 0: a triangle and barycentric coordinates. If all weights
-// are 0, the vertex has no point of its own.
+// are 0, the vertex has no anchor of its own. `triangle` then holds the number of the vertex whose anchor it shares, or
+// is invalid.
 struct Anchor {
     TriangleNumber triangle;
     float weight[3] = {0, 0, 0};
 
-    // Returns the anchor of a vertex that has no point of its own. The vertex's area, colour and normal are added to
-    // those of the anchor of vertex `near`.
+    // Returns the anchor of a vertex that shares the anchor of vertex `near`. The vertex's area, colour and normal are
+    // added to those of `near`.
     static Anchor sharedWith(MeshVertexNumber near) { return {{near.value}}; }
     [[nodiscard]] bool isUnused() const { return weight[0] == 0 && weight[1] == 0 && weight[2] == 0; }
-    // Returns the vertex whose anchor this vertex shares; invalid if it shares none.
+    // Returns the vertex whose anchor (the point that represents it) this vertex shares; invalid if it shares none.
     [[nodiscard]] MeshVertexNumber shared() const {
         return isUnused() ? MeshVertexNumber{triangle.value} : MeshVertexNumber{};
     }
 };
 
-// Growth of a component (connected part of the mesh) that replaces removed components. After fitting, the component is
-// scaled about `centre` until it has `area`, the sum of its original area and the areas of the removed components. The
-// scale is in [1, `maxFactor`].
+// Enlargement of a component (connected part of the mesh) after fitting. It replaces removed components, or area that
+// the component has lost itself. The component is scaled about `centre` until it has `area`, the sum of its original
+// area and the areas of the components that it replaces. The scale is in [1, `maxFactor`].
 struct Growth {
     glm::dvec3 centre{0};  // centre of the scaling, object units
     double area = 0;       // area after scaling, object units squared
@@ -71,14 +72,15 @@ struct Growth {
 
 struct LevelMesh {
     TriangleSet<LevelVertexNumber> triangles;
-    // Mesh vertex with the original attributes of each level vertex. If the level vertex is a duplicate, made for the
-    // back of a thin plate, this is the mesh vertex that was duplicated.
+    // For each level vertex, the mesh vertex with its original attributes. If the level vertex is a duplicate, made for
+    // the back of a thin plate, this is the mesh vertex that was duplicated.
     Numbered<LevelVertexNumber, MeshVertexNumber> sources;
     // 1: the vertex is on the back of a thin plate, such as a fin, and the other vertices at its position are on the
     // front; else 0. A back vertex shares its normal and colour only with other back vertices.
     Numbered<LevelVertexNumber, std::uint8_t> apart;
     Numbered<ComponentNumber, Growth> growths;
-    Numbered<LevelVertexNumber, ComponentNumber> growthsOf;  // component of each vertex; empty if no component grows
+    // component (connected part) of each vertex; empty if none is enlarged (Growth)
+    Numbered<LevelVertexNumber, ComponentNumber> growthsOf;
 };
 
 // Fitted attributes of all vertices of a LevelMesh.
@@ -89,11 +91,12 @@ struct LevelFit {
     Numbered<LevelVertexNumber, glm::vec2> uv0, uv1;  // empty without texture coordinates
 };
 
-// Fits the attributes of a level to level 0. Each mesh vertex is weighted by its area, projected onto the triangle that
-// contains its anchor (point on the level). Level vertices without any anchor on their triangles keep their original
-// values. No triangle rotates by more than 60°, and all triangles stay inside level 0's bounding box. Vertices at the
-// same position stay together. To prevent gaps and visible seams, vertices whose normals agree within one degree share
-// a normal; if their colours are equal, they also share a colour.
+// Fits the attributes of a level to level 0. Each mesh vertex is weighted by the area of the triangles around it. This
+// area is projected onto the level's triangle that contains the vertex's anchor, the point that represents the vertex
+// on the level. Level vertices without any anchor on their triangles keep their original values. No triangle rotates by
+// more than 60°, and all triangles stay inside level 0's bounding box. Vertices at the same position stay together. To
+// prevent gaps and visible seams, vertices whose normals agree within one degree share a normal; if their colours are
+// equal, they also share a colour.
 LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<MeshVertexNumber, Anchor> anchors);
 
 // Corrects a fitted level so that it preserves the properties of level 0 that remain visible after a wide blur:

@@ -123,7 +123,9 @@ struct GroupSlopes {
 // Returns the derivatives of meanCosine() under each light with respect to the point's normal. The derivative in the
 // direction of the normal is 0. `values` receives the values of meanCosine().
 GroupSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& values) {
-    constexpr float minRoot = 0.02f;  // min divisor; limits derivatives at grazing incidence if normals hardly diverge
+    // Lower bound of the divisor `root` in the derivatives. `root` approaches 0 at grazing incidence if the normals
+    // that the point stands for hardly diverge.
+    constexpr float minRoot = 0.02f;
     const glm::vec3& n = point.normal;
     const float half = 0.5f * point.agreement;
     const float spread = normalSpread(point.agreement);
@@ -155,7 +157,8 @@ struct FollowingMeans {
     LargeVector<GroupSlopes> slopes;
 };
 
-// Computes the mean radiance of the surface under each light and its derivatives. Reuses the memory of `result`.
+// Computes the mean radiance of the surface under each light, and the derivatives of this mean with respect to the
+// normals of the vertex groups. Reuses the memory of `result`.
 void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, std::size_t minPoints,
             FollowingMeans& result) {
     const Lights from = lights();
@@ -183,8 +186,9 @@ void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, st
 }
 
 // Returns the smallest change in the vertex groups' normals that changes the mean radiance under each light by
-// approximately `wanted`. `damping` is relative to the mean diagonal of the equations; a larger value gives a smaller
-// change. Damping is needed because only about nine of the 26 lights are independent.
+// approximately `wanted`. `damping` is relative to the mean diagonal element of the equations' matrix; a larger value
+// gives a smaller change. Damping is needed because the mean radiances under the 26 lights depend on each other: only
+// about nine are independent.
 std::vector<glm::vec3> smallestChange(const FollowingMeans& at, const LightMeans& wanted, double damping) {
     const Lights from = lights();
     std::vector<double> matrix(lightCount * lightCount, 0);
@@ -269,7 +273,8 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
     constexpr int maxRounds = 8;
     constexpr double enough = 5e-4;
     // Rotating normals changes the shading at each point, and this change remains visible under a narrow blur. The RMS
-    // change in the normals is therefore limited to this multiple of the improvement of the mean radiance.
+    // change in the normals is therefore limited to this multiple of the reduction of the mean radiance's error (the
+    // max over the lights).
     constexpr double maxTurn = 16;
     const std::vector<glm::vec3> original(normals.begin(), normals.end());
     std::vector<glm::vec3> best = original;

@@ -57,10 +57,11 @@ inline constexpr std::size_t pointsOfLight = 12'000;
 
 // Rotates the normals of a coarse surface until the mean radiance under each light is within 5e-4 of `target`. Uses a
 // few rounds of the Levenberg–Marquardt method (Levenberg 1944, Marquardt 1963), which may end before this accuracy is
-// reached. Of all rotations with this effect, the one with the smallest RMS change over the area is used. Rotated
-// normals are visible at each point under a narrow blur. The RMS change is therefore at most 16 times the improvement
-// of the mean radiance. Lengths of normals are preserved, so that roughness does not change. Vertices with equal values
-// in `groups` (below positions.size()) share a normal before and after.
+// reached. Of all rotations with this effect, the one with the smallest RMS change over the area is used. Under a
+// narrow blur, the rotation changes the shading visibly at each point. The RMS change is therefore limited to 16 times
+// the reduction of the mean radiance's error. Lengths of normals are preserved, so that roughness does not change.
+// Vertices with equal values in `groups` share a normal, on entry and on return. These values are below
+// positions.size().
 void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> colors,
               std::span<const std::uint32_t> indices, std::span<const std::uint32_t> groups, const LightMeans& target,
               std::span<glm::vec3> normals);

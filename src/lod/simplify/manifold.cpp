@@ -60,7 +60,7 @@ Numbered<SurfaceFaceNumber, TriangleNumber> properFaces(const TriangleSet<Positi
     // Sort key of a face. Only faces with the same smallest position number are compared, because equal faces share
     // this number.
     struct Key {
-        PositionNumber next, previous;  // the other two corners of the face, in winding order
+        PositionNumber next, previous;  // corners after and before the lowest-numbered corner, in winding order
         PrimitiveNumber primitive;
         TriangleNumber triangle;
 
@@ -104,12 +104,14 @@ EdgeGroups groupEdges(const PairedSurface& surface) {
     const auto low = [&](SurfaceCorner e) { return std::min(surface.start(e), surface.end(e)); };
     const auto high = [&](SurfaceCorner e) { return std::max(surface.start(e), surface.end(e)); };
 
-    // Group half-edges by the lower position, then sort the few half-edges of each group by the higher position.
+    // Group half-edges by the smaller of their two position numbers, then sort the few half-edges of each group by the
+    // larger number.
     Buckets<PositionNumber, SurfaceCorner> byLow(surface.points.size(), edgeCount, low);
     EdgeGroups groups;
     groups.starts.reserve(edgeCount / 2 + edgeCount / 16);
     std::uint32_t seen = 0;
-    std::vector<std::pair<PositionNumber, SurfaceCorner>> keys;  // pairs of higher position number and half-edge
+    // for each half-edge, the larger of its two position numbers, and the half-edge itself
+    std::vector<std::pair<PositionNumber, SurfaceCorner>> keys;
     for (const PositionNumber p : byLow.keys()) {
         keys.clear();
         const std::span<SurfaceCorner> edges = byLow[p];
@@ -177,7 +179,7 @@ glm::dvec3 faceNormal(const PairedSurface& surface, SurfaceFaceNumber face) {
 }
 
 // Pairs the half-edges at one edge. Criteria in this order: same primitive, smallest angle between the face normals,
-// input order. A face and its reverse are paired only if no other face continues either of them.
+// input order. A face and its reverse are paired only if no other face at the edge remains for either of them.
 void pairEdges(PairedSurface& surface, std::span<const SurfaceCorner> edges) {
     struct Candidate {
         double score;

@@ -38,8 +38,8 @@ struct Manifold {
     Repairs repairs;
 };
 
-// Returns the triangles with numbers of welded positions as corners. `points` are the coordinates of these positions. A
-// triangle with a NaN or infinite corner becomes degenerate.
+// Returns the triangles, with indices of welded positions at their corners. `points` are the coordinates of the welded
+// positions. A triangle with a NaN or infinite corner becomes degenerate.
 TriangleSet<PositionNumber> weldedTriangles(const TriangleSet<MeshVertexNumber>& triangles,
                                             const WeldedPositions& positions,
                                             const Numbered<PositionNumber, glm::dvec3>& points);

@@ -1,6 +1,6 @@
 #pragma once
 // Defines strongly typed indices, and arrays that accept only one type of index. Vertices, half-edges and faces of the
-// collapsing surface use OpenMesh's handles (surface_mesh.h), which also work as index types.
+// surface being simplified use OpenMesh's handles (surface_mesh.h), which also work as index types.
 
 #include <compare>
 #include <concepts>
@@ -29,8 +29,8 @@ struct Number {
 };
 
 using FileVertexNumber = Number<struct FileVertexKind>;  // index into Mesh::vertices
-// Index of a vertex of the mesh to simplify; equal file vertices share one number. Copies of vertices
-// (Simplification::twins) have the numbers after the mesh's own vertices.
+// Index of a vertex of the mesh to simplify; equal vertices of the file share one index. Copies of vertices
+// (Simplification::twins) have the indices after the mesh's own vertices.
 using MeshVertexNumber = Number<struct MeshVertexKind>;
 using PositionNumber = Number<struct PositionKind>;            // a position, which several vertices may share
 using SurfaceVertexNumber = Number<struct SurfaceVertexKind>;  // vertex of the manifold before any collapse
@@ -75,7 +75,7 @@ constexpr std::size_t indexOf(Key item) {
     if constexpr (requires { item.value; })
         return item.value;
     else if constexpr (std::unsigned_integral<Key>)
-        return item;  // a plain index is itself the array index
+        return item;  // an integer key is itself the array index
     else
         return static_cast<std::size_t>(item.idx());
 }
@@ -132,7 +132,8 @@ public:
 template <typename Key, typename Item>
 class Buckets {
 public:
-    // Groups the items 0 … itemCount − 1 by keyOf(item) < keyCount. Items with an invalid key are left out.
+    // Groups the items 0 … itemCount − 1 by their keys keyOf(item), which are below keyCount. Items whose key is
+    // invalid (Number::none or an invalid handle) are left out.
     template <typename KeyOf>
     Buckets(std::size_t keyCount, std::size_t itemCount, const KeyOf& keyOf) : first_(keyCount + 1, 0) {
         const auto items = numbersBelow<Item>(itemCount);

@@ -22,24 +22,25 @@ constexpr int maxResolution = 512;
 constexpr double cellsPerEdge = 16;  // approximate number of grid cells per triangle edge, for evenly sized triangles
 
 constexpr double maxUnseen = 5e-3;   // max relative area difference that is not corrected
-constexpr int localRounds = 2;       // number of rounds that move each outline edge towards level 0's outline
-constexpr int maxGlobalRounds = 12;  // max number of rounds that match the covered area in each direction
-// Relative difference between the covered areas of the level and of level 0 at which the fit ends. Levels with many
-// triangles use the larger value, because they are slow to fit and mostly cover enough area.
+constexpr int localRounds = 2;       // number of followLocally() rounds, which move each edge to level 0's outline
+constexpr int maxGlobalRounds = 12;  // max number of matchAreas() rounds, which match covered areas to level 0's
+// Max relative difference between the covered areas of the level and of level 0 at which the fit ends. `passable` is
+// for levels with more than `fewTriangles` triangles, because they are slow to fit and mostly cover enough area.
 constexpr double goodEnough = 1.5e-3;
 constexpr double passable = 3.5e-3;
 constexpr std::size_t fewTriangles = 2048;
 constexpr int maxVainRounds = 4;  // max number of consecutive rounds without improvement
-constexpr double maxWay = 48;     // max distance in cells to level 0's outline; farther outlines belong to other parts
+// Max distance to level 0's outline, in grid cells. Outlines farther away belong to other parts of the mesh.
+constexpr double maxWay = 48;
 constexpr int maxEdgePoints = 24;
 constexpr double stiffness = 0.1;      // damping of displacements, relative to the weight of the outline points
 constexpr double maxMoveShare = 0.25;  // max displacement per round, relative to the mean length of the vertex's edges
 constexpr double constraintSlack = 1e-3;
 
-// An edge between two vertex groups (vertices at one position), with up to two of its faces.
+// An edge between two vertex groups (vertices at the same position), with up to two of its faces.
 struct Edge {
     std::uint32_t a = 0, b = 0;  // numbers of the vertex groups at the edge's ends, a < b
-    std::uint32_t third = 0;     // vertex group at the third corner of the first face
+    std::uint32_t third = 0;     // vertex group at the third corner of face[0]
     std::uint32_t face[2] = {0, 0};
     // Direction in which each face runs along the edge. 1: from a to b; −1: from b to a; 0: no face.
     std::int8_t way[2] = {0, 0};
@@ -99,14 +100,14 @@ Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {
 // A sample point of a level's outline in the projection along one direction.
 struct OutlinePoint {
     std::uint32_t a = 0, b = 0;  // vertex groups at the ends of the edge
-    double share = 0;            // interpolation weight of b; the weight of a is 1 − share
+    double share = 0;            // interpolation weight of group b; the weight of group a is 1 − share
     double length = 0;           // outline length that the point represents, object units
-    glm::dvec2 start{0};         // position of the point in cells
+    glm::dvec2 start{0};         // position of the sample point, in units of grid cells
     glm::dvec2 across{0};        // outward unit normal of the outline
 };
 
-// Returns the signed distance in cells from `start` along `outward` to level 0's outline; NaN if the outline is farther
-// than maxWay.
+// Returns the signed distance, in grid cells, from `start` along `outward` to level 0's outline. It is positive if
+// level 0 covers `start`, and NaN if the outline is farther away than maxWay.
 double wayToOutline(const CoverGrid& level0, const glm::dvec2& start, const glm::dvec2& outward) {
     const bool inside = level0.covers(start);
     const double sign = inside ? 1 : -1;
@@ -139,7 +140,8 @@ public:
             if (counts[v] > 0) maxMove_[v] *= maxMoveShare / counts[v];
     }
 
-    // Returns the largest relative difference between the areas that the level and level 0 cover, over all directions.
+    // Returns the largest relative difference, over all projection directions, between the areas that the level and
+    // level 0 cover.
     double worstArea() {
         double worst = 0;
         for (std::size_t d = 0; d < outlines_.size(); ++d) {
@@ -174,8 +176,9 @@ public:
         move(moves);
     }
 
-    // Applies the smallest displacements that match the covered area in each direction to first order. Returns false if
-    // all areas agree within `enough` or recent rounds brought no improvement.
+    // Moves the vertices by the smallest displacements after which, to first order, the level and level 0 cover the
+    // same area in each projection direction. Returns false, without moving vertices, if all areas agree within the
+    // relative difference `enough` or recent rounds brought no improvement.
     bool matchAreas(double enough) {
         const std::size_t count = outlines_.size();
         gradients_.assign(count * places_.size(), glm::vec3(0));
@@ -210,14 +213,15 @@ public:
         return true;
     }
 
-    // Returns the current positions, or the best earlier positions if the last rounds brought no improvement.
+    // Returns the current vertex positions, or the best earlier positions if the last rounds brought no improvement.
     [[nodiscard]] const std::vector<glm::vec3>& places() const { return vainRounds_ > 0 ? best_ : places_; }
-    // Returns the largest relative difference from level 0's covered areas at the positions that places() returns.
+    // Returns the largest relative difference between the areas that level 0 and the level cover. The level has the
+    // vertex positions that places() returns.
     [[nodiscard]] double worst() { return vainRounds_ > 0 ? worstOfBest_ : worstArea(); }
 
 private:
-    // Marks the cells that the level covers in one direction and returns the covered area. Stores the projected
-    // positions and potential outline edges.
+    // Marks the cells of `own` that the level covers in the grid's projection direction, and returns the covered area.
+    // Stores the projected positions and potential outline edges.
     double cover(CoverGrid& own) {
         cells_.clear();
         for (const glm::vec3& place : places_) cells_.push_back(own.cellsOf(place));
@@ -310,7 +314,7 @@ private:
     double worstOfBest_ = std::numeric_limits<double>::infinity();
     int vainRounds_ = 0;                // rounds since the last improvement
     std::vector<glm::vec3> gradients_;  // gradients of the covered area: one per vertex group and direction
-    // Temporary data of cover(), for one direction.
+    // Temporary data of cover(), for one projection direction.
     EdgeFill fill_;
     std::vector<glm::dvec2> cells_;   // projected position of each vertex group
     std::vector<std::int8_t> turns_;  // per face: 1 counterclockwise, −1 clockwise, 0 edge-on
@@ -354,8 +358,9 @@ void fitOutlines(std::span<glm::vec3> positions, std::span<const std::uint32_t> 
     };
     matchAreas(fit);
     std::vector<glm::vec3> best = fit.places();
-    // followLocally() fits the outline edge by edge. It moves vertices farther, and an edge may follow the outline of
-    // another part of the mesh. Use its result only if its areas differ less from those of level 0.
+    // If the fit is not good enough, try a second fit that starts with followLocally(), which fits the outline edge by
+    // edge. The second fit moves vertices farther, and an edge may follow the outline of another part of the mesh. Use
+    // the second fit only if its covered areas are closer to level 0's areas than those of the first fit.
     if (fit.worst() > maxUnseen) {
         OutlineFit other(std::move(at), corners, outlines, box);
         for (int round = 0; round < localRounds; ++round) other.followLocally();

@@ -19,14 +19,14 @@ namespace defocus::engine {
 inline constexpr std::size_t outlineDirections = 13;
 std::array<glm::dvec3, outlineDirections> directionsOfOutlines();
 
-// Returns the grids of cells that level 0 covers, one grid per direction.
+// Returns, for each projection direction, the grid of the cells that level 0 covers.
 std::vector<CoverGrid> outlinesOf(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices,
                                   const Bounds& box);
 
 // Moves the vertices on a level's outlines outwards or inwards until the level covers approximately the same area as
 // level 0, whose covered cells are `outlines`. Does nothing if the areas already agree within 0.5 % in every direction.
-// Displacements are as small as possible, and vertices stay within `box`. Vertices with equal values in `places` (below
-// positions.size()) have the same position before and after. No triangle rotates by more than 60°.
+// Displacements are as small as possible, and vertices stay within `box`. Vertices with equal values in `places` share
+// a position, on entry and on return. These values are below positions.size(). No triangle rotates by more than 60°.
 void fitOutlines(std::span<glm::vec3> positions, std::span<const std::uint32_t> indices,
                  std::span<const std::uint32_t> places, std::span<const CoverGrid> outlines, const Bounds& box);
 

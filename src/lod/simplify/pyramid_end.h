@@ -8,7 +8,7 @@ namespace defocus::engine {
 enum class PyramidEnd : std::uint32_t {
     minTriangles,  // the last level has reached the minimum triangle count
     smallSaving,   // even the coarsest possible level would save less than a quarter of the triangles
-    topology,      // no collapse preserves the topology any more: handles, cuts and borders need all triangles
+    topology,      // no collapse preserves the topology: handles and borders need all remaining triangles
     largestParts,  // only components with a large fraction of the area could be simplified further
     noSurface,     // all triangles are degenerate
     maxLevels,     // the maximum number of levels is reached

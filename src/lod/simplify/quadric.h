@@ -31,7 +31,7 @@ struct Quadric {
         weight += planeWeight;
     }
 
-    // Adds squareWeight · (gᵀd)² to the quadric; `weight` is unchanged.
+    // Adds squareWeight · (gᵀd)² to the quadric, where d is the offset from the vertex; `weight` is unchanged.
     void addSquare(const glm::vec3& g, float squareWeight) {
         const glm::vec3 weighted = squareWeight * g;
         xx += weighted.x * g.x;
@@ -74,7 +74,8 @@ struct AttributeGradients {
     [[nodiscard]] glm::vec3 of(std::size_t attribute) const { return {x[attribute], y[attribute], z[attribute]}; }
 };
 
-// Returns the gradients over the face with the corners `p` (not collinear) and the attributes `s` at the corners.
+// Returns the gradients of the attributes over a face. `p` are the positions of its corners (not collinear), `s` the
+// attributes at the corners.
 template <std::size_t n>
 AttributeGradients<n> attributeGradients(const glm::dvec3* const* p, const AttributeRow<n>* const* s) {
     const glm::dvec3 e1 = *p[1] - *p[0];
@@ -103,7 +104,8 @@ struct AttributeQuadric {
     AttributeGradients<n> gradients{};
     AttributeRow<n> offset{};
 
-    // Adds a face at the vertex. The corner of the face has the vertex's own attributes, so that `offset` is unchanged.
+    // Adds a face at the vertex. The face's corner must have the vertex's own attributes; `offset` is therefore
+    // unchanged.
     void addFace(const AttributeGradients<n>& face, float faceWeight) {
         squares.weight += faceWeight;
         for (std::size_t j = 0; j < n; ++j) {
@@ -114,7 +116,8 @@ struct AttributeQuadric {
         }
     }
 
-    // Adds another quadric of the same vertex. `other` must be a sum of faces only, because its offset must be zero.
+    // Adds another quadric of the same vertex. `other` must be made by addFace() alone, because its offset is then
+    // zero; this function does not add offsets.
     void addFaces(const AttributeQuadric& other) {
         squares.add(other.squares, glm::vec3(0));
         for (std::size_t j = 0; j < n; ++j) {

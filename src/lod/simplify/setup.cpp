@@ -18,7 +18,7 @@ namespace {
 // multiplied by the squared edge length. (The plane of a face is weighted by the face's area.)
 constexpr double borderWeight = 10;  // weight of planes at open borders and material borders
 constexpr double seamWeight = 0.5;   // weight of planes at discontinuities of uv or colour
-constexpr double rimWeight = 1;      // weight where the surface bends by more than 60°; scaled by the bend
+constexpr double rimWeight = 1;      // weight where the surface bends by an angle β > 60°; times 1/2 − cos β
 
 glm::dvec3 faceCross(const SurfaceMesh& mesh, FaceHandle face) {
     const FaceCorners corner = cornersOf(mesh, face);

@@ -19,8 +19,8 @@ namespace {
 // Factor by which the cost of poor collapses (simplify.h) is multiplied.
 constexpr float poorPenalty = 10;
 constexpr std::size_t minFacesToReport = 1000;  // meshes with fewer faces report no progress
-// Number of faces up to which the costs of all candidates (planned collapses) are always up to date, because errors are
-// most visible at coarse levels.
+// Up to this number of faces, the costs of all candidates (planned collapses) are updated after every collapse. Levels
+// with so few faces are coarse, and errors are most visible at coarse levels.
 constexpr std::size_t maxFacesToFollow = 8192;
 // Levels with at least this many faces are made by sweeps over all vertices, which are faster than a queue.
 constexpr std::size_t minFacesToSweep = 16'384;
@@ -30,12 +30,13 @@ constexpr std::size_t costSample = 8192;    // number of vertices sampled to est
 // Max ratio between the triangle counts of a level and of the next finer level: each level must save a quarter of the
 // triangles.
 constexpr double largestShare = 0.75;
-// Components that collapses can still simplify keep at least this fraction of their faces at each level. If many
-// components are already as small as possible, halving the total would otherwise take too many faces from the few large
-// components.
+// The components (connected parts) that edge collapses can still simplify keep, in total, at least this fraction of
+// their faces at each level. If many components are already as small as possible, halving the total would otherwise
+// take too many faces from the few large components.
 constexpr double minShareOfMovable = 0.25;
-// Components that collapses can still simplify keep this fraction of their even share of the faces (evenShare).
-// `keptShare` is preferred; `minKeptShare` applies if components would otherwise have to be removed.
+// The components that edge collapses can still simplify keep, in total, at least this fraction of their even share of
+// the faces, which is proportional to their area (evenShare). `keptShare` is preferred; `minKeptShare` applies if
+// components would otherwise have to be removed.
 constexpr double keptShare = 0.5;
 constexpr double minKeptShare = 0.25;
 
@@ -97,8 +98,9 @@ void startQueue(Simplifier& s) {
 
 // After a collapse, updates the candidates (planned collapses) of the surviving vertex and of affected neighbours. A
 // neighbour is affected if its candidate led to the surviving or the removed vertex, or if it had no good candidate.
-// With many faces, candidates are only marked as outdated. Their costs have mostly risen; exceptions are the few
-// vertices that are closer to the surviving vertex than to the removed vertex.
+// While the mesh has many faces, affected candidates are only marked as outdated, and updated when their turn comes.
+// This is safe because a collapse raises most of their costs. Costs fall only for the few neighbours that are closer to
+// the surviving vertex than to the removed vertex.
 void requeueAround(Simplifier& s, VertexHandle survivor) {
     SurfaceMesh& mesh = *s.mesh;
     const bool atOnce = s.liveFaces <= maxFacesToFollow;

@@ -73,11 +73,11 @@ struct Simplification {
     PyramidEnd end = PyramidEnd::maxLevels;
 };
 
-// Makes levels that each have half the triangles of the previous level, or the fractions of vertices in
-// `options.vertexShares`. Ends where the next level would save less than a quarter of the triangles. Calls take(l,
-// level) once for each level l = 0 … levelCount − 1, on the thread of `tasks` that computed the level's anchors. The
-// last calls may come after simplify() returns: the caller must call tasks.wait(). Until then, `smoothing` and
-// `vertices` must stay alive.
+// Makes levels that each have half the triangles of the previous level, or the fractions of the mesh's vertex positions
+// given in `options.vertexShares`. Ends where the next level would save less than a quarter of the triangles. Calls
+// take(l, level) once for each level l = 0 … levelCount − 1, on the thread of `tasks` that computed the level's anchors
+// (points that represent the mesh's vertices). The last calls may come after simplify() returns: the caller must call
+// tasks.wait(). Until then, `smoothing` and `vertices` must stay alive.
 Simplification simplify(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
                         const TriangleSet<MeshVertexNumber>& triangles, const SimplifyOptions& options, Tasks& tasks,
                         const std::function<void(std::uint32_t, SimplifiedLevel)>& take);

@@ -1,5 +1,5 @@
-// Copies a level between collapses: the mesh vertices at its corners, and for each mesh vertex the closest point of the
-// level (anchor).
+// Copies a level between two edge collapses: the mesh vertex at each triangle corner. For each mesh vertex, finds the
+// closest point on the level's surface, its anchor.
 
 #include <algorithm>
 #include <array>
@@ -19,10 +19,10 @@ namespace {
 
 // ---- split the two sides of thin plates
 
-// When the rim of a thin plate such as a fin has collapsed, its two sides meet at one wedge (vertex at face corners). A
-// single normal would point sideways and darken both sides. Such a wedge is split, as Hoppe 1998 allows at any corner.
-// At a texture seam, each side may already have its own wedge. The wedges of all vertices that share a normal are
-// therefore examined together.
+// When the rim of a thin plate such as a fin has collapsed, the faces of its two sides share wedges (vertices with
+// attributes). A single normal would point sideways and darken both sides. Such a wedge is split into one wedge per
+// side, as Hoppe 1998 allows at any corner. At a texture seam, each side may already have its own wedge, but both
+// wedges share a normal. All wedges that share a normal are therefore examined together.
 
 // Min length of the mean of the unit face normals around a wedge, weighted by corner angle. A wedge with a shorter mean
 // is split. The tip of a cone of 60° is not split.
@@ -40,8 +40,8 @@ double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// Returns true if all face normals are within 60° of the first face normal. The mean of the normals is then long enough
-// to keep the wedge for any corner angles.
+// Returns true if all face normals are within 60° of the first face normal. For any corner angles as weights, the mean
+// of the unit normals is then at least minResultant long, so no split is needed.
 bool surelyAgree(std::span<const CornerNormal> corners) {
     const glm::dvec3& first = corners[0].normal;
     const double limit = minResultant * minResultant * glm::dot(first, first);
@@ -128,8 +128,8 @@ CornersByNormal groupCorners(const Simplifier& s, const Corners& corners) {
     return {count, corners.size(), [&](TriangleCorner corner) { return groupOf[s.mesh->wedge(corners[corner])]; }};
 }
 
-// The mesh vertex at each face corner. If faces that share a vertex normal face in opposite directions, one side is
-// chosen as the back. A mesh vertex that belongs to both sides is split.
+// The mesh vertex at each face corner. If faces with a common vertex normal point in opposite directions, the faces on
+// one side become the back of a thin plate. A mesh vertex that belongs to both sides is split.
 struct Creases {
     Numbered<TriangleCorner, MeshVertexNumber> drawn;
     std::vector<MeshVertexNumber> behind;  // vertices whose corners are all on the back of a thin plate; sorted
@@ -172,7 +172,7 @@ Creases creases(Simplifier& s, const Corners& corners) {
     return result;
 }
 
-// ---- find the point of the level for each mesh vertex
+// ---- find the anchor of each mesh vertex, the closest point on the level
 
 // Finds, for each vertex of the mesh, the closest point (anchor) of the simplified surface. The search for the closest
 // face starts at the vertex onto which a removed vertex has collapsed.
@@ -184,7 +184,7 @@ constexpr double noDistance = 1e-24;          // smaller squared distances are r
 // exceeds this value.
 constexpr double minUpright = 0.99;
 // If many mesh vertices collapsed onto one vertex, the closest point on the level is found only for every second,
-// fourth, … of them, but at least for this number.
+// fourth, … of these vertices, but for at least this number of vertices.
 constexpr std::uint32_t enoughAnchors = 16;
 
 // The level's faces, and the face corners around each vertex.
@@ -215,7 +215,8 @@ FaceRings faceRings(const Snapshot& level, const Frame& frame) {
 struct Closest {
     double squaredDistance = 0;
     TriangleCorner corner;  // corner of the closest face; invalid: the start vertex is the closest point
-    glm::dvec2 along{0};    // coordinates of the closest point along the edges to the next and the previous corner
+    // barycentric weights of the next and the previous corner at the closest point
+    glm::dvec2 along{0};
 };
 
 // Returns the vertex of `face` nearest to `p` that is not in `seen` and has at most maxFacesAround faces around it;
@@ -236,9 +237,9 @@ VertexHandle nearestUnseen(const FaceRings& rings, TriangleNumber face, const gl
     return nearest;
 }
 
-// Returns whether a query point lies perpendicularly above the interior of the face. `along` are the coordinates of the
-// face point closest to it; `offset` leads from the face point to the query point. For slivers, rounding makes `along`
-// unreliable.
+// Returns whether a query point lies perpendicularly above the interior of the face. `along` are the barycentric
+// coordinates (Closest::along) of the face point closest to the query point. `offset` leads from the face point to the
+// query point. For slivers, rounding makes `along` unreliable.
 bool liesBelow(const FaceRings& rings, TriangleNumber face, const glm::dvec2& along, const glm::dvec3& offset) {
     if (!(along.x > 0 && along.y > 0 && along.x + along.y < 1)) return false;
     const glm::dvec3& normal = rings.normals[face];
@@ -306,7 +307,9 @@ Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot&
     Numbered<MeshVertexNumber, Anchor> result(origin.firstVertex.size());
     const Numbered<VertexHandle, std::uint32_t> strides = anchorStrides(origin, level);
     Numbered<VertexHandle, std::uint32_t> waiting(strides.size(), 0);
-    Numbered<VertexHandle, MeshVertexNumber> lastOf(strides.size());  // last vertex that got its own anchor
+    // For each level vertex, the last of the mesh vertices collapsed onto it that got an anchor (point on the level) of
+    // its own.
+    Numbered<VertexHandle, MeshVertexNumber> lastOf(strides.size());
     for (const MeshVertexNumber own : result.numbers()) {
         const SurfaceVertexNumber v = origin.firstVertex[own];
         if (!v.isValid()) continue;
@@ -338,7 +341,8 @@ Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot&
     return result;
 }
 
-// Records in `level` which components (connected parts) were removed and which grow, if any component grows.
+// Records in `level` the removed components (connected parts) and the enlargement of the remaining ones. Does nothing
+// unless components are enlarged to make up for lost area (Simplifier::grows).
 void noteComponents(const Simplifier& s, Snapshot& level) {
     if (!s.grows) return;
     level.removed = removedBalls(s);

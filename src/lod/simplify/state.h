@@ -34,12 +34,12 @@ struct Component {
     // Area in object units squared: the component's area in the original mesh, plus the areas of components that it
     // replaces.
     double area = 0;
-    PrimitiveNumber primitive;  // primitive of one of the component's faces
+    PrimitiveNumber primitive;  // primitive of the component's first face
     std::size_t faces = 0;      // number of remaining faces of the component
-    // Number of vertices that have a collapse of class `good` or `poor` (simplify.h), as far as collapses were
-    // examined.
+    // Number of vertices whose planned collapse is of class `good` or `poor` (simplify.h). A collapse that has not been
+    // tested counts as good.
     std::size_t harmless = 0;
-    bool spent = false;     // true as soon as `harmless` has reached 0
+    bool spent = false;     // no planned collapse is good or poor any more: `harmless` has reached 0
     bool standsIn = false;  // the component grows to replace removed components
     bool removed = false;
 };
@@ -56,7 +56,8 @@ struct Simplifier {
     CollapseQueue queue;
     bool queued = false;  // true while `queue` is in use
     std::size_t liveFaces = 0;
-    // Initial number of faces. `lost` receives the removed fraction of these faces in steps of at least 0.01.
+    // Initial number of faces. The callback `lost` is called with the removed fraction of these faces, each time the
+    // fraction has grown by at least 0.01.
     std::size_t firstFaces = 0;
     std::size_t facesAtReport = 0;
     std::function<void(double)> lost;
@@ -68,9 +69,9 @@ struct Simplifier {
     Numbered<ComponentNumber, Component>
         components;              // empty until few faces are left or many components have reached their min size
     double area = 0;             // total area of the components, object units squared
-    bool grows = false;          // true if some components grow to replace removed ones
-    std::size_t spentFaces = 0;  // remaining faces of spent components
-    double spentArea = 0;        // area of the remaining spent components, object units squared
+    bool grows = false;          // true if components are enlarged to make up for lost area
+    std::size_t spentFaces = 0;  // faces of spent components, which have only bad collapses left
+    double spentArea = 0;        // total area of the spent components, without removed ones, object units squared
 
     [[nodiscard]] Component& componentAt(VertexHandle v) { return components[mesh->data(v).component]; }
     [[nodiscard]] const Component& componentAt(VertexHandle v) const { return components[mesh->data(v).component]; }
@@ -82,7 +83,8 @@ struct Simplifier {
 void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPositions& positions,
                        const VertexGroups& smoothing, const TriangleSet<MeshVertexNumber>& triangles);
 
-// Classifies the effect of a collapse on the surrounding faces and their wedges; ignores the topology (collapse.cpp).
+// Classifies the effect of a collapse on the surrounding faces and their wedges (vertices with attributes). Ignores the
+// topology, which judgeCollapse() tests.
 Fit judgeFaces(Simplifier& s, HalfedgeHandle along);
 // Classifies a collapse like judgeFaces(), but returns Fit::impossible if the topology forbids it. The topology is
 // tested last, and only if the collapse is not worse than `worst`. The test is slow: is_collapse_ok contains
@@ -104,21 +106,22 @@ bool isConnected(const Simplifier& s);
 bool manyAreSmallest(const Simplifier& s);
 // Finds the components (connected parts) of the remaining mesh, unless they are already known.
 void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangles);
-// Marks the component of the vertex as spent (simplify.h), because no good or poor collapse is left in it.
+// Marks the component of the vertex as spent (simplify.h): at most bad collapses are left in the component.
 void spend(Simplifier& s, VertexHandle v);
 // Returns the number of faces that would lie on `area` if `faces` faces were distributed evenly over the area of the
 // mesh.
 double evenShare(const Simplifier& s, double area, std::size_t faces);
 // Returns whether a collapse of the vertex, of class `fit` (good, poor or bad), must be skipped while simplifying to
 // `target` faces. A bad collapse is skipped if the vertex's component would fall below its even share of `target`
-// (evenShare). Good and poor collapses are restricted only if spent components own more than half of `target`. The
-// other components must then keep the fraction `share` of their even share.
+// (evenShare). Good and poor collapses are skipped only if spent components (with only bad collapses left) have more
+// than `target` / 2 faces. The other components then keep, in total, at least `share` times their even share of faces.
 bool isKept(const Simplifier& s, VertexHandle v, Fit fit, std::size_t target, double share);
 // Removes complete components (connected parts) until `target` faces are left or no further component may be removed.
 void removeComponents(Simplifier& s, std::size_t target);
 // Returns the bounding spheres of the removed components, for SimplifiedLevel::removed.
 std::vector<Ball> removedBalls(const Simplifier& s);
-// Returns how much each component must grow to replace removed components, for LevelMesh::growths.
+// Returns how much each component is enlarged, for LevelMesh::growths. Enlarged are components that replace removed
+// ones, and components that collapses have reduced to a few faces.
 Numbered<ComponentNumber, Growth> growths(const Simplifier& s);
 
 // A copy of a level that other threads measure and fit while collapses continue.
@@ -129,9 +132,9 @@ struct Snapshot {
     Numbered<SurfaceVertexNumber, VertexHandle> nearest;  // copy of Simplifier::current
     std::vector<MeshVertexNumber> twins;
     std::vector<MeshVertexNumber> behind;               // vertices of `drawn` on the back of a thin plate; sorted
-    std::vector<Ball> removed;                          // value of SimplifiedLevel::removed
-    Numbered<ComponentNumber, Growth> growths;          // value of LevelMesh::growths
-    Numbered<VertexHandle, ComponentNumber> growthsOf;  // component of each vertex; empty if no component grows
+    std::vector<Ball> removed;                          // bounding spheres of the removed components
+    Numbered<ComponentNumber, Growth> growths;          // enlargement of each component, for LevelMesh::growths
+    Numbered<VertexHandle, ComponentNumber> growthsOf;  // component of each vertex; empty if none is enlarged
 };
 
 // Copies the current level (snapshot.cpp). compact() must have been called.

@@ -129,8 +129,8 @@ std::unique_ptr<SurfaceMesh> livingCopy(SurfaceMesh& mesh, Numbered<VertexHandle
         copy->set_halfedge_handle(faceNumber(face), numberOf(mesh.halfedge_handle(face)));
     });
 
-    // A planned collapse that is outdated may refer to a deleted edge. Any other half-edge of the vertex can replace
-    // this edge.
+    // A planned collapse that is outdated may refer to a deleted edge. Replace the edge by any half-edge of the same
+    // vertex, because outdated collapses are planned again before use.
     forEachVertex(*copy, [&](VertexHandle v) {
         HalfedgeHandle& along = copy->data(v).candidate.along;
         if (!along.is_valid()) return;

@@ -34,7 +34,7 @@ struct Frame {
     glm::dvec3 centre{0};  // centre of the mesh's bounding box, object units
     double inverse = 0;    // 1 / longest side of the mesh's bounding box; 0: the mesh has no extent
 
-    // Converts a position from object units to the unit-size mesh.
+    // Converts a position from object space to the mesh scaled to unit size.
     [[nodiscard]] glm::dvec3 point(const glm::vec3& position) const {
         return (glm::dvec3(position) - centre) * inverse;
     }
@@ -51,7 +51,7 @@ enum class Fit : std::uint8_t { good, poor, bad, impossible };
 struct Candidate {
     HalfedgeHandle along;  // leads to the surviving vertex; invalid: no collapse is possible
     float cost = std::numeric_limits<float>::infinity();
-    Fit fit = Fit::good;    // worst class that the tests made so far have found
+    Fit fit = Fit::good;    // class of the collapse, as far as it has been tested; untested: good
     bool outdated = false;  // the cost has changed, or another collapse may be cheaper
 
     [[nodiscard]] bool possible() const { return along.is_valid(); }

@@ -8,8 +8,12 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr float minBlurRange = 1e-3f;  // min range over the mesh of blur factors, and of added blur in mm
-constexpr double minQuality = 1e-3;    // twice the area / sum of squared edges; 0.29 for an equilateral triangle
+// Blur values are divided by their range over the mesh, or by this value if the range is smaller. It has no unit for
+// blur factors and mm for added blur.
+constexpr float minBlurRange = 1e-3f;
+// Triangles of lower quality are slivers. Quality: twice the area / sum of the squared edge lengths; 0.29 for an
+// equilateral triangle.
+constexpr double minQuality = 1e-3;
 
 // Returns the attribute differences `to` − `from` between two wedges with n attributes each.
 template <std::size_t n>

@@ -70,7 +70,8 @@ public:
     // Adds the quadric of the wedge `from` to the quadric of the wedge `to`, whose position differs by `step`, and
     // clears the quadric of `from`.
     void moveQuadric(WedgeNumber from, WedgeNumber to, const glm::vec3& step);
-    // Prefetch the memory of a wedge: prefetchStart() for the argument `to` of cost(), prefetch() for moveQuadric().
+    // Prefetch the memory of a wedge: prefetchStart() for a wedge that cost() will get as `to`, prefetch() for a wedge
+    // that moveQuadric() will get.
     void prefetchStart(WedgeNumber w) const;
     void prefetch(WedgeNumber w) const;
 

@@ -28,7 +28,7 @@ WeldedVertices weldVertices(const Mesh& mesh);
 // For each vertex, the first vertex of the group that contains it.
 using VertexGroups = Numbered<MeshVertexNumber, MeshVertexNumber>;
 
-// Groups the vertices at one position whose normals differ by at most one degree. A crease separates groups.
+// Groups vertices that share a position and whose normals differ by at most one degree. A crease separates groups.
 VertexGroups smoothingGroups(const std::vector<glm::vec3>& normals, const WeldedPositions& positions);
 
 }  // namespace defocus::engine

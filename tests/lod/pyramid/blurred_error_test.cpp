@@ -42,9 +42,10 @@ double sideOf(const Pyramid& pyramid, int number) {
     return pyramid.smallestPatch * std::exp2(number);
 }
 
-// Under blur, errors are measured in image patches as wide as the blur. If a level is 1 + ε times as bright as level 0,
-// its error in a patch is ε times the patch's mean radiance. The error of lens samples is the deviation of the radiance
-// from that mean. The squares of mean and deviations add up to the mean square of the radiance.
+// Under blur, errors are averaged over square image patches as wide as the blur. If a level is 1 + ε times as bright as
+// level 0, its error in a patch is ε times the patch's mean radiance. The contrast is the standard deviation of the
+// radiance around this mean; it is the error of one lens sample. The squared mean and the squared standard deviation
+// add up to the mean squared radiance, which does not depend on the patch size.
 TEST(BlurredError, aBrighterLevelAndTheSamplesShareTheLight) {
     constexpr double more = 0.125;
     const Pyramid pyramid = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1 + more); });
@@ -116,10 +117,11 @@ std::vector<glm::vec3> rectangle(const glm::vec2& low, const glm::vec2& high) {
     return {a, b, c, a, c, d};
 }
 
-// A level lacks strips of width w and length l beside a plate. Without blur, the error is the fraction of the area that
-// the strips cover. Patches of side s, wider than a strip, average its radiance with black, so the sum of squares is
-// (w/s)² · l · s. Foreshortening in each view direction changes w and l. The strips are thinner than a pixel of the
-// images from which errors are measured.
+// A level lacks strips of width w and length l beside a plate. Without blur, the squared error is the fraction of the
+// area that the strips cover. Under blur, errors are averaged over square patches of side s > w. A patch on a strip
+// averages the strip's radiance with black, so its error is w/s. The patches along a strip have the area l · s, so the
+// sum of their squared errors is (w/s)² · l · s. Foreshortening in each view direction changes w and l. The strips are
+// thinner than a pixel of the images from which errors are measured.
 TEST(BlurredError, lostWiresCountByTheirWidthUnderThePixel) {
     constexpr double width = 0.004, plate = 0.5;
     constexpr int count = 12;
@@ -191,7 +193,8 @@ TEST(BlurredError, anOutlineCountsByTheAreaThatItLoses) {
     };
     const double lost = shrunk(0.96f);
     EXPECT_NEAR(lost / shrunk(0.98f), 2, 0.3);
-    // The radiance of the removed rim and the mean radiance both lie between 0.2 and 1.
+    // The removed rim has the relative area 2 · 0.04. Its radiance and the mean radiance lie between 0.2 and 1, so
+    // their ratio lies between 0.2 and 5.
     EXPECT_GT(lost, 0.2 * 0.2 * 2 * 0.04);
     EXPECT_LT(lost, 5 * 5 * 2 * 0.04);
 }
@@ -208,8 +211,8 @@ TEST(BlurredError, normalsCountByTheLight) {
     EXPECT_NEAR(squaredError(turned(0.1f), 1, 0) / squaredError(turned(0.05f), 1, 0), 4, 0.4);
 }
 
-// In patches far larger than the mesh, the error E is inversely proportional to the patch side, like the error of a
-// single point of light: a patch with ten times the side has a hundredth of E².
+// Averaged over square patches far larger than the mesh, the error E is inversely proportional to the side of a patch,
+// like the error of a single point of light. Patches with ten times the side have a hundredth of E².
 TEST(BlurredError, fallsAsASpotBeyondTheMesh) {
     const Pyramid pyramid = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1.25f); });
     EXPECT_NEAR(squaredError(pyramid, 1, 100) / squaredError(pyramid, 1, 1000), 100, 1e-6);
@@ -234,14 +237,15 @@ TEST(BlurredError, ofWhatHasNoLightOrNoSecondLevelIsNothing) {
     EXPECT_EQ(levelOfBlurredError(Pyramid{}, std::array{0.1}, 100, 0.5), 0);
 }
 
-// At the selected fractional level λ, the error equals its limit times the contrast. Errors and limits are interpolated
-// linearly between levels. λ is clamped to the range from 0 to the coarsest level.
+// At the selected fractional level λ, the ratio of error to contrast equals its limit. The contrast is the standard
+// deviation of level 0's radiance within the blur. Ratios and limits are interpolated linearly between levels. λ is
+// clamped to the range from 0 to the coarsest level.
 TEST(BlurredError, theLevelMeetsItsLimit) {
     const Pyramid pyramid = buildPyramid(sphere(96, 48, 0.05));
     ASSERT_GT(pyramid.levels.size(), 4u);
     const std::array sides{0.05, 0.4};
     const auto mean = [&](const auto& squared) { return std::sqrt(squared(sides[0]) + squared(sides[1])); };
-    // Returns the larger of level l's ratios of error to contrast in front of the two backgrounds.
+    // Returns the ratio of error to contrast of level l, on the background (black or grey) with the larger ratio.
     const auto error = [&](std::size_t l) {
         double worst = 0;
         for (const Surround surround : surrounds)
@@ -281,9 +285,10 @@ TEST(BlurredError, theLimitFollowsEdgesAndSamples) {
     }
 }
 
-// The selected fractional level λ has no jumps as the blur grows. Errors grow by a tenth per level, so λ changes by at
-// most 11 levels per unit of the target's logarithm. If the blurred patch widens by 1/1000, the squared error E²
-// changes by at most 4/1000 and the squared contrast V² by at most 2/1000.
+// The selected fractional level λ has no jumps as the blur grows. λ follows from the ratio E/V of error to contrast.
+// Errors grow by at least a tenth per level, so λ changes by at most 11 times the relative change of E/V. If the blur
+// widens by 1/1000, E² changes by at most 4/1000 of its value and V² by at most 2/1000. E/V then changes by at most
+// half of the sum, 3/1000.
 TEST(BlurredError, theLevelIsContinuousInTheBlur) {
     Mesh mesh = sphere(64, 32, 0.05);
     for (const glm::vec3& p : mesh.vertices.positions) mesh.vertices.colors.push_back(striped(p));

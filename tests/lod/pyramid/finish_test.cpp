@@ -95,8 +95,8 @@ TEST(Finish, wrapsMirrorAndClamp) {
     EXPECT_EQ(at(0.25f, 7), 1);
 }
 
-// A level whose stripes are shifted by half a period shows the opposite colours, until a blur hides the stripes of both
-// levels.
+// If the texture of a level is shifted by half a period of its stripes, the level shows the opposite colours of level
+// 0. The error is large until a blur hides the stripes of both levels.
 TEST(Finish, aTextureThatMovesCountsUntilTheBlurHidesIt) {
     const Scene scene = texturedBall();
     const Finish finish = Finishes(scene).of(0);

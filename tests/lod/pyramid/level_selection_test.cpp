@@ -93,10 +93,11 @@ TEST(LevelOfDetail, IsContinuousAndGrowsWithTheTargetOnPlateaus) {
     expectContinuousLevels(pyramid);
 }
 
-// Between levels l and l + 1 with the edge lengths or errors e[l] and e[l+1], λ has the slope 1/ln(e[l+1]/e[l]) over
-// the logarithm of the target for edges, and 1/(e[l+1] − e[l]) over the target for errors. Blur, threshold and distance
-// all change the same quotient: target over projected size. Therefore a step in any of them changes λ by the integral
-// of that slope.
+// The selected real-valued level λ is a function of the target, the allowed edge length or error in object units. Let
+// levels l and l + 1 have the edge lengths or errors e[l] and e[l+1]. For edges, λ is linear in ln(target) between
+// these levels, with the slope 1/ln(e[l+1]/e[l]). For errors, λ is linear in the target, and the slope there is
+// 1/(e[l+1] − e[l]). Blur, threshold and distance affect λ only through the target. A step in any of them therefore
+// changes λ by the integral of the slope.
 TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
     Pyramid pyramid = uniformPyramid();
     pyramid.levels[2].meanEdge = pyramid.levels[1].meanEdge * 1.05;
@@ -106,7 +107,8 @@ TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
             return metric == LodMetric::size ? std::log(pyramid.levels[level].meanEdge) : pyramid.levels[level].error;
         };
         const auto coordinate = [&](double target) { return metric == LodMetric::size ? std::log(target) : target; };
-        // Returns the integral of the slope of λ between two targets, in object units.
+        // Returns by how much the real-valued level λ grows from the target `from` to the target `to`, as the integral
+        // of its slope. Targets are edge lengths or errors in object units.
         const auto growth = [&](double from, double to) {
             double sum = 0;
             for (std::size_t l = 0; l + 1 < pyramid.levels.size(); ++l) {
@@ -161,7 +163,8 @@ TEST(DefaultThresholds, ShrinkSteadilyToNothingAndStayModestForFewSamples) {
             EXPECT_GT(thresholds.blur, 0);
             last = thresholds;
         }
-        EXPECT_NEAR(last.size / at64.size, 0.0098, 1e-4);  // size falls by (65,536 / 64)^(−2/3)
+        // the threshold `size` is proportional to (sample count)^(−2/3)
+        EXPECT_NEAR(last.size / at64.size, 0.0098, 1e-4);
     }
 }
 
@@ -183,8 +186,8 @@ TEST(SplitSamples, SharesSumToAllAndFollowTheFractionByOneSampleAtATime) {
 }
 
 // In mode `continuous`, one of the N samples draws both levels: the coarse level in a fraction of the pixels, the fine
-// level in the others. For every λ, the number of coarse samples plus this fraction is f·N, where f is the fractional
-// part of λ.
+// level in the others. For every real-valued level λ, the number of coarse samples plus this fraction is f·N, where f
+// is the fractional part of λ.
 TEST(SplitSamples, ContinuousSharesAreExactlyTheFraction) {
     for (const std::uint32_t count : {1u, 7u, 64u, 1000u}) {
         for (double lambda = 0; lambda < 5; lambda += 0.00731) {

@@ -9,8 +9,8 @@
 namespace defocus::engine {
 namespace {
 
-// Returns the triangle count of the smallest closed surface of this genus (Jungerman and Ringel 1980; genus 2 needs one
-// more vertex).
+// Returns the triangle count of the smallest closed surface of this genus (Jungerman and Ringel 1980). Genus 2 needs
+// one vertex more than their formula gives.
 std::uint32_t minOfGenus(std::uint32_t genus) {
     const auto vertices = static_cast<std::uint32_t>(std::ceil((7 + std::sqrt(1 + 48.0 * genus)) / 2));
     return 2 * (vertices + (genus == 2 ? 1 : 0)) + 4 * genus - 4;

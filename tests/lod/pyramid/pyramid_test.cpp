@@ -279,8 +279,8 @@ TEST(Pyramid, SoupOfLooseTrianglesComesDownToTheFloor) {
     const Mesh mesh = singlePrimitive(vertices, indices);
     const Pyramid pyramid = buildPyramid(mesh);
     expectPyramidInvariants(mesh, pyramid);
-    // The 100 triangles share no vertices, so only complete triangles can be removed. Level 1 has 64 triangles, the min
-    // count of a level, since half of the triangles would be fewer.
+    // The 100 triangles share no vertices, so only complete triangles can be removed. Level 1 has 64 triangles, the
+    // minimum for a level, because half of 100 triangles would be fewer.
     ASSERT_EQ(pyramid.levels.size(), 2u);
     EXPECT_EQ(pyramid.levels[1].triangleCount, 64u);
 }
@@ -407,8 +407,8 @@ TEST(Pyramid, UnsharedVerticesAreJoinedAndUnusedOnesDropped) {
     EXPECT_EQ(pyramid.levels.back().triangleCount, 64u);
 }
 
-// The levels of a mesh with duplicate vertices are the same whether the duplicates are many or so few that the
-// simplifier does not join them.
+// A mesh with duplicate vertices gets the same levels as the mesh without them. If there are many duplicates, a copy of
+// the mesh without them is simplified. Few duplicates stay in the vertex list, but no triangle uses them.
 TEST(Pyramid, CopiesOfVerticesChangeNothing) {
     const Mesh mesh = sphere(48, 24, 0.1);
     const Pyramid without = buildPyramid(mesh);

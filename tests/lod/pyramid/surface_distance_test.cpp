@@ -55,9 +55,9 @@ TEST(SurfaceDistance, SquareBesideASquareOfTwiceItsWidth) {
 }
 
 TEST(SurfaceDistance, CylinderAgainstItsInscribedPrism) {
-    // A side of an n-gon in the unit circle lies cos(π/n) from the centre. At s from the side's midpoint, the circle is
-    // 1 − √(cos²(π/n) + s²) away. The max distance is the sagitta 1 − cos(π/n), and the mean is two thirds of the
-    // sagitta, to second order.
+    // A side of an n-gon in the unit circle lies cos(π/n) from the centre. At the distance s from the side's midpoint,
+    // the side is 1 − √(cos²(π/n) + s²) away from the circle. The max of this distance is the sagitta 1 − cos(π/n), and
+    // its mean is two thirds of the sagitta, to second order.
     const auto cylinder = [](std::uint32_t columns) {
         return surfaceOf(parametricSurface(columns, 4, [=](std::uint32_t i, std::uint32_t j) {
             return glm::dvec3(std::cos(turn(i, columns)), std::sin(turn(i, columns)), 0.25 * j);
@@ -69,8 +69,8 @@ TEST(SurfaceDistance, CylinderAgainstItsInscribedPrism) {
     for (const Distances& way : {d.forward, d.backward}) {
         EXPECT_NEAR(way.maximum, sagitta, 1e-3 * sagitta + ownSagitta);
         EXPECT_NEAR(way.mean, 2 * sagitta / 3, 0.01 * sagitta + ownSagitta);
-        // At 99 of 100 points, the offset s from the side's midpoint exceeds 0.01 of its max. The distance there is at
-        // most sagitta·(1 − 0.01²).
+        // At 99 of 100 points, the distance from the midpoint of the polygon's side exceeds 1 % of half the side. The
+        // distance from these points to the circle is at most sagitta·(1 − 0.01²).
         EXPECT_NEAR(way.percentile99, sagitta, 0.005 * sagitta + ownSagitta);
     }
 }
@@ -148,7 +148,7 @@ TEST(SurfaceDistance, ClosestPointIsFoundAmongAll) {
                                 p));
         ASSERT_DOUBLE_EQ(distanceTo(surface, p), min) << i;
         // The distance to a torus is | |(√(x² + y²) − 1, z)| − 0.4 |. The mesh's faces lie inside the torus by at most
-        // the sum of both sagittas.
+        // the sum of two sagittas: of the polygons around the torus and around its tube.
         const double exact = std::abs(std::hypot(std::hypot(p.x, p.y) - 1, p.z) - 0.4);
         ASSERT_NEAR(min, exact,
                     1.4 * (1 - std::cos(std::numbers::pi / 24)) + 0.4 * (1 - std::cos(std::numbers::pi / 12)))

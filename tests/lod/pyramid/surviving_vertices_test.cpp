@@ -60,8 +60,8 @@ TEST(SurvivingVertices, haveTheValuesOfLevel0) {
     }
 }
 
-// In levels with fitted vertices, fewer than half of the values equal those of the source vertices. The count therefore
-// distinguishes fitted from surviving vertices.
+// In levels with fitted vertices, fewer than half of the vertices have the position, the normal or the colour of their
+// source vertex in the mesh. These counts therefore distinguish fitted vertices from surviving (unchanged) vertices.
 TEST(SurvivingVertices, areNotThoseOfFittedLevels) {
     const Mesh mesh = coloured(sphere(64, 32, 0.1));
     const OwnValues own = ownValues(mesh, buildPyramid(mesh));
@@ -70,7 +70,8 @@ TEST(SurvivingVertices, areNotThoseOfFittedLevels) {
     EXPECT_LT(own.colors, own.all / 2);
 }
 
-// Levels with fitted values and levels with surviving values keep the same vertices.
+// Levels consist of the same vertices of the mesh, whether the attributes of these vertices are fitted to the mesh or
+// unchanged.
 TEST(SurvivingVertices, areThoseThatFittedLevelsHave) {
     const Mesh mesh = coloured(torus(64, 40));
     const Pyramid published = buildPyramid(mesh, asPublished);

@@ -55,9 +55,10 @@ struct Shift {
     double elsewhere = 0;
 };
 
-// Returns how far a level's texture is shifted against level 0's texture. The shift is measured in pixels that show
-// both levels, in the views from which blurred errors are measured. A triangle shifts the texture by at most its
-// longest edge. Larger distances come from another part of the surface, for example beside a strap that became thinner.
+// Returns how far a level's texture is shifted against level 0's texture. Compares the pixels that show both levels, in
+// the views that are used to measure errors under blur. On one part of the surface, the texture shifts by at most the
+// longest edge of the level. Pixels with a larger shift show different parts of the surface, for example beside a strap
+// that became thinner. These pixels count as `elsewhere`.
 Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
     constexpr int resolution = 512;
     const std::vector<Finish> finishes(pyramid.levels.front().primitives.size(), showingCoordinates());
@@ -85,7 +86,7 @@ Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
     return {sum / shifted, others / (others + shifted)};
 }
 
-// Returns the smallest blur width, in object units, under which at least half of `samples` samples draw the level, or
+// Returns the smallest blur width, in object units, at which at least half of `samples` samples draw the level, or
 // nullopt if there is no such blur. Pixels are assumed to be as wide as the blur. With smaller pixels, edges would be
 // longer in px, and a finer level would be selected.
 std::optional<double> minPatch(const Pyramid& pyramid, std::size_t level, std::uint32_t samples) {
@@ -116,8 +117,8 @@ TEST(TextureShift, isMeasured) {
 
 class TextureShiftOf : public testing::TestWithParam<const char*> {};
 
-// A level's texture is shifted by less than the width of the smallest blur under which the level is drawn. This width
-// is one texel of the mip level that such a blur shows.
+// A level's texture is shifted by less than the width of the smallest blur at which the level is drawn. Texture detail
+// finer than the blur is invisible: one texel of the visible mip level is as wide as the blur.
 TEST_P(TextureShiftOf, levelsIsBelowOneTexelOfTheBlur) {
     DEFOCUS_MODEL_OR_SKIP(path, GetParam());
     const Scene scene = loadGltf(path);

@@ -60,10 +60,10 @@ TEST(CollapseQueue, aVertexWaitsOnceWithItsLastCost) {
     queue.put(vertex(0), 1, false);
     queue.put(vertex(1), 2, false);
     queue.put(vertex(2), 3, false);
-    queue.put(vertex(2), 0.5f, false);  // the vertex is now the cheapest instead of the most expensive
+    queue.put(vertex(2), 0.5f, false);  // vertex 2 is now the cheapest instead of the most expensive
     EXPECT_EQ(queue.best(), vertex(2));
-    queue.put(vertex(2), 1.5f, false);  // the vertex is in the middle again
-    queue.put(vertex(0), 1, true);      // the vertex is the cheapest, but marked as bad
+    queue.put(vertex(2), 1.5f, false);  // vertex 2 is now between vertices 0 and 1
+    queue.put(vertex(0), 1, true);      // vertex 0 is the cheapest, but its collapse is marked as bad
     EXPECT_EQ(emptied(queue), (std::vector<int>{2, 1, 0}));
 }
 

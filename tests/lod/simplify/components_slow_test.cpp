@@ -18,7 +18,7 @@ Mesh ballAndSlabs(std::uint32_t count, std::uint32_t holes, float size) {
 }
 
 // Small slabs with many handles need many triangles, but the ball keeps its shape in every level in which another part
-// has more triangles.
+// has more triangles than the ball.
 TEST(Components, ABallOutlastsSmallPartsOfManyHandles) {
     struct Scene {
         std::uint32_t count, holes;

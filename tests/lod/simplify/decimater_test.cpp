@@ -120,8 +120,8 @@ TEST(ShapeModule, leavesTheSpokesOfAHugeFanAlone) {
     EXPECT_GT(buildPyramid(fan(800)).levels.size(), 1u);
 }
 
-// The border between two materials stays in place, since no wedge (vertex with attributes) may take a vertex of another
-// material. In the test, a square of one material lies inside another material.
+// The border between two materials stays in place, since no face corner may get a wedge (vertex with attributes) of
+// another material. In the test, a square of one material lies inside another material.
 TEST(Decimater, leavesMaterialBordersToTheModules) {
     const Mesh grid = flatGrid(8);
     std::vector<std::vector<std::uint32_t>> primitives(2);

@@ -47,8 +47,8 @@ struct DrawnSurface {
     void collapse(std::uint32_t from, std::uint32_t to) { collapseEdge(simplifier, edge(from, to)); }
 };
 
-// Returns the faces that are not deleted as sorted triples of mesh vertices. Each triple starts with its smallest
-// vertex.
+// Returns the remaining faces in sorted order. A face is given by the mesh vertices at its corners, in winding order
+// from the lowest vertex index.
 inline std::vector<Face> drawnFaces(const SurfaceMesh& mesh) {
     std::vector<Face> faces;
     forEachFace(mesh, [&](FaceHandle handle) {

@@ -240,8 +240,8 @@ TEST(LevelFit, verticesThatNobodyNamesKeepTheirOwn) {
     EXPECT_EQ(fitted.normals[{4}], right);
 }
 
-// A twin is a second level vertex with the same position and normal. Its fitted normal depends only on the vertices
-// that it represents itself.
+// A twin is a vertex of a level with the same position and normal as another vertex of the level. The fitted normal of
+// the twin depends only on the vertices of level 0 that the twin itself represents.
 TEST(LevelFit, aTwinHasANormalOfItsOwn) {
     OneTriangle t = oneTriangle();
     for (std::size_t v = 0; v < t.vertices.normals.size(); ++v)

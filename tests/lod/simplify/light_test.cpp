@@ -43,8 +43,8 @@ TEST(MeanCosine, overAllLightsIsAQuarter) {
     }
 }
 
-// The mean cosine agrees with an integral over normals with a von Mises-Fisher distribution, whose mean normal is
-// known.
+// meanCosine() agrees with a numerical integral: the mean of the clamped cosine between the light direction and normals
+// that follow a von Mises-Fisher distribution with a known mean normal.
 TEST(MeanCosine, isAboutThatOfTheNormalsThatOneStandsFor) {
     constexpr int count = 400;
     for (const double narrowness : {4.0, 10.0, 40.0, 200.0}) {

@@ -59,8 +59,8 @@ TEST(SurfaceMesh, facesWoundAgainstTheOthersRunWithThem) {
 }
 
 // Two edges may join the same two vertices a and b. Four points p stand around the axis a–b at 0°, 170°, 180° and 350°.
-// Faces a–b–p join the points at 0° and 170° across one edge a–b, and the points at 180° and 350° across the other.
-// Faces of neighbouring points with a or b close the surface.
+// Faces a–b–p join the points at 0° and 170° across one edge a–b, and the points at 180° and 350° across the other. The
+// other faces join two neighbouring points p with a or b, and close the surface.
 TEST(SurfaceMesh, holdsTwoEdgesBetweenTwoVertices) {
     Vertices vertices;
     vertices.positions = {{0, 0, 1}, {0, 0, -1}};

@@ -72,7 +72,8 @@ TEST(WedgeModule, leavingASeamIsPoorWhereTheTextureJumps) {
     EXPECT_EQ(far.modules().wedges.judge(far.edge(4, 5)), Fit::poor);
     DrawnSurface near(tornGrid(0.5f), {together(leftTriangles, rightTrianglesOfSeam)});
     EXPECT_EQ(near.modules().wedges.judge(near.edge(4, 5)), Fit::good);
-    // Whether the texture jump is small or large, corners on the left can only use the surviving vertex.
+    // Corners to the left of the seam get vertex 5, the only vertex at the surviving position. Whether u jumps far or
+    // little across the seam makes no difference.
     near.collapse(4, 5);
     EXPECT_EQ(drawnFaces(near.mesh()),
               (std::vector<Face>{{0, 1, 5}, {0, 5, 3}, {2, 5, 9}, {3, 5, 7}, {3, 7, 6}, {5, 8, 11}}));
@@ -89,7 +90,8 @@ TEST(WedgeModule, drawingAVertexOfAnotherPrimitiveIsBad) {
 }
 
 // At the lower end of a crease, corners use the surviving vertex with the most similar normal. The crease runs upwards
-// from vertex 4; there, the right column has other normals. Below vertex 4, vertex 1 has a single normal.
+// from vertex 4, the centre of the grid: along it, the right column of quads has different normals from the left
+// column. Vertex 1, below vertex 4, has a single normal.
 TEST(WedgeModule, whereACreaseBeginsCornersTakeTheMostSimilarNormal) {
     for (const bool likeTheRight : {false, true}) {
         Vertices vertices = tornGrid(0);
@@ -105,9 +107,9 @@ TEST(WedgeModule, whereACreaseBeginsCornersTakeTheMostSimilarNormal) {
     }
 }
 
-// A wedge is a vertex with its attributes. After a collapse, the cost of the surviving vertex's wedge covers the faces
-// of both vertices: area times squared attribute difference. Three faces meet at vertex 5 and six at vertex 4; the two
-// faces at their common edge count twice.
+// A wedge is a vertex with its attributes. Its cost is summed over its faces: area times squared attribute difference.
+// After a collapse, the cost of the surviving vertex's wedge covers the faces of both vertices. Three faces meet at
+// vertex 5 and six at vertex 4, so the cost triples; the two faces at their common edge count twice.
 TEST(WedgeModule, theSurvivorsWedgeStandsForTheFacesOfBoth) {
     DrawnSurface surface(grid(), {together(leftTriangles, rightTriangles)});
     const WedgeTable& wedges = surface.mesh().wedges;
