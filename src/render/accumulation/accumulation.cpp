@@ -35,7 +35,9 @@ constexpr std::uint32_t maxSharedWave = 4;
 // batch in memory and frees this memory after each batch. The page faults of the next batch can take longer than
 // drawing it.
 constexpr std::uint64_t maxWaveTriangles = 400'000;
-constexpr std::uint64_t minWaveOfTriangles = 4;  // min samples per batch, because summing takes one pass per batch
+// maxWaveTriangles does not reduce a batch (wave) below this number of samples: each batch takes a pass that adds it to
+// the sum, so small batches are slow.
+constexpr std::uint64_t minWaveOfTriangles = 4;
 
 // Returns the max number of layers in memory, each the image of one sample: the number set by `limit` or by `options`,
 // else as many as fit into RendererOptions::waveBytes.
@@ -87,8 +89,9 @@ Image ofFirstPositions(Image drawn, int axis) {
     return result;
 }
 
-// When each sample's image is blurred by its lens cell, the part of the lens that the sample represents. The blur fills
-// gaps between samples. `automatic` decides by the size of the blur in the frame (automatic_cells.h).
+// Says when each sample's image is blurred as its lens cell would blur it. The cell is the part of the lens that the
+// sample represents, and the blur fills gaps between samples. With `automatic`, images are blurred if enough of the
+// frame has a large CoC (automatic_cells.h).
 enum class CellUse { never, always, automatic };
 
 class AccumulationRenderer final : public Renderer {
@@ -223,7 +226,7 @@ private:
         const bool same = sum_ && sum_->info() == info && drawnLayers_ == layers && countsSamples_ == countsSamples;
         if (!same) {
             layers_.reset();
-            sum_.reset();  // free the old buffers first: memory may not hold old and new buffers
+            sum_.reset();  // free the old buffers first: there may not be enough memory for both
             sum_.emplace(info);
             if (!layers.empty())
                 layers_.emplace(layers, countsSamples, glm::ivec2(info.width, info.height), options_.shaderFolder);
@@ -235,8 +238,9 @@ private:
 
     // Returns whether the environment is drawn into each sample's layer. A gradient or a single colour is usually
     // composited behind the layers when they are added to the sum. It must be drawn into the layers if it is visible
-    // through a transmitting surface, or if the layers' alpha marks blended surfaces for the blur by lens cells. If
-    // pixels need alpha, the environment is never drawn.
+    // through a transmitting surface. It must also be drawn if lens cells blur images with blended surfaces: an alpha
+    // above 1 marks these surfaces, so pixels of the environment need alpha 1. If the output needs alpha, the
+    // environment is never drawn.
     [[nodiscard]] bool drawsSky() const {
         const EnvironmentType type = scene_.world().environment.type;
         return !plan_.needsAlpha &&
@@ -252,8 +256,10 @@ private:
     CellUse cellUse_;
     GpuScene scene_;
     FramePlan plan_;
-    LensCells cells_;                  // lens cells of plan_; with 0 blur classes, samples' images are not blurred
-    std::uint32_t samplesBefore_ = 0;  // number of samples in the sum before those of plan_
+    // Parts of the lens that the samples of plan_ represent. cells_.classes() is 0 if the samples' images are not
+    // blurred.
+    LensCells cells_;
+    std::uint32_t samplesBefore_ = 0;  // number of samples that the sum contained before plan_
     FrameUniforms frame_;
     WaveShape shape_;
     std::optional<LayerSum> sum_;
@@ -264,7 +270,7 @@ private:
     mutable GpuTimer sumTimer_;
     RenderStats stats_;
     const WaveTargets* latest_ = nullptr;  // layers of the latest batch of samples
-    mutable WaveQueue waves_;              // last member, because its threads use the other members
+    mutable WaveQueue waves_;              // last member: its threads use the other members and must end first
 };
 
 }  // namespace

@@ -15,13 +15,17 @@ int tiles(int pixels) {
     return (pixels + tileSide - 1) / tileSide;
 }
 
-constexpr int maxDrawn = 7;  // max blur classes with a colour attachment; equals the max of drawnClasses in cells.glsl
+// Max number of blur classes (groups of pixels with similar blur) whose sums are colour attachments. Equals the max of
+// drawnClasses in shaders/include/cells.glsl.
+constexpr int maxDrawn = 7;
 
-// Side in px of the largest point sprites, a multiple of the side of the point sprites of any blur class.
+// blurInto() draws point sprites whose side depends on the blur class. This is the largest side in px of the image, a
+// multiple of all smaller sides.
 constexpr int largestPoint = 4 << (maxCellClasses - 1);
 
-// Returns the number of columns and rows of squares for blur class 0, whose squares have the size of a pixel. Squares
-// are centred on pixel corners, so there are more columns and rows than in the image.
+// Returns the columns and rows of the grid of squares over which blur class 0, the least blurred class, is averaged.
+// The squares of this class have the size of a pixel. They are centred on pixel corners, so the grid has more columns
+// and rows than the image.
 glm::ivec2 squaresOf(const TextureInfo& image) {
     const auto whole = [](int pixels) { return (pixels / largestPoint + 1) * largestPoint; };
     return {whole(image.width), whole(image.height)};
@@ -110,7 +114,8 @@ void CellSums::blurInto(const Target& target, const GlTexture& sum, float sample
         const bool isBehind = classIndex >= inFront_;
         const int k = isBehind ? classIndex - inFront_ : classIndex;
         const int side = 1 << k;
-        // A point sprite covers at least 4 x 4 pixels of the target, because drivers shade several pixels at a time.
+        // A point sprite covers at least 4 x 4 pixels of the target: drivers shade groups of several pixels, so smaller
+        // sprites would waste work.
         const int pointSide = std::max(tileSide, 4 * side);
         const int columns = squares_.x / pointSide;
         const int rows = squares_.y / pointSide;

@@ -1,7 +1,7 @@
 #pragma once
-// Sums the pixels of a block of 64 samples separately by blur class, and returns the block's image with each class
-// blurred. A blur class is a group of pixels with similar blur by the sample's lens cell, the part of the lens that the
-// sample represents (plan/lens_cells/lens_cells.h).
+// Sums the pixels of a block of 64 lens samples separately by blur class, and returns the block's image with each class
+// blurred. A blur class is a group of pixels that need a similar blur. This blur is that of the sample's lens cell, the
+// part of the lens that the sample represents (plan/lens_cells/lens_cells.h).
 //
 // The classes are composited from the farthest to the nearest: behind the focus plane from more to less blur, then
 // sharp pixels, then in front of the focus plane from less to more blur. Each class is averaged only over the samples
@@ -28,21 +28,23 @@ struct CellPasses {
 
 class CellSums {
 public:
-    // `blockSums`: two textures; each batch (wave) of samples reads the block's sum from one and writes it to the
-    // other. `cells` must have at least one blur class. `passes` must have been built for the same classes and must
-    // outlive this object.
+    // `blockSums`: two textures for the sum of the current block of samples; each batch (wave) of samples reads the sum
+    // from one texture and writes the new sum to the other. `cells` must have at least one blur class. `passes` must
+    // have been built for the same number of classes and must outlive this object.
     CellSums(const LensCells& cells, const GlTexture (&blockSums)[2], const CellPasses& passes);
 
-    // Returns the defines of shaders/accumulation/add_layers_to_cells.frag, which adds layers to the sums of the blur
-    // classes.
+    // Returns the defines of shaders/accumulation/add_layers_to_cells.frag, which adds layers (images of samples) to
+    // the sums of the blur classes.
     [[nodiscard]] const ShaderDefines& defines() const { return passes_->defines; }
-    // Binds the targets and textures for program `addLayers`, which writes the sums of the blur classes and the block's
-    // sum. `to`: index in `blockSums` of the texture that receives the block's sum.
+    // Binds the targets and textures for program `addLayers`. The program adds a batch of samples to the sums of the
+    // blur classes, which group pixels by blur, and to the sum of the current block of samples. `to`: index in
+    // `blockSums` of the texture that receives the block's sum.
     void bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur, bool startsBlock,
                        int to) const;
-    // Blurs the block's sum, each blur class by its own blur, and writes the result to `target`. Sets the target's
-    // second attachment, which holds rounding errors, to 0. `sum` is the block's sum without blur. The result is
-    // divided by `samples` if `samples` > 0, by the pixel's alpha if 0, and by nothing if negative.
+    // Blurs the sum of the current block of samples, each blur class by its own amount, and writes the result to
+    // `target`. Sets the target's second attachment, which holds rounding errors, to 0. `sum` is the block's sum
+    // without blur. The result is divided by `samples` if `samples` > 0, by the pixel's alpha (its number of samples)
+    // if 0, and by nothing if negative.
     void blurInto(const Target& target, const GlTexture& sum, float samples = -1);
     [[nodiscard]] bool fits(const LensCells& cells) const {
         return cells.inFront == inFront_ && cells.behind == behind_;
@@ -53,10 +55,14 @@ private:
     int inFront_;
     int behind_;
     const CellPasses* passes_;
-    GlTexture sums_;           // sums: one layer per blur class, in the order given in shaders/include/cells.glsl
-    Target addingTargets_[2];  // attachments: one of the block's two sums, then layers of sums_
-    GlTexture held_;           // per tile: bit mask of the blur classes in the tile
-    GlTexture spread_;         // per tile: bit masks of the blur classes whose means are read and written in the tile
+    GlTexture sums_;  // sums of the blur classes, one layer per class; see shaders/include/cells.glsl
+    // Framebuffers for adding a batch of samples. Attachment 0 is one of the two textures with the sum of the current
+    // block of samples; the other attachments are layers of sums_.
+    Target addingTargets_[2];
+    GlTexture held_;  // per tile of 8 x 8 px: bit mask of the blur classes in the tile
+    // Per tile, two bit masks of blur classes: classes whose means over squares of pixels are read in the tile, and
+    // classes whose means are written in the tile.
+    GlTexture spread_;
     Target spreadTarget_;
     // Means over squares of pixels, for each blur class. shownMeans_: visible radiance; openMeans_: number of samples
     // in which no nearer class covers the pixel. Layer 0 holds the classes in front of the focus plane, and layer 1 the

@@ -36,10 +36,12 @@ class LayerSum {
 public:
     explicit LayerSum(const LayerSumInfo& info);
 
-    // Clears the accumulation buffers. `first`: the layers' pixel that is added to the lower left pixel of the buffers.
+    // Clears the accumulation buffers. `first`: pixel of the layers that is added to the lower left pixel of the
+    // buffers.
     void reset(const glm::ivec2& first = {0, 0});
-    // Blurs all further blocks by lens cells, the parts of the lens that samples stand for. All samples so far must
-    // form complete blocks of 64. reset() turns the blur off.
+    // For all further blocks, blurs each sample's image as its lens cell, the part of the lens that the sample stands
+    // for, would blur it. All samples so far must form complete blocks of 64. Without blur classes in `cells`, nothing
+    // is blurred. reset() turns the blur off.
     void blurCells(const LensCells& cells);
     // Composites layers [0, count) over the environment and adds them to the sum. The layers contain samples [first,
     // first + count) of `frame`, which must be in one block of 64 samples.
@@ -51,7 +53,7 @@ public:
     // samples so far must form complete blocks. `block` is RGBA, has the size of the accumulation buffers and contains
     // 64 samples, or fewer if it is the frame's last block.
     void addBlock(const BlockSum& block);
-    // Computes the mean of all samples so far, at least one, unless the mean is already up to date.
+    // Computes the mean of all samples so far, unless it is already up to date. Needs at least one sample.
     void makeMean();
     // Returns the mean of all samples so far as RGBA. Needs at least one sample.
     [[nodiscard]] Image mean();
@@ -71,11 +73,13 @@ private:
         Target target[2];
         int current = 0;  // index of the copy with the latest values
     };
-    // Returns the index of the copy of block_ that holds the block's sum. If `asAdded` is true and lens cells are used,
-    // blurs the sum by the lens cells into the other copy and returns the other copy's index.
+    // Returns the index of the copy of block_ with the latest sum of the current block of samples. If `asAdded` is true
+    // and lens cells (parts of the lens, one per sample) are used, blurs the sum into the second copy and returns the
+    // index of this copy. The frame's sum contains blurred blocks.
     int latestBlock(bool asAdded);
     void addBlockTo(Sum& frame, int block, bool startsFrame);
-    // Writes copy `latest` of a sum to mean_, divided by `divisor`, or by the pixel's alpha if `divisor` is 0.
+    // Divides copy `latest` of a sum by `divisor`, or by the pixel's alpha (its number of samples) if `divisor` is 0.
+    // Writes the result to mean_.
     void divide(const Sum& total, int latest, float divisor);
 
     LayerSumInfo info_;
@@ -87,10 +91,11 @@ private:
     Target meanTarget_;
     // Programs that add layers to the sum, keyed by their defines, which may change from frame to frame.
     std::map<ShaderDefines, Program> addLayers_;
-    // Programs that blur by lens cells, keyed by the numbers of blur classes in front of and behind the focus plane.
+    // Programs that blur the sum of a block by the lens cells of its samples, keyed by the numbers of blur classes
+    // (groups of pixels with similar blur) in front of and behind the focus plane.
     std::map<std::pair<int, int>, CellPasses> cellPasses_;
-    // Kept after the latest block that was blurred by lens cells, because the next frame often has the same blur
-    // classes.
+    // Sums of the blur classes of the latest block that used lens cells. Kept because the next frame can reuse the
+    // textures if it has the same number of blur classes, as is often the case.
     std::optional<CellSums> cells_;
     bool blursCells_ = false;
     double cellBlur_ = 0;

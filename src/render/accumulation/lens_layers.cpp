@@ -248,8 +248,8 @@ void LensLayers::add(const WaveDataLayers& wave, const FrameUniforms& frame, std
 LayerImages LensLayers::images(const glm::dvec3& camera) const {
     LayerImages result;
     std::map<std::string, Image> sums;
-    // Channels of the depth layer's sum: depth, coverage, CoC, nearest depth. The last channel of the compensation
-    // texture is the number of samples (sum_layer.frag).
+    // Channels of the depth layer's sum: depth, coverage, CoC, nearest depth. The compensation texture contains the
+    // rounding errors of the first three sums; its last channel is the number of samples (sum_layer.frag).
     result.samples = Image(size_.x, size_.y, 1);
     std::ranges::fill(result.samples.pixels, static_cast<float>(samples_));
     for (const auto& [slot, sum] : slots_)

@@ -22,13 +22,13 @@ namespace defocus::engine {
 // colours also draws the data layers.
 class WaveDataLayers {
 public:
-    // `picture` holds the colours and depths of the batch (wave). `countsSamples`: true if the number of samples
-    // differs between pixels.
+    // `picture` holds the colours and depths of the batch (wave) of lens samples. `countsSamples`: true if the number
+    // of samples differs between pixels.
     WaveDataLayers(const std::vector<Layer>& layers, bool countsSamples, const WaveLayers& picture);
 
-    // Clears the data layers and binds them together with the colours and depths.
+    // Clears the data layers and binds them, together with the colours and depths, as the render target.
     void begin() const;
-    // Binds the data layers together with the colours and depths.
+    // Binds the data layers, together with the colours and depths, as the render target.
     void bind() const { target_.bind(); }
     // Returns the texture of an output of shaders/accumulation/layers.frag. `slot` is the output's macro, such as
     // "NORMAL_SLOT".
@@ -36,7 +36,7 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    std::map<std::string, GlTexture> textures_;  // textures of the outputs, keyed by macro
+    std::map<std::string, GlTexture> textures_;  // textures of the outputs, keyed by macro, such as "NORMAL_SLOT"
     Target target_;
 };
 
@@ -52,13 +52,14 @@ public:
     // sums over all samples.
     [[nodiscard]] static std::uint64_t layerBytes(const std::vector<Layer>& layers);
     [[nodiscard]] static std::uint64_t sumBytes(const std::vector<Layer>& layers);
-    // Returns whether the layers count objects or materials. If so, the surface pass writes their indices.
+    // Returns whether the layers include objects or materials, which count the samples of each object or material in a
+    // pixel. If so, the surface pass writes the indices of objects and materials.
     [[nodiscard]] static bool countNumbers(const std::vector<Layer>& layers);
 
     void reset() { samples_ = 0; }
     // Adds the data layers of samples [first, first + count); see LayerSum::add.
     void add(const WaveDataLayers& wave, const FrameUniforms& frame, std::uint32_t first, std::uint32_t count);
-    // Returns the means of all samples so far, at least one. `camera`: position of the camera in m.
+    // Returns the means of all samples so far. Needs at least one sample. `camera`: position of the camera in m.
     [[nodiscard]] LayerImages images(const glm::dvec3& camera) const;
     [[nodiscard]] const std::vector<Layer>& layers() const { return layers_; }
     // Returns the GPU times of the passes that add the layers.
@@ -78,7 +79,8 @@ private:
     };
 
     const Program& program(const char* fragment, ShaderDefines defines);
-    // Returns the output (slot) whose sum contains the coverage; all slots except NUMBER_SLOT have the same alpha.
+    // Returns the output (slot) whose sum contains the coverage, the sum of alpha. All slots except NUMBER_SLOT have
+    // the same alpha, so one of them suffices.
     [[nodiscard]] const std::string& coverageSlot() const;
     void addSlot(const std::string& slot, const GlTexture& layers, const FrameUniforms& frame, std::uint32_t first,
                  std::uint32_t count);
@@ -88,7 +90,7 @@ private:
     std::vector<Layer> layers_;
     glm::ivec2 size_;
     std::filesystem::path shaderFolder_;
-    std::map<std::string, SlotSum> slots_;  // sums of the outputs, keyed by macro
+    std::map<std::string, SlotSum> slots_;  // sums of the outputs of layers.frag, keyed by macro, such as "NORMAL_SLOT"
     std::map<Layer, Table> tables_;
     Target sums_;  // framebuffer of the summing passes, which never write its colour attachment
     GlTexture unused_;

@@ -26,7 +26,7 @@ void WaveDrawer::prepare(const WaveFrame& frame, std::size_t targets) {
     const bool sameTargets = sameFormat && !targets_.empty() && targets_.size() == targets &&
                              targets_.front().picture.info() == frame.layers;
     if (!sameTargets) {
-        targets_.clear();  // free the old layers first: memory may not hold old and new layers
+        targets_.clear();  // free the old layers first: there may not be enough memory for both
         targets_.reserve(targets);
         while (targets_.size() < targets) targets_.emplace_back(frame);
     }

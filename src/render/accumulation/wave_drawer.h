@@ -1,6 +1,6 @@
 #pragma once
-// Draws batches (waves) of lens samples in one OpenGL context. Owns the layers and all OpenGL objects that contexts
-// cannot share.
+// Draws batches (waves) of lens samples in one OpenGL context. Owns the layers, each the image of one sample, and all
+// OpenGL objects that contexts cannot share.
 
 #include <filesystem>
 #include <optional>
@@ -47,8 +47,8 @@ public:
     void prepare(const WaveFrame& frame, std::size_t targets);
     // Returns the draws for Occlusion::prepare, which must be called before draw() if hidden triangles are skipped.
     [[nodiscard]] std::vector<OccludableDraw> opaqueDraws() const { return surfaces_->opaqueDraws(); }
-    // Draws samples [first, first + count) into the layers with index `target`. Returns the number of hidden triangles
-    // that were skipped.
+    // Draws samples [first, first + count) into the set of layers with index `target`. Returns the number of hidden
+    // triangles that were skipped.
     std::uint64_t draw(std::uint32_t first, std::uint32_t count, std::size_t target, WaveVisibility visibility);
     void freeTargets() { targets_.clear(); }
     [[nodiscard]] const WaveTargets& target(std::size_t index) const { return targets_[index]; }

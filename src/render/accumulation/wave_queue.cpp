@@ -27,7 +27,8 @@ public:
         packaged();
         return packaged.get_future();
     }
-    // Returns the drawer. Outside tasks, only the drawer's layers (targets) may be used.
+    // Returns the drawer, which only tasks of run() may use. Only the drawer's layers (targets) may also be used
+    // elsewhere.
     [[nodiscard]] WaveDrawer& drawer() { return *drawer_; }
     [[nodiscard]] bool hasThread() const { return thread_ != nullptr; }
 
@@ -119,7 +120,7 @@ DrawnWave WaveQueue::next() {
             &laneOf(wave).drawer().target(wave % places / active_)};
 }
 
-// Passes batch (wave) number `wave` to the thread that draws it.
+// Passes batch (wave) number `wave` of the frame's samples to the thread that draws it.
 void WaveQueue::draw(std::uint32_t wave) {
     const std::uint32_t first = wave * shape_.samples;
     const std::uint32_t count =

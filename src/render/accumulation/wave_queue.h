@@ -16,10 +16,10 @@
 
 namespace defocus::engine {
 
-// Numbers of threads, batches (waves) and samples that are drawn at once.
+// Number of threads, number of batches (waves) of samples in memory, and number of samples per batch.
 struct WaveShape {
     std::uint32_t threads = 1;  // number of threads that draw; 1: only the caller's thread
-    std::uint32_t targets = 1;  // batches in memory per thread; with 2, a thread draws one while the other is summed
+    std::uint32_t targets = 1;  // batches in memory per thread; with 2, one batch is drawn while the other is summed
     std::uint32_t samples = 1;  // samples per batch, a power of two, at most blockSamples
     [[nodiscard]] std::uint32_t waves() const { return threads * targets; }
 };
@@ -51,7 +51,8 @@ public:
     // Returns GPU times of the frame's passes, summed over all threads. Waits for the batches that are being drawn.
     [[nodiscard]] std::vector<PassTime> times();
     void resetTimes();
-    [[nodiscard]] std::size_t bytes() const { return bytes_; }       // graphics memory of all threads, after prepare()
+    // Returns the bytes of graphics memory that all threads use. Needs a prepared frame.
+    [[nodiscard]] std::size_t bytes() const { return bytes_; }
     [[nodiscard]] std::uint32_t threads() const { return active_; }  // number of threads that draw the frame
     // Returns the number of layers in use by all threads.
     [[nodiscard]] std::uint32_t layers() const { return active_ * shape_.targets * shape_.samples; }
@@ -82,10 +83,12 @@ private:
     WaveFrame frame_;
     WaveShape shape_;
     std::vector<Place> places_;
-    std::uint32_t started_ = 0;                                  // number of batches that were passed to threads
-    std::uint32_t returned_ = 0;                                 // number of batches that next() has returned
-    std::shared_future<WaveVisibility::Value> blockVisibility_;  // visible triangles in the block of the latest batch
-    std::shared_ptr<std::atomic<bool>> abandoned_;               // set when the remaining batches are not needed
+    std::uint32_t started_ = 0;   // number of batches that were passed to threads
+    std::uint32_t returned_ = 0;  // number of batches that next() has returned
+    // Visible triangles, found by the occlusion test for the block of 64 samples that contains the latest batch.
+    std::shared_future<WaveVisibility::Value> blockVisibility_;
+    // Set when the remaining batches of samples are not needed.
+    std::shared_ptr<std::atomic<bool>> abandoned_;
     std::size_t bytes_ = 0;
 };
 

@@ -12,7 +12,7 @@ void Backdrop::take(const GlTexture& colors, std::uint32_t count, bool blurred) 
     const bool same = copy_ && now.format == info.format && now.width == info.width && now.height == info.height &&
                       now.layers == info.layers && now.levels == info.levels;
     if (!same) {
-        copy_ = GlTexture();  // free the old copy first: memory may not hold old and new copies
+        copy_ = GlTexture();  // free the old copy first: there may not be enough memory for both
         copy_ = GlTexture(info);
         copy_.sampling(blurred ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
     }

@@ -46,7 +46,8 @@ SumLevel halved(SumLevel& fine) {
 std::vector<std::uint8_t> cutOut(const TextureImage& image, float cutoff) {
     std::vector<SumLevel> levels = {shownTexels(image, cutoff)};
     while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(halved(levels.back()));
-    // From coarse to fine, give each square without visible texels the sum of the larger square that contains it.
+    // From coarse to fine, give each square without visible texels the colour sum and texel count of the next larger
+    // square that contains it.
     for (std::size_t i = levels.size() - 1; i-- > 0;)
         for (int y = 0; y < levels[i].height; ++y)
             for (int x = 0; x < levels[i].width; ++x)

@@ -19,7 +19,7 @@ namespace {
 constexpr double unlimitedBlur = 1e9;  // in image widths; not infinite, because infinity times 0 is NaN
 constexpr std::size_t maxConstantLights = 4;
 
-// Limits of the uniform blocks in shaders/include/frame.glsl and lighting.glsl.
+// Max size in bytes of the uniform blocks in shaders/include/frame.glsl and lighting.glsl.
 constexpr std::size_t everyDriversBlock = 16 << 10;  // every driver allows at least 16 KiB (GL_MAX_UNIFORM_BLOCK_SIZE)
 
 struct GpuLight {
@@ -59,7 +59,7 @@ GpuLight gpuLight(const PlacedLight& placed) {
             glm::vec4(-outer * scale, 0, 0, 0)};
 }
 
-// Returns the number of the type in the shaders.
+// Returns the number that stands for the environment type in the shaders.
 int environmentNumber(EnvironmentType type) {
     static_assert(static_cast<int>(EnvironmentType::map) == 3);
     return static_cast<int>(type);
@@ -219,10 +219,10 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     for (const SampleMoment& moment : plan.moments) moments.emplace_back(moment.moment, moment.fraction, moment.time);
     moments_ = moments.empty() ? Buffer() : Buffer::of(std::span<const glm::vec3>(moments));
 
-    // Compute the sky's offset per lens sample, in units of the image plane at distance 1. The circle of confusion is C
-    // = a + b·w at depth w, so C/w = b at infinity, and lens point and jitter shift the sky by a fixed offset. With
-    // blur modifiers, C/w depends on the pixel, and the shader multiplies it by the lens point. The buffer is padded to
-    // complete blocks, which are bound one at a time.
+    // Compute the sky's offset per lens sample, in units of the image plane at distance 1. The circle of confusion C at
+    // depth w is a + b·w without blur controls. Then C/w = b at infinity, and lens point and jitter shift the sky by a
+    // fixed offset. With blur controls, C/w depends on the pixel, and the shader multiplies it by the lens point. The
+    // buffer is padded to complete blocks, which are bound one at a time.
     const glm::vec2 imagePlane(plan.tanHalfHorizontal, plan.tanHalfHorizontal * plan.view.height / plan.view.width);
     const double dioptres = plan.coc.chromatic > 0 ? plan.view.lens.axialChromaticAberration : 0;
     std::vector<float> bandShifts(samples.size());
@@ -250,9 +250,9 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     waves_ = Buffer::of(std::span<const glm::vec4>(waves));
 }
 
-// Uploads SampleBlock of shaders/accumulation/layer_light.glsl for each block of samples: per sample, the colour
-// weights of its wavelength and the wavelength's change of b in the circle of confusion C = a + b·w (depth w); then the
-// lens points.
+// Uploads SampleBlock (shaders/accumulation/layer_light.glsl) for each block of samples. Each sample has the colour
+// weights of its wavelength, and the change that its wavelength causes in b. Here a + b·w is the circle of confusion at
+// depth w. The lens points of all samples follow.
 void FrameUniforms::uploadBands(const FramePlan& plan, const std::vector<float>& bandShifts) {
     bandShifts_ = Buffer();
     sampleBands_ = Buffer();

@@ -22,8 +22,8 @@ struct GpuSample {
 
 class FrameUniforms {
 public:
-    // Uploads the inputs of one frame. `layerCount` is K, the number of samples that are drawn together: sample i is
-    // drawn into layer (i mod 64) mod K.
+    // Uploads the inputs of one frame. `layerCount` is K, the number of samples that are drawn together: sample i of a
+    // block of 64 samples is drawn into layer i mod K.
     void upload(const World& world, const FramePlan& plan, std::uint32_t layerCount);
 
     // Returns the defines that shaders/include/frame.glsl and environment.glsl need for this frame.
@@ -34,10 +34,11 @@ public:
     // Binds only the uniforms that differ between batches (waves) of samples, for the batch that contains `sample`.
     void bindWave(std::uint32_t sample) const;
     [[nodiscard]] const Buffer& samples() const { return samples_; }
-    // Returns one SampleMoment (position in the exposure) per lens sample, as a vec3; empty if nothing moves.
+    // Returns one SampleMoment (time within the exposure) per lens sample, as a vec3: index of a shutter time,
+    // interpolation weight of the next shutter time, and time. Empty if nothing moves.
     [[nodiscard]] const Buffer& moments() const { return moments_; }
-    // Returns one float per lens sample: the change of b in the circle of confusion C = a + b·w (depth w) for the
-    // sample's wavelength. Empty without chromatic aberration.
+    // Returns one float per lens sample: the change that the sample's wavelength causes in b, where the circle of
+    // confusion at depth w is a + b·w. Empty without chromatic aberration.
     [[nodiscard]] const Buffer& bandShifts() const { return bandShifts_; }
     // Returns whether the weight of a sample differs between pixels. If so, the sum's alpha counts the samples of a
     // pixel.

@@ -207,7 +207,7 @@ GpuMorphs morphsOf(const Mesh& mesh, const Pyramid& pyramid, std::size_t vertexC
     return morphs;
 }
 
-// Meshes with the same attributes that will share buffers.
+// Meshes that have the same vertex attributes and will therefore share buffers.
 class Batch {
 public:
     void add(const World& world, const MeshUpload& upload) {

@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 struct GpuPoses {
     TexelBuffer texels;     // RGBA32F; empty if the object has a single matrix
-    glm::ivec4 layout{0};   // layout of the texels; value of GpuObject::posing
+    glm::ivec4 layout{0};   // counts that describe the texels; see Object::posing in shaders/include/frame.glsl
     std::size_t count = 1;  // number of poses
     bool skinned = false;
     bool moving = false;

@@ -1,8 +1,8 @@
 #pragma once
 // Uploads the uniform blocks of materials. Transforms of texture coordinates are only in the blocks of materials that
 // need them, because few materials do and the transforms are larger than all other values. The transforms are not in a
-// block of their own: added to the blocks of lights and shadows, such a block would exceed the limit of Mesa 22.3's
-// Vulkan driver (lavapipe).
+// block of their own: with the blocks of lights and shadows, a shader would then use more uniform blocks than Mesa
+// 22.3's Vulkan driver (lavapipe) allows.
 
 #include <array>
 #include <glm/vec4.hpp>

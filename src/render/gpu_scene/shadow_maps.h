@@ -44,7 +44,7 @@ private:
     Target target_;
 };
 
-// Returns the bytes of the shadow maps of one lens sample.
+// Returns the size in bytes of the shadow maps of one lens sample.
 std::uint64_t shadowMapBytes(const Scene& scene, const FramePlan& plan);
 
 }  // namespace defocus::engine

@@ -21,8 +21,8 @@ struct GpuObject {
     glm::vec2 levels;
 };
 
-// Returns the uniforms of each object of the plan, whose meshes `scene` must hold. Sets `poses` to one entry per
-// object.
+// Returns the uniforms of each object of the plan. `scene` must hold the meshes of these objects. Sets `poses` to one
+// entry per object.
 std::vector<GpuObject> objectUniforms(const FramePlan& plan, const GpuScene& scene, std::vector<GpuPoses>& poses);
 // Sets the uniforms of an object in the current program.
 void setObject(const GpuObject& object);

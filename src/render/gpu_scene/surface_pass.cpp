@@ -111,8 +111,8 @@ void SurfacePass::addDraws(const FramePlan& plan) {
     }
 }
 
-// Adds the draws of a primitive. If `run` lists triangles of one level, adds only these, and appends their indices to
-// `partIndices`.
+// Adds the draw calls of a primitive. If `run` lists triangles of one level, draws only these triangles, and appends
+// their indices to `partIndices`.
 void SurfacePass::addPrimitive(const FramePlan& plan, const BlendRun& run, std::vector<std::uint32_t>& partIndices) {
     const ObjectPlan& object = plan.objects.at(run.object);
     const Mesh& mesh = scene_->world().scene->meshes[static_cast<std::size_t>(object.mesh)];

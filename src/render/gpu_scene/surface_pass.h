@@ -25,11 +25,11 @@ struct SurfacePassInfo {
     SurfaceLook look = SurfaceLook::seenThrough;
     // true: surfaces with BlendRun::stochastic are drawn with stochastic alpha; false: they are sorted and blended.
     bool stochasticAlpha = false;
-    bool readsOwnBlur = false;       // the fragment shader reads the blur modifiers of surfaces
-    bool readsPosition = false;      // the fragment shader reads the positions of surfaces even without shadows
+    bool readsOwnBlur = false;       // true: the fragment shader reads the blur modifiers of surfaces
+    bool readsPosition = false;      // true: the fragment shader reads the positions of surfaces even without shadows
     bool vertexShaderLayers = true;  // false: geometry shaders select the layer
-    bool writesLayers = false;       // the fragment shader is accumulation/layers.frag
-    bool writesNumbers = false;      // the fragment shader reads the material's index
+    bool writesLayers = false;       // true: the fragment shader is accumulation/layers.frag
+    bool writesNumbers = false;      // true: the fragment shader reads the material's index
     std::filesystem::path shaderFolder;
 };
 
@@ -41,8 +41,9 @@ public:
     SurfacePass(const GpuScene& scene, SubmissionPacer& pacer, SurfacePassInfo info)
         : scene_(&scene), pacer_(&pacer), info_(std::move(info)) {}
 
-    // Prepares the draws and programs of `plan`. `shadows`: shadow maps of the plan, which lit surfaces read and
-    // SurfaceLook::caster draws; null without shadows. `frame` and `shadows` must exist until the last draw.
+    // Prepares the draws and programs of `plan`. `shadows`: shadow maps of the plan; null without shadows. Lit surfaces
+    // read the maps, and a pass with SurfaceLook::caster draws them. `frame` and `shadows` must exist until the last
+    // draw.
     void prepare(const FramePlan& plan, const FrameUniforms& frame, const ShadowMaps* shadows = nullptr);
     // Draws the opaque, alpha-tested and stochastically transparent surfaces of samples [first, first + count), front
     // to back.
@@ -75,17 +76,17 @@ public:
     void drawCasters(std::uint32_t first, std::uint32_t count, int slot, bool tinted);
     // Draws all surfaces without depth test and adds each fragment to the target by blending.
     void drawTouched(std::uint32_t first, std::uint32_t count);
-    // Draws the environment into pixels without a surface. LayerSum composites environments other than maps when it
-    // adds layers.
+    // Draws the environment into pixels without a surface. This is needed for environment maps; LayerSum can composite
+    // other environments when it adds layers (images of samples).
     void drawSky(std::uint32_t first, std::uint32_t count);
 
     [[nodiscard]] std::size_t bytes() const;
 
 private:
     enum class ScreenDoor {
-        open,         // all pixels draw the same level of detail
-        coarseShare,  // draws the coarser level's pixels in a boundary sample, which mixes two levels
-        fineShare,    // draws the finer level's pixels in a boundary sample
+        open,         // every pixel shows this level of detail
+        coarseShare,  // for a sample that mixes two levels: draws the pixels that show the coarser level
+        fineShare,    // for a sample that mixes two levels: draws the pixels that show the finer level
     };
 
     struct Draw {  // one primitive of an object at one level of detail
@@ -171,7 +172,7 @@ private:
     std::map<int, std::size_t> materialSlots_;
     std::vector<Draw> opaque_;
     std::vector<Draw> dissolved_;  // draws of stochastically transparent parts of primitives
-    Buffer partIndices_;           // indices of BlendRun::triangles
+    Buffer partIndices_;           // vertex indices of the triangles in BlendRun::triangles
     bool marksBlended_ = false;
     std::vector<Draw> translucent_;  // draws of sorted alpha-blended or transmitting surfaces, farthest first
     std::size_t transmittingObjects_ = 0;

@@ -11,10 +11,14 @@ namespace defocus::engine {
 
 namespace {
 
-// Max distance in px between a blurred point's images in neighbouring samples with four pixel positions each.
+// Max distance in px between a blurred point's images in neighbouring lens samples, if each sample is drawn at four
+// subpixel positions.
 constexpr double gapOfPositions = 1.25;
-constexpr double payingTriangles = 0.1;  // min triangles per pixel and sample at which four pixel positions save time
-// Max side in px of images with four pixel positions per sample, whose layers are twice as wide and high.
+// Min triangles per pixel in each sample at which drawing a quarter of the samples, at four subpixel positions each,
+// saves time.
+constexpr double payingTriangles = 0.1;
+// Max side in px of images that are drawn at four subpixel positions per sample. Their layers are twice as wide and
+// high as the image.
 constexpr int maxDoubledSide = 4096;
 constexpr double maxDoubledPixels = 4 << 20;
 constexpr std::uint32_t minSpread = 64;  // min samples for smooth penumbrae and motion blur
@@ -25,7 +29,7 @@ std::uint32_t wholeCount(std::uint32_t samples) {
                                    : (samples + blockSamples - 1) / blockSamples * blockSamples;
 }
 
-// Limits of a number of samples.
+// Limits on the automatically chosen number of samples.
 struct SampleLimits {
     std::uint32_t min;  // min number of samples
     double gap;         // max distance in px between a blurred point's images in neighbouring samples
@@ -33,8 +37,8 @@ struct SampleLimits {
 
 struct QualityLimits {
     double flip;             // target error, as FLIP
-    SampleLimits first;      // for the first number of samples of frames whose error is then estimated
-    SampleLimits unchecked;  // for frames whose error is not estimated while they are drawn
+    SampleLimits first;      // initial number of samples, if the error is then estimated and more can be added
+    SampleLimits unchecked;  // number of samples, if the error is not estimated while the frame is drawn
 };
 
 QualityLimits limitsOf(Quality quality) {
@@ -105,7 +109,8 @@ bool fourPositionsSuffice(const FramePlan& plan, double samples) {
     const double pixels = static_cast<double>(plan.view.width) * plan.view.height;
     const bool fits = std::max(plan.view.width, plan.view.height) <= maxDoubledSide && pixels <= maxDoubledPixels;
     const double triangles = static_cast<double>(plan.trianglesDrawn) / static_cast<double>(plan.samples.size());
-    // Distance in px between a blurred point's images in neighbouring samples, for a quarter of the samples.
+    // Distance in px between a blurred point's images in neighbouring samples, if only `samples` / 4 samples are drawn,
+    // with four subpixel positions each.
     const double gap = plan.largestBlur * std::sqrt(std::numbers::pi / samples);
     return onlyLens && fits && triangles >= payingTriangles * pixels && gap <= gapOfPositions;
 }

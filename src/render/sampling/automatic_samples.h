@@ -20,37 +20,41 @@ double flipOf(Quality quality);
 // least 64. Objects that extend to the near plane have unbounded blur and are ignored, as is blur above
 // largestSampledBlur().
 std::uint32_t firstSamples(const FramePlan& plan, Quality quality);
-// Returns the number of samples to begin with for a largest blur diameter of `blur` px, without shadow maps or motion.
+// Returns the number of samples to begin with for a scene without shadow maps or motion whose largest blur diameter is
+// `blur` px.
 std::uint32_t firstSamples(double blur, Quality quality);
 
-// Returns whether `samples` / 4 lens samples with four pixel positions each can replace `samples` with one position,
+// Returns whether `samples` / 4 lens samples with four subpixel positions each can replace `samples` with one position,
 // and save time. They can if the images of a blurred point in neighbouring lens samples are then at most 1.25 px apart,
 // and if nothing else differs between samples: shadows, motion, wavelengths, refraction and stochastic transparency
 // need the larger number of samples. They save time if a sample draws at least one triangle per ten pixels. Images
-// above 4,096 px a side or 4 megapixels have one position, because the layers would take too much memory.
+// above 4,096 px a side or 4 megapixels have one position, because with four positions, the images of the samples would
+// take too much memory.
 bool fourPositionsSuffice(const FramePlan& plan, double samples);
 
-// Returns `settings` with a number of samples, a power of two up to 64 or complete blocks of 64, that gives about the
-// quality of `samples` samples with one pixel position each. With four positions, the number is a quarter. Four
-// positions are set if `choosesPositions` and fourPositionsSuffice(); an error estimate must then show whether the
-// samples suffice. `plan` is a plan of the frame with any number of samples.
+// Returns `settings` with the number of samples that gives about the quality of `samples` samples drawn at one subpixel
+// position each. The number is a power of two up to 64, or a multiple of 64. If each sample is drawn at four positions,
+// a quarter of the samples is enough. Four positions are set if `choosesPositions` is true and fourPositionsSuffice()
+// returns true; an error estimate must then show whether the samples suffice. `plan` is a plan of the frame with any
+// number of samples.
 RenderSettings withSamples(RenderSettings settings, const FramePlan& plan, double samples, bool choosesPositions);
 
 // Returns the number of samples of a frame whose error cannot be estimated before it is complete, such as a frame in
 // tiles. The number is computed as in firstSamples(), but it is at least 16 (draft), 32 (good) or 64 (fine), and the
-// distance between points is at most 3.5, 2 or 1.4 px.
+// images of a blurred point in neighbouring samples are at most 3.5, 2 or 1.4 px apart.
 std::uint32_t samplesForBlur(const FramePlan& plan, Quality quality);
 
 // Returns the blur diameter in px at which the blur disk has maxAutomaticSamples times the area of the image. In wider
-// disks, on average fewer than one of that many samples shows a blurred point inside the image.
+// disks, on average fewer than one of maxAutomaticSamples samples shows a blurred point inside the image.
 double largestSampledBlur(const FramePlan& plan);
 
-// Returns whether an object has a bounded blur that exceeds largestSampledBlur(). More samples then barely improve the
-// image, because few of them, if any, show a point with that much blur.
+// Returns whether the largest blur of an object is finite and exceeds largestSampledBlur(). More samples then barely
+// improve the image, because few of them, if any, show a point with that much blur.
 bool blursBeyondSamples(const FramePlan& plan);
 
-// Returns the largest blur diameter in px of the plan's objects with bounded blur; 0 without such objects. Blur above
-// largestSampledBlur() is ignored, because even maxAutomaticSamples lens samples do not resolve it.
+// Returns the largest blur diameter in px of the plan's objects that do not extend to the near plane; 0 without such
+// objects. Objects with blur above largestSampledBlur() are ignored, because even maxAutomaticSamples lens samples do
+// not resolve it.
 double largestBoundedBlur(const FramePlan& plan);
 
 }  // namespace defocus::engine

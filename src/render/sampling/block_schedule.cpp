@@ -13,17 +13,18 @@ namespace {
 // Max error of levels of detail, relative to the intended error. The total error is then at most √(1 + 0.5²) = 1.12
 // times the intended error.
 constexpr double levelShare = 0.5;
-// If the error of levels of detail is unknown, the level thresholds are the defaults for this many times the expected
-// samples.
+// If the error of levels of detail is unknown, levels are selected with the default thresholds for this many times the
+// expected number of samples. More samples mean finer levels, and thus a smaller unknown error.
 constexpr double withoutLevelError = 4;
 constexpr double blockTolerance = 0.7;  // seconds after the time limit at which an unfinished block is stopped
 constexpr double maxThresholdSamples = 1e8;
 constexpr double maxLevelPower = 1.4;
 // Sample count of the first error estimate, which needs two blocks.
 constexpr std::uint32_t firstEstimate = 2 * blockSamples;
-// An estimate from the halves of a block is too large by this factor. The first half draws more coarse levels than the
-// second half, and the lens cells of the first half (one part of the lens per sample) are not centred on the lens.
-// Measured: 1.3 (school of fish) and 2.0 (bokeh).
+// An error estimate after one block compares the image of the first half of the block with the image of the whole
+// block. It is too large by this factor, for two reasons. The first half draws coarse levels more often than the second
+// half. Its lens cells (one part of the lens per sample) are not centred on the lens. Measured factors: 1.3 (school of
+// fish) and 2.0 (bokeh). The smaller one is used so that the error is not underestimated.
 constexpr double excessWithinBlock = 1.3;
 
 // Returns `samples` rounded up to complete blocks.
@@ -49,7 +50,8 @@ const char* stopReasonText(StopReason reason) {
 
 double LevelError::at(double thresholdSamples) const {
     if (!(atCoarse > 0)) return 0;
-    // If thresholds are set explicitly, both measurements are equal, and the exponent is 0.
+    // If the user sets the level-of-detail thresholds, both measurements draw the same levels: atCoarse and atFine are
+    // equal, and the exponent is 0.
     const double measured = std::log(atCoarse / std::max(atFine, 1e-9)) / std::log(double{fine} / coarse);
     return atCoarse * std::pow(coarse / thresholdSamples, std::clamp(measured, 0.0, maxLevelPower));
 }
@@ -84,7 +86,8 @@ std::uint32_t BlockSchedule::expectedSamples() const {
     return std::min(stop_.sampleLimit, wholeBlocks(std::clamp(expected_, std::min(samples_ + 1.0, max), max)));
 }
 
-// Returns the sample count whose default level-of-detail thresholds the next block uses.
+// Returns the sample count whose default level-of-detail thresholds the next block uses. More samples mean finer
+// levels.
 double BlockSchedule::thresholdSamples() const {
     const double expected = expectedSamples();
     if (targetFlip_) return expected;
@@ -95,8 +98,8 @@ double BlockSchedule::thresholdSamples() const {
     return levels_->samplesFor(levelShare * *aim, expected);
 }
 
-// Returns the total error for a sampling error, given the mean error of levels of detail so far. The two errors are
-// assumed to be independent.
+// Returns the total error: the sampling error `sampleError` combined with the mean error of levels of detail in the
+// blocks so far. The two errors are assumed to be independent.
 double BlockSchedule::withLevels(double sampleError) const {
     return std::hypot(sampleError, levelErrorSum_ / std::max(samples_, 1u));
 }
@@ -120,20 +123,22 @@ std::optional<double> BlockSchedule::estimatedFlip() const {
     return flip && estimate_.samples() == blockSamples ? *flip / excessWithinBlock : flip;
 }
 
-// Predicts the final number of samples from the latest estimate, and chooses when the next estimate is due.
+// Predicts the final number of samples from the latest error estimate, and chooses the number of samples at which the
+// error is estimated next.
 void BlockSchedule::predict() {
     if (targetFlip_) {
         if (const double flip = estimatedFlip().value_or(0); flip > 0)
             expected_ = samples_ * std::pow(flip / *targetFlip_, 1 / lensSampleExponent);
     } else if (const double error = estimate_.error().value_or(0); stop_.targetError && error > 0) {
-        // The squares of the sampling error and of the error of levels of detail sum to the square of the target.
-        // The sampling error is allowed to be at least 44 % of the target.
+        // The squares of the sampling error and of the error of levels of detail sum to the square of the target. The
+        // error of levels counts as at most 90 % of the target, so at least √(1 − 0.9²) = 44 % is left for the sampling
+        // error.
         const double levels = std::min(withLevels(0), 0.9 * *stop_.targetError);
         const double aim = std::sqrt(*stop_.targetError * *stop_.targetError - levels * levels);
         expected_ = samples_ * std::pow(error / aim, 1 / lensSampleExponent);
     }
-    // The next estimate is at 80 % of the expected samples, but at most at twice the present samples, because an
-    // estimate compares images with about n/2 and n samples.
+    // The error is next estimated at 80 % of the expected final number of samples, but no later than at twice the
+    // current number, because an estimate after n samples needs an earlier image of about n/2 samples.
     const bool aims = targetFlip_ || stop_.targetError;
     const double due = aims ? std::clamp(0.8 * expected_, samples_ + 1.0, 2.0 * samples_) : 2.0 * samples_;
     nextEstimate_ = wholeBlocks(due);

@@ -5,8 +5,9 @@
 //
 // The error of levels of detail cannot be estimated from differences between blocks that draw the same levels. It is
 // therefore measured before the first block (LevelError). The thresholds that select levels are chosen so that this
-// error is less than half the intended error: the target, or the error at the expected number of samples. Without this
-// measurement, thresholds are the defaults for four times the expected samples.
+// error is less than half the intended error. The intended error is the target error, or the error predicted for the
+// expected number of samples if this is larger or there is no target. Without the measurement, the thresholds are the
+// defaults for four times the expected number of samples, which select finer levels.
 
 #include <functional>
 #include <optional>
@@ -20,18 +21,19 @@ namespace defocus::engine {
 // Returns a description such as "the estimated error is below the target".
 const char* stopReasonText(StopReason reason);
 
-// RMSE of levels of detail, as in ErrorEstimate: the difference between images with levels and at full detail, for the
-// same few lens samples. The levels depend on the default thresholds for a sample count. The RMSE is modelled as a
-// power law in that count, fitted to two measurements.
+// RMSE that levels of detail cause, as in ErrorEstimate: the difference between images with levels and at full detail,
+// for the same few lens samples. The default thresholds that select levels depend on the number of samples for which a
+// frame is planned. The RMSE is modelled as a power law in this number, fitted to two measurements.
 struct LevelError {
     static constexpr std::uint32_t drawn = 16;    // lens samples drawn for each measurement
-    static constexpr std::uint32_t coarse = 128;  // sample count whose default thresholds apply to `atCoarse`
-    static constexpr std::uint32_t fine = 2048;   // sample count whose default thresholds apply to `atFine`
-    double atCoarse = 0;                          // measured RMSE, with the thresholds for `coarse` samples
-    double atFine = 0;                            // measured RMSE, with the thresholds for `fine` samples
+    static constexpr std::uint32_t coarse = 128;  // sample count whose default thresholds are used for `atCoarse`
+    static constexpr std::uint32_t fine = 2048;   // sample count whose default thresholds are used for `atFine`
+    double atCoarse = 0;                          // RMSE with the level-of-detail thresholds for `coarse` samples
+    double atFine = 0;                            // RMSE with the level-of-detail thresholds for `fine` samples
 
     [[nodiscard]] double at(double thresholdSamples) const;
-    // Returns the smallest sample count, at least `min`, whose default thresholds give an RMSE of at most `error`.
+    // Returns the smallest sample count, at least `min`, whose default level-of-detail thresholds give an RMSE of at
+    // most `error`.
     [[nodiscard]] double samplesFor(double error, double min) const;
 };
 
@@ -85,8 +87,9 @@ private:
     StopSettings stop_;
     std::optional<LevelError> levels_;
     std::optional<double> targetFlip_;  // target FLIP for an automatic number of samples
-    double levelErrorSum_ = 0;          // sum of the blocks' level errors, weighted by their samples
-    ErrorEstimate estimate_;            // estimate of the sampling error, without the level error
+    // Sum over all blocks of the error that levels of detail cause, times the block's number of samples.
+    double levelErrorSum_ = 0;
+    ErrorEstimate estimate_;  // estimate of the sampling error, without the error of levels of detail
     std::uint32_t samples_ = 0;
     std::uint32_t nextEstimate_ = 0;  // sample count at which the error is estimated next
     double expected_ = 0;             // expected final sample count, not rounded

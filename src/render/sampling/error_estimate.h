@@ -23,9 +23,9 @@
 
 namespace defocus::engine {
 
-// Exponent a for lens samples. The exponent is 0.5 for random points, and 0.75 for straight edges with well distributed
-// points. The mean measured over four sequences and three scenes, from 64 to 1,024 samples, is 0.59
-// (bench/results/llvmpipe-sequences.txt).
+// Exponent a for lens samples: the error of n samples is proportional to n^(−a). The exponent is 0.5 for random points,
+// and 0.75 for straight edges with well distributed points. The mean measured over four sequences and three scenes,
+// from 64 to 1,024 samples, is 0.59 (bench/results/llvmpipe-sequences.txt).
 inline constexpr double lensSampleExponent = 0.6;
 
 // Returns the expected ratio of RMS differences |M(n) − truth| / |M(n) − M(m)|, where M(k) is the mean of the first k
@@ -36,8 +36,8 @@ double errorOverDifference(double m, double n, double exponent = lensSampleExpon
 // ErrorEstimate::error.
 double encodedDifference(const ImageView& a, const ImageView& b);
 
-// FLIP of an image with a small error, relative to the mean absolute difference of its display-encoded values. Measured
-// over 16 scenes and 16 to 256 samples: 4.5 to 11, and 7.5 in the median.
+// Ratio of an image's FLIP to the mean absolute error of its display-encoded values, for small errors. Measured over 16
+// scenes and 16 to 256 samples: 4.5 to 11, median 7.5.
 inline constexpr double flipOverDifference = 7.5;
 
 class ErrorEstimate {

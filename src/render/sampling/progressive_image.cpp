@@ -71,12 +71,12 @@ void ProgressiveImage::planBlock() {
     plan_ = withAllLevels(planFrame(*world_, view_, settings));
 }
 
-// Ends the block and returns whether another block follows.
+// Ends the current block of samples and returns whether another block follows.
 bool ProgressiveImage::endBlock() {
     ++block_;
     if (schedule_) return schedule_->endBlock(plan_, 0, [this] { return renderer_->image(); });
-    // A block has fewer than 64 samples if nothing is blurred or the method uses no lens samples. Such a block is the
-    // last.
+    // A block with fewer than 64 samples is always the last block: nothing is blurred, or the method uses no lens
+    // samples.
     return block_ < blocks_ && usesLensSamples_ && plan_.samples.size() >= blockSamples;
 }
 

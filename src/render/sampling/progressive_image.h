@@ -13,11 +13,12 @@ namespace defocus::engine {
 
 class ProgressiveImage {
 public:
-    // `world` must outlive this object; its pose may change between frames. grow() draws options.wave samples together
-    // (0: 4); a small number helps grow() to keep its time limit. Needs a current OpenGL context.
+    // `world` must outlive this object; its pose may change between frames. grow() draws options.wave samples together,
+    // 4 if it is 0; a small number helps grow() to stay within its time limit. Needs a current OpenGL context.
     ProgressiveImage(const World& world, const MethodUse& use, const RendererOptions& options);
 
-    // Both functions draw a complete frame, with settings.sampleCount samples or with the samples of `plan`.
+    // Draws a complete frame, with settings.sampleCount samples (first overload) or the samples of `plan` (second
+    // overload).
     void drawFrame(const View& view, const RenderSettings& settings);
     void drawFrame(FramePlan plan);
 

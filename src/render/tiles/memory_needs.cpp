@@ -16,9 +16,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::uint64_t programBytes = 80u << 20;     // bytes of a software driver's compiled programs
-constexpr std::uint64_t contextBytes = 144u << 20;    // bytes of a thread: programs and pending triangles, measured
-constexpr std::uint64_t outputBytes = 16u << 20;      // bytes of the libraries that write the image, measured
+constexpr std::uint64_t programBytes = 80u << 20;  // memory of a software driver's compiled shaders, bytes
+// Memory of a drawing thread in bytes, measured: compiled shaders, and triangles that the driver has not yet drawn.
+constexpr std::uint64_t contextBytes = 144u << 20;
+constexpr std::uint64_t outputBytes = 16u << 20;      // memory of the libraries that write the image, bytes, measured
 constexpr std::uint64_t occlusionTriangleBytes = 12;  // bytes per triangle for the occlusion test, measured
 
 std::uint64_t threeQuarters(std::uint64_t bytes) {
@@ -105,8 +106,9 @@ void reserve(TilingNeeds& needs, std::uint64_t bytes) {
     needs.hostMemory = needs.deviceMemory = remainder(needs.hostMemory, bytes);
 }
 
-// Returns how many of `wanted` threads can draw. The first thread needs none of `bytes`; the others must fit into half
-// of `bytes`. `layer`: bytes of a layer.
+// Returns how many of `wanted` threads can draw. The first thread needs none of `bytes`. Each further thread needs a
+// context and two layers (images of one sample each), and all of them must fit into half of `bytes`. `layer`: size of a
+// layer in bytes.
 std::uint32_t threadsIn(std::uint64_t bytes, std::uint64_t layer, std::uint32_t wanted) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, 1 + bytes / 2 / (contextBytes + 2 * layer)));
 }
@@ -187,7 +189,8 @@ TilingNeeds measuredNeeds(const World& world, const FramePlan& plan, const DrawL
     static_cast<void>(renderer.image());  // drivers may keep layers until the result is read
     const std::uint64_t uploaded = remainder(renderer.stats().peakBytes, drawn);
     TilingNeeds needs = currentNeeds(world, plan, limits, limit, drawn, uploaded);
-    if (needs.shared) reserve(needs, remainder(sceneBytes(world, plan), uploaded));  // memory of objects not in `trial`
+    // Reserve memory for the objects outside the trial tile, which are not yet uploaded.
+    if (needs.shared) reserve(needs, remainder(sceneBytes(world, plan), uploaded));
     return needs;
 }
 

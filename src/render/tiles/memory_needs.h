@@ -13,27 +13,27 @@ namespace defocus::engine {
 
 // Limits that a request sets on memory, on samples drawn together and on threads.
 struct DrawLimits {
-    std::optional<std::uint64_t> memory;  // max bytes of the process; nullopt: 3/4 of the free memory
+    std::optional<std::uint64_t> memory;  // max memory of the process in bytes; nullopt: see memoryLimit()
     std::uint32_t wave = 0;               // lens samples drawn together; 0: as many as fit into memory
     LayerFormat layerFormat = LayerFormat::automatic;
     std::optional<std::uint32_t> threads = {};  // threads that draw; see wantedThreads()
 };
 
-// Returns the max bytes of the process: limits.memory, or its present memory plus 3/4 of the free memory.
+// Returns the max memory of the process in bytes: limits.memory, or its current memory use plus 3/4 of the free memory.
 std::uint64_t memoryLimit(const DrawLimits& limits);
 
 // Returns the number of threads that draw if memory suffices; 1 with drivers that cannot draw in several threads. Needs
 // a current OpenGL context if the method uses threads.
 std::uint32_t wantedThreads(const DrawLimits& limits, const Method& method);
 
-// Returns RendererOptions::waveBytes for a frame without tiles: the default for each of `threads` threads, or a quarter
-// of the memory still available within `limit` if this is less.
+// Returns RendererOptions::waveBytes for a frame without tiles: the smaller of `threads` times the default and a
+// quarter of the memory still available within `limit`.
 std::uint64_t waveBytesWithin(std::uint64_t limit, std::uint32_t threads);
 
-// Returns how many of `wanted` threads fit into half of the memory that a frame of one thread leaves free. The context
-// and layers of each further thread take memory.
+// Returns how many threads, at most `wanted`, fit into half of the memory that remains when one thread draws the frame.
+// Each further thread needs memory for its context and layers.
 std::uint32_t threadsWithin(const TilingNeeds& needs, std::uint32_t wanted);
-// Returns the number of threads that fit. The frame must be one that surelyFits() accepts.
+// Returns the number of threads, at most `wanted`, that fit. The frame must be one that surelyFits() accepts.
 std::uint32_t threadsWithin(int width, int height, std::uint64_t limit, std::uint32_t wanted);
 
 // Subtracts the memory of the contexts of `threads` threads from the available memory.
@@ -47,11 +47,12 @@ std::uint64_t pendingBytesWithin(std::uint64_t limit);
 // the result of needsBeforeUpload().
 std::uint32_t waveWithin(const TilingNeeds& needs);
 
-// Returns the needs of the full frame before its scene is uploaded. With software drivers, they include meshes and
-// textures, which are in main memory. Needs a current OpenGL context.
+// Returns the memory needs of the full frame before its scene is uploaded. With software drivers, they include meshes
+// and textures, which are in main memory. Needs a current OpenGL context.
 TilingNeeds needsBeforeUpload(const World& world, const FramePlan& plan, const DrawLimits& limits, std::uint64_t limit);
 
-// Draws one row of the frame, which uploads the scene and compiles shaders, and returns the needs measured afterwards.
+// Draws one row of pixels, so that the scene is uploaded and the shaders are compiled. Returns the frame's memory
+// needs, measured afterwards.
 TilingNeeds measuredNeeds(const World& world, const FramePlan& plan, const DrawLimits& limits, Renderer& renderer,
                           std::uint64_t limit);
 

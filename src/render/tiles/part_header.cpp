@@ -55,7 +55,8 @@ Share parseTileShare(std::string_view text) {
 
 std::string settingsDifference(const Metadata& first, const Metadata& second) {
     static constexpr std::string_view prefix = "defocus:";
-    // Attributes that describe a part, and thresholds, which by default follow from other settings.
+    // Attributes that are not reported as differing settings: attributes that describe a part instead of the frame, and
+    // thresholds, which by default follow from other settings.
     static constexpr std::string_view ignored[] = {"settings", "firstSample",   "endSample",     "seconds",
                                                    "device",   "blurThreshold", "sizeThreshold", "lightThreshold"};
     constexpr int maxNamed = 3;

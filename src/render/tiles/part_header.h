@@ -37,7 +37,7 @@ void checkSampleRange(const SampleRange& range, std::uint32_t samples);
 Share parseTileShare(std::string_view text);
 
 // Returns the settings that differ between two parts' metadata, such as "seed is 0 and 1": at most three, separated by
-// commas. Returns "their settings differ" if the metadata name no such setting.
+// commas. Returns "their settings differ" if no differing setting can be named from the metadata.
 std::string settingsDifference(const Metadata& first, const Metadata& second);
 
 // Removes attributes that describe the file (compression, windows, …) instead of the frame.

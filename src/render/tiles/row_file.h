@@ -33,7 +33,7 @@ bool isRowFile(const std::filesystem::path& path);
 // Returns the header of a row file. Throws Error, with the path in its message, if it cannot be read.
 RowFileHeader readRowHeader(const std::filesystem::path& path);
 
-// Opens a row file for writing the rows of `header`. `channels` is the number of channels of the rows.
+// Opens a row file for writing the rows that `header` describes. `channels` is the number of channels of the rows.
 ImageRowWriter rowFileWriter(const std::filesystem::path& path, const RowFileHeader& header, int channels);
 
 // Returns the row files of a frame, sorted by rows. Throws Error, with the paths in its message, if rows overlap or are

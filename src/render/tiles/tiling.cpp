@@ -11,7 +11,9 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint64_t maxLayers = 64;
-constexpr std::uint64_t shareOfLayers = 4;  // layers get at most 1/4 of the memory, so that bands have many rows
+// Layers, the images of the samples that are drawn together, get at most 1/4 of the memory. The rest is for
+// accumulation buffers, so that a band (rows of the image that are drawn together) can have many rows.
+constexpr std::uint64_t shareOfLayers = 4;
 constexpr int minRows = 16;
 
 std::vector<PixelRectangle> cellsFor(const TilingNeeds& needs) {
@@ -43,8 +45,9 @@ std::uint64_t rowsThatFit(const TilingNeeds& needs, std::uint64_t cellWidth, std
     return needs.shared ? left / (device + host) : std::min(left / device, needs.hostMemory / host);
 }
 
-// Returns the number of bands for `length` rows with at most `max` rows each. Uses up to 50 % more bands for equal
-// heights, because a band of another height needs new accumulation buffers while drivers still keep the old ones.
+// Returns the number of bands for `length` rows with at most `max` rows each. Uses up to 50 % more bands if this makes
+// all bands equally high, because a band of a different height needs new accumulation buffers while drivers still keep
+// the old ones.
 int bandCount(int length, int max) {
     const int fewest = (length + max - 1) / max;
     for (int count = fewest; count <= fewest + fewest / 2; ++count)
@@ -65,7 +68,8 @@ int bandCount(int length, int max) {
          needs.width, needs.height, bytesText(min), bytesText(needs.deviceMemory), enough);
 }
 
-// Returns the band for `rows`, which must be within one row of `cells` (plan/visible/tiles.h).
+// Returns the band of the image rows `rows`, which has one tile in each cell that the rows cross. `cells` are parts of
+// the image with separate window coordinates (plan/visible/tiles.h). The rows must be within one row of cells.
 Band bandOf(const std::vector<PixelRectangle>& cells, const RowRange& rows) {
     Band band{rows, {}};
     for (const PixelRectangle& cell : cells)

@@ -13,18 +13,20 @@ namespace defocus::engine {
 struct TilingNeeds {
     int width = 1;  // size of the image in px
     int height = 1;
-    RowRange rows;                   // rows to draw
-    std::uint64_t layerPixel = 12;   // bytes per pixel of a layer: colour, depth and copy for transmission
-    std::uint64_t layerMaps = 0;     // bytes of shadow maps per layer
-    std::uint64_t dataPixel = 0;     // bytes per pixel of the sums of data layers; the host needs as many again
-    std::uint64_t waveBytes = 0;     // max bytes of all layers
+    RowRange rows;  // rows to draw
+    // Bytes per pixel of a layer, the image of one sample: colour, depth and copy for transmission.
+    std::uint64_t layerPixel = 12;
+    std::uint64_t layerMaps = 0;     // bytes of the shadow maps of one sample
+    std::uint64_t dataPixel = 0;     // GPU bytes per pixel of the sums of data layers; the host needs the same amount
+    std::uint64_t waveBytes = 0;     // max total size in bytes of the layers of all samples that are drawn together
     std::uint32_t askedWave = 0;     // requested number of samples drawn together; 0: as many as fit into waveBytes
     std::uint64_t deviceMemory = 0;  // free bytes for layers and accumulation buffers
     std::uint64_t hostMemory = 0;    // free bytes for rows that are read back and written
     bool shared = true;              // true: device and host memory are the same
-    std::uint64_t elsewhere = 0;     // bytes of the process without layers and accumulation buffers; 0: unknown
+    std::uint64_t elsewhere = 0;     // process memory in bytes without layers and accumulation buffers; 0: unknown
     std::uint64_t keptBytes = 0;     // bytes of images kept in main memory while drawing
-    bool mayUseCells = true;         // false: the image must not be divided into cells (plan/visible/tiles.h)
+    // false: the image must not be divided into cells, parts with separate window coordinates (plan/visible/tiles.h).
+    bool mayUseCells = true;
 };
 
 // Rows of the image over its full width, and the tiles that cover them, from left to right.
@@ -49,8 +51,9 @@ inline constexpr std::uint64_t wholePixelBytes = 16 + 16 + 16;
 // Returns whether the full image fits into memory without tiles, with at least one layer; ignores `rows`.
 bool fitsInOnePiece(const TilingNeeds& needs);
 
-// Returns bands that fit into memory, of equal height except for the last band in a row of cells. Throws Error, with
-// the required memory in its message, if even bands of a few rows do not fit.
+// Returns bands that fit into memory. All bands in a row of cells (parts of a large image; see plan/visible/tiles.h)
+// have equal height, except that the last one may be lower. Throws Error, with the required memory in its message, if
+// even bands of a few rows do not fit.
 Tiling chosenTiling(const TilingNeeds& needs);
 
 }  // namespace defocus::engine
