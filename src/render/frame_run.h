@@ -15,7 +15,8 @@
 namespace defocus::engine {
 
 // Throws UsageError for a target error or time limit if `method` cannot add blocks of samples (Method::sumsBlocks), or
-// if motion needs one pose per sample, because the number of samples is not known in advance.
+// if motion needs one pose per sample. With these stop conditions, the number of samples, and thus of poses, is not
+// known in advance.
 void checkStop(const StopSettings& stop, const Method& method, const ShutterSettings& shutter);
 
 class FrameRun {
@@ -23,9 +24,9 @@ public:
     // `world` and `renderer` must outlive this object; `renderer` must have been made for `world`.
     FrameRun(const World& world, Renderer& renderer) : world_(&world), renderer_(&renderer) {}
 
-    // Starts a new frame. `stop` must pass checkStop. checkStop ignores StopSettings::automatic: if it is set, the
-    // method must sum blocks (Method::sumsBlocks), and motion must not need one pose per sample. With a time limit, a
-    // GL context must be current.
+    // Starts a new frame. `stop` must pass checkStop. If StopSettings::automatic is set, the method must also sum
+    // blocks (Method::sumsBlocks), and motion must not need one pose per sample; checkStop does not check this. With a
+    // time limit, a GL context must be current.
     void start(const View& view, const RenderSettings& settings, const StopSettings& stop);
     // Draws one wave, a batch of lens samples. Returns false once the frame is complete.
     bool advance();
@@ -37,8 +38,8 @@ public:
     // Returns the finished fraction of the work, 0 … 1. While an automatic number of samples is not yet confirmed by an
     // error estimate, the fraction is at most one half.
     [[nodiscard]] double share() const;
-    // Returns the plan of the frame. With StopSettings, it is the plan of the latest block, which has the finest
-    // levels, but its triangle counts are sums over all blocks.
+    // Returns the plan of the frame. With StopSettings, it is the plan of the latest block of samples, but its triangle
+    // counts are sums over all blocks.
     [[nodiscard]] const FramePlan& plan() const { return plan_; }
     // Returns the wall-clock time of planning, summed over all blocks started.
     [[nodiscard]] double planMilliseconds() const { return planMilliseconds_; }
@@ -65,9 +66,9 @@ private:
         bool choosesPositions;
     };
     std::optional<Automatic> automatic_;  // nullopt: the number of samples is not automatic
-    // Estimates the error of a trial: a complete frame of fewer samples than a block, with an automatic number of
-    // samples. If the error exceeds the limit of the quality setting, the frame is drawn again with more samples.
-    // nullopt: the frame is not a trial.
+    // Estimates the error of a trial: a complete frame whose automatic number of samples is smaller than a block of 64.
+    // If the error exceeds the limit of the quality setting, the frame is drawn again with more samples. nullopt: the
+    // frame is not a trial.
     std::optional<ErrorEstimate> trial_;
     FramePlan plan_;
     double planMilliseconds_ = 0;

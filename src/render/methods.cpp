@@ -19,7 +19,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Completes the settings of the method in the options from which it makes renderers.
+// Returns `method` with a function `make` that first adds the defaults of missing settings to the renderer's options.
 Method completing(Method method) {
     method.make = [make = std::move(method.make), name = method.name, known = method.settings](
                       const World& world, const RendererOptions& options) {

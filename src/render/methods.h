@@ -41,7 +41,7 @@ struct RendererOptions {
     std::uint64_t pendingBytes = SubmissionPacer::defaultBytes;  // max memory of pending triangles of a software driver
     bool geometryShaderLayers = false;                           // true: always select layers in a geometry shader
     std::filesystem::path shaderFolder = {};  // shaders in this folder replace embedded shaders; empty: none
-    MethodSettings settings = {};             // values of Method::settings; missing: default
+    MethodSettings settings = {};             // values of Method::settings; missing settings have their default
 };
 
 // Features of the aperture that a method reproduces.
@@ -55,7 +55,7 @@ struct Method {
     bool shadesAsLit = true;      // false: images match other methods only for unlit, opaque surfaces
     bool showsThrough = true;     // false: draws transmitting surfaces as opaque
     bool blursCells = false;      // true: blurs each sample's image to fill gaps between samples (plan/lens_cells/)
-    bool sumsBlocks = false;      // true: Renderer::continueWith adds samples to the sum
+    bool sumsBlocks = false;      // true: Renderer::continueWith adds samples to the current image
     bool drawsTiles = false;      // true: draws only FramePlan::tile; false: always the full image
     bool drawsLayers = false;     // true: draws data layers (RenderSettings::layers)
     bool drawsPositions = false;  // true: may draw several pixel positions per sample (RenderSettings::positions)
@@ -67,7 +67,7 @@ struct Method {
     // start from a sharp image, in which no blur hides a coarse level.
     [[nodiscard]] bool drawsLevels() const { return needsGl && usesLensSamples; }
     std::vector<MethodSetting> settings;
-    MethodSettings best = {};  // settings with the smallest error, at any cost; missing: default
+    MethodSettings best = {};  // settings that minimize the error, at any cost in time; other settings: default
     // Creates a renderer. Throws Error for settings that the method does not accept.
     std::function<std::unique_ptr<Renderer>(const World&, const RendererOptions&)> make;
 };

@@ -73,20 +73,22 @@ public:
 
     // Starts a frame. `plan` is copied; it must have been made for this renderer's World.
     virtual void start(const FramePlan& plan) = 0;
-    // Draws one batch (wave) of samples and adds it to the sum. Returns false once the sum contains all samples of the
-    // plan.
+    // Draws one batch (wave) of samples and adds them to the frame's sum of samples. Returns false once the sum
+    // contains all samples of the plan.
     virtual bool advance() = 0;
-    // Returns the number of samples in the sum.
+    // Returns the number of samples in the frame's sum.
     [[nodiscard]] virtual std::uint32_t samples() const = 0;
-    // Returns the number of samples that the sum will contain when the current plan is complete.
+    // Returns the number of samples that the frame's sum will contain when the current plan is complete.
     [[nodiscard]] virtual std::uint32_t sampleTotal() const = 0;
-    // Returns the sum divided by samples(): linear, premultiplied RGBA, row 0 at the top. Needs at least one sample.
+    // Returns the frame's sum divided by samples(): linear, premultiplied RGBA, row 0 at the top. Needs at least one
+    // sample.
     [[nodiscard]] virtual Image image() = 0;
     // Returns the sum of the latest block of 64 samples, which may be incomplete; nullopt for methods that do not sum
     // lens samples.
     [[nodiscard]] virtual std::optional<BlockSum> blockSum() { return {}; }
     // Returns the depth in m of the first sample of the latest batch (wave), +∞ where no surface writes depth; nullopt
-    // for methods that do not sum lens samples. Not available for plans with a tile.
+    // for methods that do not sum lens samples. Not available if the plan draws only a tile of the image
+    // (FramePlan::tile).
     [[nodiscard]] virtual std::optional<Image> sampleDepth() { return {}; }
     // Returns the data layers (RenderSettings::layers) of all samples so far; nullopt without layers, and for methods
     // that draw none (Method::drawsLayers).
@@ -100,8 +102,8 @@ public:
     // Limits the number of samples that are drawn together, from the next start() on. The image is the same for any
     // limit.
     virtual void setWave(const WaveLimit& /*limit*/) {}
-    // Returns image() as a texture with row 0 at the bottom, valid until the next call of a member; nullptr for methods
-    // without OpenGL.
+    // Returns image() as a texture with row 0 at the bottom, valid until the next call of a member function; nullptr
+    // for methods without OpenGL.
     [[nodiscard]] virtual const GlTexture* imageTexture() { return nullptr; }
 };
 

@@ -28,8 +28,8 @@ public:
     // Draws the AOVs of one frame. Blended surfaces count as opaque, and each object is drawn at the integer level of
     // detail nearest to its fractional level λ.
     void draw(const FramePlan& plan);
-    // Draws the visible edges of the triangles of the latest draw(), coloured by level λ (viridis), in premultiplied
-    // RGBA.
+    // Draws the visible edges of the triangles of the latest draw(), coloured by level of detail (viridis colour map),
+    // in premultiplied RGBA.
     void drawWireframe();
 
     [[nodiscard]] const GlTexture& depth() const { return depth_; }
@@ -56,8 +56,8 @@ AovImages renderAovs(const World& world, const FramePlan& plan, const std::files
 // Level of detail λ at which colour maps of levels saturate.
 inline constexpr float coarsestShownLevel = 8;
 
-// Maps levels of detail λ to linear RGB by viridis: level 0 is dark violet, level 8 and above is yellow. Pixels without
-// a surface (−1) are black.
+// Maps levels of detail to linear RGB with the viridis colour map: level 0 is dark violet, level 8 and above is yellow.
+// Pixels without a surface (level −1) are black.
 Image levelColourMap(const Image& level);
 
 }  // namespace defocus::engine

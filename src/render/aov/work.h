@@ -45,8 +45,9 @@ Image renderWork(const World& world, const FramePlan& plan, const std::filesyste
 // Triangles per pixel and lens sample at which the colour map saturates.
 inline constexpr float maxShownWork = 15;
 
-// Maps the work over `samples` lens samples to linear RGB by magma, on a scale that is the same for all frames. 0
-// triangles per lens sample are black; 1, 3, 7 and 15 are purple, red, orange and pale yellow.
+// Maps the work, the triangles per pixel summed over `samples` lens samples, to linear RGB with the magma colour map.
+// The scale is the same for all frames: 0 triangles per lens sample are black; 1, 3, 7 and 15 are purple, red, orange
+// and pale yellow.
 Image workColourMap(const Image& work, std::uint32_t samples);
 
 struct WorkSummary {

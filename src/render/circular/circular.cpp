@@ -16,14 +16,15 @@ namespace defocus::engine {
 
 namespace {
 
-// Sizes in field pixels: pixels of the blurred near and far fields, which may have a lower resolution than the image.
+// The near field and the far field are the images of the surfaces in front of and behind the focus plane. They may have
+// a lower resolution than the full image. Sizes are in pixels of these fields.
 constexpr int tileSize = 16;
-constexpr int publishedLargest = 17;  // max blur diameter in field pixels: eight taps on each side and the centre
+constexpr int publishedLargest = 17;  // max blur diameter in pixels of a field: eight taps on each side and the centre
 
 struct CircularOptions {
     int nearComponents = 2;
     int farComponents = 2;
-    int reduction = 1;  // width of a field pixel in image pixels
+    int reduction = 1;  // width of a pixel of the near and far fields, in pixels of the full image
     bool direct = false;
     double blendBias = 1;
     bool biasByLuminance = false;
@@ -74,7 +75,7 @@ double largestNearDiameter(const FramePlan& plan) {
     return largest;
 }
 
-// Returns the largest blur diameter in px behind the focus plane, at least 1 px and the diameter of the sky's blur.
+// Returns the largest blur diameter in px behind the focus plane, including the blur of the sky; at least 1 px.
 double largestFarDiameter(const FramePlan& plan) {
     double largest = std::max(largestCocAtInfinity(plan.coc, plan.view.width), 1.0);
     for (const ObjectPlan& object : plan.objects) largest = std::max(largest, object.coc.farthest);
@@ -195,8 +196,8 @@ private:
         nearRadiusTarget_ = Target({&nearRadius_});
     }
 
-    // Returns the rectangle of field pixels from which rectangle `part` of the image is interpolated; nullopt stands
-    // for all pixels.
+    // Returns the rectangle of the near and far fields, in their pixels, from which the rectangle `part` of the image
+    // is interpolated. nullopt stands for all pixels.
     [[nodiscard]] std::optional<TexelRectangle> inField(const std::optional<TexelRectangle>& part) const {
         if (!part) return {};
         const TextureInfo& field = farField_.info();
@@ -207,7 +208,8 @@ private:
         return TexelRectangle{left, bottom, std::max(right - left, 0), std::max(top - bottom, 0)};
     }
 
-    // Sets each pixel's near radius to the largest radius of the near disks that may reach this pixel.
+    // Sets each pixel's radius in the near field to the largest radius of all blur disks of the near field that may
+    // reach this pixel.
     void spreadNearRadius() {
         tileTarget_.bind();
         ownNearRadius_.attach(0);

@@ -15,14 +15,14 @@
 namespace defocus::engine {
 
 struct CircularComponent {
-    double decay;      // decay a of F(x), per squared radius
-    double frequency;  // frequency b of F(x), radians per squared radius
-    double cosine;     // weight A of the real part of F(x)
-    double sine;       // weight B of the imaginary part of F(x)
+    double decay;      // a of the component's factor e^(−a·x²); x is the offset in disk radii
+    double frequency;  // b of the component's factor cos b·x² + i·sin b·x², in radians; x is the offset in disk radii
+    double cosine;     // weight A of the component's real part, e^(−a·x²)·cos b·x²
+    double sine;       // weight B of the component's imaginary part, e^(−a·x²)·sin b·x²
 };
 
-inline constexpr int circularKernelLimit = 9;   // max components of the fitted kernels
-inline constexpr int publishedKernelLimit = 5;  // max components of the other kernels
+inline constexpr int circularKernelLimit = 9;   // max number of components of a fitted kernel
+inline constexpr int publishedKernelLimit = 5;  // max number of components of a published kernel (Niemitalo 2010)
 
 enum class KernelConstants {
     // The kernel K that best fits the disk D of radius 1 with ∫K = ∫D. The fit minimizes ∫(K − D)² dA over the square,
@@ -31,20 +31,22 @@ enum class KernelConstants {
     // each highlight has four dark dots around it.
     fitted,
     // The published kernel, rescaled to the disk of radius 1 (`scripts/figures circular-fit` prints the original
-    // radii). The kernel's integral equals the disk's area after the passes divide by the sum of their taps.
+    // radii). The blur passes divide by the sum of the tap weights. After this division, the kernel's integral equals
+    // the disk's area.
     rescaled,
-    // Niemitalo's constants (2010) as they are printed, for offsets x = tap/8. Garcia's slides print the table of two
-    // components; the other kernels come from Garcia's public filter generator. The slides also print e^(−a·x²) with
-    // negative a, which grows with x; here a is positive. The kernels approximate disks of radii 1.07 to 1.10, so the
-    // square cuts these disks off.
+    // Niemitalo's constants (2010) as they are printed, for eight taps on each side of the centre, with offsets x =
+    // tap/8. Garcia's slides print the kernel with two components; the other kernels come from Garcia's public filter
+    // generator. The slides also print e^(−a·x²) with negative a, which grows with x; here a is positive. The kernels
+    // approximate disks of radii 1.07 to 1.10. The taps cover only the square [−1, 1]², which cuts off the edges of
+    // these disks.
     published,
 };
 
-// Returns the kernel of `count` components, 1 to circularKernelLimit or publishedKernelLimit. Throws Error for another
-// `count`. The data have static lifetime.
+// Returns the kernel with `count` components: 1 to circularKernelLimit for a fitted kernel, 1 to publishedKernelLimit
+// for a published or rescaled kernel. Throws Error if `count` is out of range. The data have static lifetime.
 std::span<const CircularComponent> circularKernel(int count, KernelConstants constants = KernelConstants::fitted);
 
-// Returns F(offset): the complex weight of the tap at `offset`, in disk radii.
+// Returns the complex value F(x) of a component at the tap with the offset x = `offset`, in disk radii.
 std::complex<double> circularFactor(const CircularComponent& component, double offset);
 
 }  // namespace defocus::engine

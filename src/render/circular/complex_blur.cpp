@@ -1,5 +1,5 @@
 // Sources: Niemitalo 2010, Circularly symmetric convolution and lens blur; Garcia 2018, Circular Separable Convolution
-// Depth of Field (its appendix describes brackets; see struct Bracket).
+// Depth of Field. The appendix of Garcia 2018 describes the mapping of sums to [0, 1] (struct Bracket).
 
 #include "render/circular/complex_blur.h"
 
@@ -22,11 +22,16 @@ constexpr int maxTargets = 8;
 constexpr int reduction = 8;  // each reduction step writes the max of 8 x 8 texels
 constexpr GLint firstComponentLocation = 15;
 constexpr GLint bracketLocation = 16;
-constexpr int maxFittedInHalf = 5;     // max components of fitted kernels in half float
-constexpr int maxPublishedInHalf = 3;  // max components of Niemitalo's kernels, whose large weights amplify rounding
-constexpr double outermostTap = 2;     // max tap offset in radii: radius + 1/2 px, for radii ≥ 1/2 px
+// Max number of components of a fitted kernel whose sums are stored as half floats. With more components, rounding
+// errors are too large.
+constexpr int maxFittedInHalf = 5;
+// Max number of components of Niemitalo's kernels whose sums are stored as half floats. With more components, the large
+// weights amplify rounding errors too much.
+constexpr int maxPublishedInHalf = 3;
+// Largest tap offset, as a multiple of the blur radius. Taps reach 1/2 px beyond the radius, which is at least 1/2 px.
+constexpr double outermostTap = 2;
 constexpr int bracketSteps = 4096;
-constexpr int publishedTaps = 8;  // taps on each side of the centre
+constexpr int publishedTaps = 8;  // number of taps on each side of the centre
 
 TextureFormat textureFormat(ComplexStorage storage) {
     switch (storage) {
@@ -69,14 +74,15 @@ std::vector<double> imaginaryParts(const std::vector<std::complex<double>>& valu
     return parts;
 }
 
-// Returns the Bracket (mapping of sums to [0, 1]) for taps that do not depend on the radius.
+// Returns the Bracket (mapping of a sum to [0, 1]) for taps that do not depend on the radius. `taps` holds the weights
+// of all taps.
 Bracket bracketOfSum(const std::vector<double>& taps) {
     const double offset = std::ranges::min(taps);
     return {offset, std::reduce(taps.begin(), taps.end()) / static_cast<double>(taps.size()) - offset};
 }
 
-// Returns the Bracket for taps whose number and positions depend on the radius. Only the range of their weights is
-// known, from the min to the max of `taps`.
+// Returns the Bracket (mapping of a sum to [0, 1]) for taps whose number and positions depend on the radius. Only the
+// range of the tap weights is known: from the min to the max of `taps`.
 Bracket bracketOfRange(const std::vector<double>& taps) {
     const auto [min, greatest] = std::ranges::minmax(taps);
     return {min, greatest - min};

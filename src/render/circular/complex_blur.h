@@ -23,7 +23,9 @@ enum class ComplexStorage {
     // half float; kernels of more than five components (three for Niemitalo's kernels) use float32 because of rounding
     // errors
     half,
-    rgb10A2,  // sums mapped to [0, 1] (see Bracket), after division of radiance and weight by their max
+    // 10 bits per channel. Radiance and weight are divided by their max over the image, then sums are mapped to [0, 1]
+    // (Bracket).
+    rgb10A2,
 };
 
 enum class ComplexTaps {
@@ -75,7 +77,7 @@ private:
     std::vector<Group> groups_;
     Program direct_;
     Program reduce_, reduceColor_;
-    std::vector<GlTexture> brightest_;  // max radiance and max weight of tiles, reduced down to one pixel
+    std::vector<GlTexture> brightest_;  // max radiance and max weight of tiles of 8², 64², … px; the last is one pixel
     std::vector<GlTexture> sums_;
     Target sumTarget_;
     GlTexture result_;
@@ -83,11 +85,13 @@ private:
     Fullscreen fullscreen_;
 };
 
-// Mapping to [0, 1] of a sum over n taps with pixel values J in [0, 1] and weights G, the real or imaginary parts of a
-// component (Garcia's appendix): I′ = (ΣG·J/n − offset·ΣJ/n)/scale. `offset` is the min of G.
+// Mapping of a sum over n taps to [0, 1], the range in which it is stored (Garcia's appendix). The taps have pixel
+// values J in [0, 1] and weights G, the real or imaginary parts of a kernel component. The stored value is I′ = (ΣG·J/n
+// − offset·ΣJ/n)/scale. `offset` is the min of G.
 //
 // If the taps do not depend on the radius, scale = Σ(G − offset)/n as published, so that I′ is 1 for a white field.
-// Otherwise `scale` is max G − min G over all radii, which also bounds I′ to [0, 1] but leaves the upper half unused.
+// Otherwise `scale` is max G − min G over all radii. I′ then also stays in [0, 1], but at large radii a white field
+// reaches only about half of this range.
 struct Bracket {
     double offset = 0;
     double scale = 1;

@@ -4,7 +4,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr GLuint frontUnit = 31;  // texture unit in shaders/layered/peel.frag
+constexpr GLuint frontUnit = 31;  // texture unit of the previous layer in shaders/layered/peel.frag
 
 GlTexture layersOf(const DepthLayersInfo& info, TextureFormat format, std::uint32_t count) {
     return GlTexture({.format = format, .width = info.width, .height = info.height, .layers = static_cast<int>(count)});

@@ -16,15 +16,15 @@
 namespace defocus::engine {
 
 // Returns `plan` for an image with `border` additional px at each edge. The inner pixels keep their content and their
-// circle of confusion in px. The result is a plan for pinhole images: all lens points are at the lens centre, and there
-// is no tile.
+// circle of confusion in px. The result is a plan for pinhole images: all lens points are at the lens centre, and the
+// full image is drawn even if `plan` draws only a tile of the image.
 FramePlan widened(const FramePlan& plan, int border);
 
 struct DepthLayersInfo {
     int width = 1;  // size of the layers in px, including the border
     int height = 1;
     std::uint32_t layers = 1;                   // max number of layers
-    LayerFormat format = LayerFormat::rgba16f;  // format with alpha
+    LayerFormat format = LayerFormat::rgba16f;  // format of the colours, which include alpha
     // True if surfaces are blended, so that surfaces behind them are visible and must not be omitted.
     bool blended = false;
     std::filesystem::path shaderFolder;
@@ -36,8 +36,8 @@ public:
     // Needs a current OpenGL context.
     DepthLayers(GpuScene& scene, const DepthLayersInfo& info);
 
-    // Prepares the passes for the plan `pinholes`, made by widened(). `frame` must have been uploaded for `pinholes`
-    // with one layer, and must exist until the last peel().
+    // Prepares the passes for the plan `pinholes`, made by widened(). `frame` must hold the uniforms of `pinholes`,
+    // uploaded with a layerCount of 1, and must exist until the last peel().
     void prepare(const FramePlan& pinholes, const FrameUniforms& frame);
     // Draws the layers of the plan's sample `index`, up to the first empty layer.
     void peel(std::uint32_t index);

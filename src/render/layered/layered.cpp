@@ -26,8 +26,8 @@ int borderOf(const FramePlan& plan) {
 }
 
 // Returns the number of samples that are drawn together (a wave): `asked`, or, if `asked` is 0, as many as fit into
-// RendererOptions::waveBytes. The result is at most `run`, the number of consecutive samples with the same pinhole, and
-// a power of two, so that it divides `run`.
+// RendererOptions::waveBytes. The result is at most `run`, the number of consecutive samples with the same pinhole
+// image. `run` is a power of two; so is the result, which therefore divides `run`.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked, LayerFormat format,
                          std::uint32_t run) {
     const std::uint64_t pixels = pixelCount(plan.view.width, plan.view.height);
@@ -130,7 +130,7 @@ private:
                                     .blended = plan_.usesBlending,
                                     .shaderFolder = options_.shaderFolder};
         if (!layers_ || !(layers_->info() == depth)) {
-            layers_.reset();  // free the old layers first: memory may not hold old and new layers
+            layers_.reset();  // free the old layers first: memory might not suffice for old and new layers
             layers_.emplace(scene_, depth);
         }
         const LensRaysInfo rays{.width = view.width,
@@ -195,7 +195,9 @@ private:
     RendererOptions options_;
     std::uint32_t wave_;  // requested number of samples drawn together; 0: as many as fit into waveBytes
     GpuScene scene_;
-    FramePlan plan_;      // lens samples; their positions in the pixel include the offset of their pinhole image
+    // Plan of the frame. The pixel position of each lens sample includes the subpixel offset of the pinhole image that
+    // the sample reads.
+    FramePlan plan_;
     FramePlan pinholes_;  // pinhole images: one sample each, larger than the frame by borderOf() px on each side
     std::uint32_t pinholeCount_ = 1;
     std::uint32_t run_ = 1;  // number of consecutive samples that read the same pinhole image; divides blockSamples

@@ -11,11 +11,11 @@ namespace defocus::engine {
 namespace {
 
 constexpr int extentLevels = 6;                   // number of mip levels, whose texels cover squares of 2 … 64 px
-constexpr int largestSquare = 1 << extentLevels;  // side in px of the squares of the coarsest mip level
+constexpr int largestSquare = 1 << extentLevels;  // side in px of the square that a texel of the last mip level covers
 constexpr GLuint groupSize = 8;                   // threads per side of a work group
 
-// Returns the size in texels of the finest mip level (squares of 2 px), rounded up so that all coarser levels divide it
-// evenly.
+// Returns the width or height, in texels, of the finest mip level for an image side of `pixels` px. A texel covers a
+// square of 2 px per side. The size is rounded up to complete texels of the coarsest level.
 int extentTexels(int pixels) {
     return (pixels + largestSquare - 1) / largestSquare * largestSquare / 2;
 }

@@ -4,8 +4,8 @@
 //
 // Lee, Eisemann and Seidel 2010 bound the depths that a pixel's rays may hit by N-buffers: min and max depth in squares
 // around each pixel, with all powers of two as side lengths. This implementation uses mipmaps of min and max, which
-// take a fifth of the memory of N-buffers and give slightly wider bounds. The mipmaps store blurs instead of depths, so
-// that the bounds hold for all blur controls.
+// take a fifth of the memory of N-buffers and give slightly wider bounds. The mipmaps store blurs instead of depths,
+// because blur controls, such as a tilted focus plane, can make the blur depend on more than the depth.
 
 #include "gl/buffer.h"
 #include "gl/program.h"
@@ -31,8 +31,8 @@ public:
     // Needs a current OpenGL context.
     explicit LensRays(const LensRaysInfo& info);
 
-    // Prepares tracing of `plan`. `frame` must have been uploaded for `plan` with K layers (K samples are drawn
-    // together), and must exist until the last trace().
+    // Prepares tracing of `plan`. `frame` must hold the uniforms of `plan`, uploaded with the number of samples that
+    // are drawn together as layerCount, and must exist until the last trace().
     void prepare(const FramePlan& plan, const FrameUniforms& frame);
     // Computes, for each pixel, bounds of the blurs of the surfaces in `layers` that the pixel's rays may hit. Must be
     // called after each DepthLayers::peel.

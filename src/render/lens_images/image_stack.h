@@ -24,7 +24,7 @@ public:
     // Image that contributes to a mean, and its position.
     struct Part {
         std::uint32_t image = 0;
-        glm::ivec2 corner{0};  // pixel of the image that coincides with the mean's lower left pixel
+        glm::ivec2 corner{0};  // pixel of this image that is added to the lower left pixel of the mean
     };
 
     // `software`: OpenGL runs on the CPU.

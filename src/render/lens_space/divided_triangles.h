@@ -14,7 +14,7 @@ namespace defocus::engine {
 
 // Range of triangles, each of which is divided into `parts`² small triangles.
 struct DividedRun {
-    std::uint32_t firstBase = 0;  // index in the buffer of undivided triangles
+    std::uint32_t firstBase = 0;  // index of the range's first triangle in the buffer of undivided triangles
     std::uint32_t baseCount = 0;
     std::uint32_t parts = 1;
     std::uint32_t firstVertex = 0;    // index of the first new vertex among the frame's vertices
@@ -37,7 +37,7 @@ class DividedTriangles {
 public:
     explicit DividedTriangles(std::filesystem::path shaderFolder, bool lightsVertices);
 
-    // Removes all ranges of triangles. `defines`: shader defines of the front end (LensFront).
+    // Removes all ranges of triangles. `defines`: preprocessor macros of the shaders, see LensFront::defines().
     void start(const ShaderDefines& defines);
     void add(const DividedRun& run) { runs_.push_back(run); }
     [[nodiscard]] bool empty() const { return runs_.empty(); }

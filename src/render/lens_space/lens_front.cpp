@@ -13,14 +13,16 @@ namespace {
 constexpr std::size_t clipBytes = 4 * sizeof(float);
 constexpr std::size_t ownBlurBytes = 2 * sizeof(float);
 // Mesa's software driver ends the loops of a thread after a total of 65,535 iterations.
-constexpr std::uint32_t maxTilesAtOnce = 50'000;   // max tiles that a thread tests for one triangle
-constexpr std::uint32_t maxSortedAtOnce = 65'536;  // max list length per dispatch: 136 steps of 256 iterations
+constexpr std::uint32_t maxTilesAtOnce = 50'000;  // max tiles that a thread tests for one triangle
+// Max length of a tile's triangle list that one dispatch sorts. The bitonic sort of a list of this length has 136
+// steps, in each of which a thread runs 256 iterations.
+constexpr std::uint32_t maxSortedAtOnce = 65'536;
 constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // per vertex; see LightBlock of shade_vertices.comp
 constexpr std::size_t attributeBytes = 20 * sizeof(float);   // per vertex; output of shaders/lens_space/attributes.vert
 
-// Returns the end of the range of rays for which a level of an object is drawn. Rays and lens samples correspond. In a
-// lens sample between two levels, each level may cover some of the pixels. A ray is not divided between levels: the
-// level that covers more of the sample's pixels gets it.
+// Returns the end of the range of rays for which a level of an object is drawn. Ray i of each pixel sees the levels of
+// lens sample i. Two levels may share a sample: each is then drawn in some of its pixels. The rays of such a sample all
+// see the same level, the one that is drawn in more pixels.
 std::uint32_t endOf(const ObjectPlan& object, const LevelDraw& level, bool coarse) {
     const std::uint32_t end = level.firstSample + level.sampleCount;
     const bool shared = boundarySample(object).has_value();
@@ -178,8 +180,9 @@ std::uint32_t LensFront::groupOf(int mesh, int material, std::uint32_t level) {
 }
 
 void LensFront::makeTriangles() {
-    // First convert the triangles that will be divided. Clearing firstTriangles_ afterwards removes their entries,
-    // because small triangles replace them in the frame.
+    // First convert the triangles that will be divided, for divided_.makeTriangles(). This also fills firstTriangles_,
+    // which holds the first triangle of each vertex. Clear it afterwards, because the frame contains only the small
+    // triangles that replace the divided triangles.
     if (options_.lightsVertices) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, firstTriangles_.name());
     convertRuns(bases_, true);
     if (options_.lightsVertices) {
@@ -336,7 +339,7 @@ void LensFront::countTiles() {
     for (const TileBand& each : bands_) largest = std::max(largest, each.entries);
     const std::uint64_t bytes = std::max<std::uint64_t>(largest, 1) * sizeof(std::uint32_t);
     if (entries_.bytes() < bytes) {
-        entries_ = Buffer();  // free the old buffer first: memory may not hold old and new lists
+        entries_ = Buffer();  // free the old lists first: memory might not suffice for old and new lists
         entries_ = storage(bytes, "the triangles of a tile");
     }
     statistics_.bytes = entries_.bytes();
@@ -370,7 +373,8 @@ void LensFront::binInto(std::uint32_t firstTile, std::uint32_t endTile) {
 void LensFront::sort(const TileBand& band) {
     sortProgram_.use();
     bindTriangles();
-    GLint rays = 0;  // the rays' buffer, restored below because the depths use its binding point
+    // Buffer of the rays. It is restored below, because the depths temporarily use the same binding point.
+    GLint rays = 0;
     glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 6, &rays);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, depths_.name());
     glUniform1ui(0, band.first);

@@ -1,7 +1,7 @@
 #pragma once
 // Front end of the lens-space methods (Tzeng et al. 2012, High-Quality Parallel Depth-of-Field Using Line Samples). The
-// front end computes a frame's triangles and its vertices with their signed circle of confusion C. For each image tile,
-// it lists the triangles that are visible in the tile from some lens point.
+// front end computes the triangles and vertices of a frame, and the signed circle of confusion of each vertex. For each
+// image tile, it lists the triangles that are visible in the tile from some lens point.
 //
 // The lists have no fixed capacity, so no triangle is lost: triangles are counted per tile, list offsets are prefix
 // sums of the counts, and then the lists are filled.
@@ -47,7 +47,8 @@ struct BinStatistics {
 struct LensFrontOptions {
     std::uint32_t tileSize = 0;   // tile side in px
     bool lightsVertices = false;  // lighting is computed per vertex (RecordShading)
-    // true: divides triangles in which the circle of confusion C is not linear; false: C is made linear, as published.
+    // true: divides triangles in which the circle of confusion is not linear. false: interpolates the circle of
+    // confusion linearly between a triangle's corners, as in Tzeng et al. 2012.
     bool divides = true;
     // Max bytes of the tiles' lists of triangles. If the lists need more, the tiles are processed in several bands.
     std::uint64_t entryBytes = 0;
@@ -58,14 +59,15 @@ class LensFront {
 public:
     LensFront(GpuScene& scene, LensFrontOptions options);
 
-    // Collects the vertices and triangles of `plan`. `frame` must exist until the frame is complete. Throws Error, with
-    // the object or feature in its message, for a plan that the lens-space methods cannot draw; `method` is the
-    // method's name.
+    // Collects the vertices and triangles of `plan`. `frame` holds the uniforms of the plan, and must exist until all
+    // rays of the plan are traced. Throws Error, with the object or feature in its message, for a plan that the
+    // lens-space methods cannot draw; `method` is the method's name.
     void prepare(const FramePlan& plan, const FrameUniforms& frame, const std::string& method);
-    // Computes the vertices and the list sizes for part `part` of the exposure, from shutter time number `part` to the
-    // next one. If nothing moves, there is only part 0.
+    // Computes the vertices and the sizes of the tiles' triangle lists for part `part` of the exposure, from shutter
+    // time number `part` to the next shutter time. If nothing moves, there is only part 0.
     void pose(std::uint32_t part);
-    // Fills the tiles' lists of a band and sorts them front to back, unless the lists are already filled.
+    // Fills the triangle lists of a band of tiles, and sorts each list front to back. Does nothing if the band's lists
+    // are already filled.
     void fill(const TileBand& band);
     // Binds the buffers of vertices, triangles, draws and tile lists at the binding points in shaders/lens_space/.
     void bindTriangles() const;
@@ -111,13 +113,14 @@ private:
         std::uint32_t seeThrough = 0;
     };
 
-    // Adds the triangles of a level, divided into at most `maxSmall` triangles if the circle of confusion is not linear
-    // inside them.
+    // Adds the triangles of a level. If the circle of confusion is not linear inside the object's triangles, they are
+    // divided into at most `maxSmall` small triangles in total.
     void addLevel(std::uint32_t object, const LevelDraw& level, double maxSmall, std::vector<GpuDraw>& draws);
     void addDivisions();
     std::uint32_t groupOf(int mesh, int material, std::uint32_t level);
     void makeTriangles();
-    // Converts the index ranges of the divided (if `divided`) or undivided objects to triangles in `target`.
+    // Converts index ranges to triangles in `target`: the ranges whose triangles will be divided (if `divided`), or all
+    // other ranges.
     void convertRuns(const Buffer& target, bool divided);
     void makeVertices(const Buffer& target, std::size_t vertexBytes, bool attributes, std::uint32_t moment,
                       float fraction);
@@ -150,14 +153,14 @@ private:
     std::uint32_t triangleCount_ = 0;
     std::uint32_t parts_ = 1;
     Buffer clips_, clipsAtEnd_, attributes_, triangles_, draws_;
-    Buffer bases_;                         // triangles of divided objects before the division
-    Buffer ownBlurs_;                      // blur modifiers of the vertices; only with divided objects
+    Buffer bases_;                         // triangles that small triangles replace (DividedTriangles)
+    Buffer ownBlurs_;                      // blur modifiers of the vertices; used only to divide triangles
     Buffer firstTriangles_, vertexLight_;  // used only with per-vertex lighting
-    Buffer depths_;                        // sort key of each triangle
+    Buffer depths_;                        // min depth of each triangle, the sort key of the tiles' lists
     Buffer tileCounts_, tileEnds_, entries_;
-    std::vector<std::uint32_t> tilePlaces_;  // offset of each tile's list within its band of tiles
+    std::vector<std::uint32_t> tilePlaces_;  // offset of each tile's triangle list in the buffer of its band of tiles
     std::vector<TileBand> bands_;
-    std::uint32_t filled_ = 0;  // first tile of the band whose lists are filled
+    std::uint32_t filled_ = 0;  // first tile of the band of tiles whose triangle lists are in entries_
     bool isFilled_ = false;
     BinStatistics statistics_;
 };

@@ -115,7 +115,7 @@ private:
     void prepareSum() {
         const glm::ivec2 size(plan_.view.width, plan_.view.height);
         if (!sum_ || sumSize_ != size) {
-            sum_.reset();  // free the old sum first: memory may not hold old and new sums
+            sum_.reset();  // free the old sum first: memory might not suffice for old and new sums
             sum_.emplace(size.x, size.y, kernel_->addShader(), options_.shaderFolder);
             sumSize_ = size;
         }
@@ -145,7 +145,7 @@ private:
     }
 
     RendererOptions options_;
-    std::uint32_t wave_;  // requested rays per pixel and batch; 0: as many as fit into waveBytes
+    std::uint32_t wave_;  // requested rays per pixel that are traced together; 0: as many as fit into waveBytes
     std::unique_ptr<VisibilityKernel> kernel_;
     GpuScene scene_;
     FramePlan plan_;

@@ -9,9 +9,9 @@
 
 namespace defocus::engine {
 
-// Returns setting "shading" of the lens-space methods, which sets VisibilityKernel::lightsVertices().
+// Returns the setting "shading" of the lens-space methods, which determines VisibilityKernel::lightsVertices().
 MethodSetting shadingSetting();
-// Returns setting "coc-interpolation" of the lens-space methods, which sets LensFrontOptions::divides.
+// Returns the setting "coc-interpolation" of the lens-space methods, which determines LensFrontOptions::divides.
 MethodSetting cocInterpolationSetting();
 
 // Returns a renderer that finds hits with `kernel`. `options.settings` must be complete. Renderer::start throws Error,

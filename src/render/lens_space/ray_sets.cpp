@@ -1,5 +1,5 @@
-// Sources: Bentley 1975, Multidimensional Binary Search Trees Used for Associative Searching (bisection); van der
-// Corput 1935 (order).
+// Sources: Bentley 1975, Multidimensional Binary Search Trees Used for Associative Searching (bisection of the lens);
+// van der Corput 1935 (order of the rays).
 
 #include "render/lens_space/ray_sets.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t maxVariants = 64;
 constexpr std::uint32_t minVariants = 4;
-constexpr std::uint32_t maxRays = 1u << 18;  // max total number of rays of all variants
+constexpr std::uint32_t maxRays = 1u << 18;  // max number of rays in all variants (sets of rays) together
 
 float coordinate(const LensSample& sample, int axis) {
     return axis == 0 ? sample.lens.x : axis == 1 ? sample.lens.y : sample.time;

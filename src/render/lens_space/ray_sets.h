@@ -1,7 +1,7 @@
 #pragma once
 // Chooses the rays of each pixel in the lens-space methods. Neighbouring pixels use different sets of rays, called
-// variants (shaders/lens_space/rays.glsl), so that the error of few rays looks like fine noise instead of superimposed
-// images.
+// variants (shaders/lens_space/rays.glsl), so that the error due to the small number of rays looks like fine noise
+// instead of superimposed images.
 //
 // The sets are consecutive ranges of the sample sequence of method "accumulation", so each set is well distributed over
 // the lens (of any shape), the pixel and time. Each set is sorted by repeated bisection of the lens, alternately in
@@ -23,14 +23,15 @@ struct GpuRay {
 };
 
 struct RaySets {
-    std::uint32_t rays = 0;             // rays per pixel
-    std::uint32_t variants = 1;         // number of sets, a power of two, at most 64
-    std::vector<GpuRay> table;          // rays of all sets, with index ray · variants + variant
-    std::vector<glm::vec4> lensBounds;  // per ray, over all variants: min u, min k·v, max u, max k·v (k: aspect)
+    std::uint32_t rays = 0;      // rays per pixel
+    std::uint32_t variants = 1;  // number of sets, a power of two, at most 64
+    std::vector<GpuRay> table;   // rays of all sets; ray i of set s has the index i · variants + s
+    // Per ray, bounds of its lens points in all sets: min u, min k·v, max u, max k·v, where k = image width / height.
+    std::vector<glm::vec4> lensBounds;
 };
 
-// Returns the number of different sets of rays (variants), for sets of `rays` rays: as many as give at most 262,144
-// rays in total, but at least 4 and at most 64.
+// Returns the number of different sets of rays (variants), for sets of `rays` rays: the largest power of two with at
+// most 262,144 rays in total, but at least 4 and at most 64.
 std::uint32_t variantCount(std::uint32_t rays);
 
 // Returns the index of the first ray in part `part` of an exposure with `parts` parts of equal length, for `total` rays

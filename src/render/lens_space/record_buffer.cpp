@@ -23,7 +23,7 @@ std::uint64_t RecordBuffer::maxRecords() {
 
 void RecordBuffer::reserve(std::uint64_t count) {
     if (capacity() >= count) return;
-    buffer_ = Buffer();  // free the old buffer first: memory may not hold old and new buffers
+    buffer_ = Buffer();  // free the old buffer first: memory might not suffice for old and new buffers
     buffer_ = Buffer(count * recordBytes);
 }
 

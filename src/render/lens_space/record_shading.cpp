@@ -69,7 +69,7 @@ void RecordShading::shadeVertices(const LensFront& front) {
 
 void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint32_t firstRay) {
     if (list_.bytes() < count * sizeof(std::uint32_t)) {
-        list_ = Buffer();  // free the old buffer first: memory may not hold old and new buffers
+        list_ = Buffer();  // free the old buffer first: memory might not suffice for old and new buffers
         list_ = Buffer(count * sizeof(std::uint32_t));
     }
 
@@ -85,7 +85,8 @@ void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint
         dispatchOver(count);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     };
-    GLint rays = 0;  // the rays' buffer, restored below because the dispatches use its binding point
+    // Buffer of the rays. It is restored below, because the dispatches temporarily use the same binding point.
+    GLint rays = 0;
     glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 6, &rays);
     overRecords(countProgram_);
     placesProgram_.use();

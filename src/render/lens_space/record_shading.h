@@ -15,8 +15,8 @@ class RecordShading {
 public:
     RecordShading(GpuScene& scene, std::filesystem::path shaderFolder);
 
-    // Prepares programs and materials for the groups of surfaces of `front`. `defines` are the defines of the front
-    // end, the rays and the kernel.
+    // Prepares programs and materials for the groups of surfaces of `front`. `defines`: preprocessor macros that
+    // shaders need to read the triangles (LensFront::defines) and the rays (VisibilityKernel::rayDefines, rayVariants).
     void prepare(const FramePlan& plan, const LensFront& front, const ShaderDefines& defines);
     // With per-vertex lighting, shades the vertices of `front`; otherwise does nothing. The frame's uniforms must be
     // bound.

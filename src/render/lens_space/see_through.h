@@ -16,12 +16,13 @@ class SeeThrough {
 public:
     SeeThrough(std::filesystem::path shaderFolder, std::uint32_t tileSize);
 
-    // Prepares the programs for the groups of surfaces of `front`. `defines`: shader defines of `front`, rays and
-    // kernel.
+    // Prepares the programs for the groups of surfaces of `front`. `defines`: preprocessor macros that shaders need to
+    // read the triangles (LensFront::defines) and the rays (VisibilityKernel::rayDefines, rayVariants).
     void prepare(const FramePlan& plan, const LensFront& front, const ShaderDefines& defines);
-    // Moves the hits of `count` records of the batch of rays that starts at ray `firstRay` to the surfaces at which the
-    // rays stop. Rays, records (hits) and the frame's uniforms must be bound. Returns the number of searches for a next
-    // hit. Throws Error if the driver cannot search a tile's list at once.
+    // Updates the `count` records (ray hits) of the batch of rays that starts at ray `firstRay`: moves each hit to the
+    // surface at which its ray stops. The rays, the records and the frame's uniforms must be bound. Returns the number
+    // of searches for a next hit. Throws Error if a tile's triangle list is too long for the driver to search in one
+    // dispatch.
     std::uint64_t resolve(LensFront& front, const RecordShading& shading, std::uint64_t count, std::uint32_t firstRay);
 
 private:

@@ -29,10 +29,10 @@ public:
     [[nodiscard]] virtual ShaderDefines rayDefines() const = 0;
     // Returns the path of the shader that adds the shaded records (hits) of each pixel's rays.
     [[nodiscard]] virtual const char* addShader() const { return "lens_space/add.comp"; }
-    // Returns the min bytes of the records (hits) of one ray.
+    // Returns the expected size in bytes of one ray's records (hits), which limits the number of rays per batch.
     [[nodiscard]] virtual std::uint64_t rayBytes() const = 0;
-    // Prepares a frame; called before the frame's first rays are traced. `defines`: the preprocessor
-    // macros that LensFront and RaySets need in shaders.
+    // Prepares a frame; called before the frame's first rays are traced. `defines`: preprocessor macros that shaders
+    // need to read the triangles (LensFront) and the rays (RaySets).
     virtual void start(const FramePlan& plan, const RaySets& rays, const ShaderDefines& defines) = 0;
     // Finds the hits of a batch (wave) of rays and returns their number. Reduces `wave.count` if the records of the
     // hits would exceed the max buffer size. The frame's uniforms and the rays must be bound.

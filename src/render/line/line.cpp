@@ -166,7 +166,7 @@ private:
     struct Places {  // offsets in `ranges` of shaders/line/kernel.glsl
         std::uint64_t jobs = 0;
         std::uint64_t states = 0;
-        std::uint64_t slots = 0;  // number of elements of the array of states
+        std::uint64_t slots = 0;  // number of jobs whose states can be saved at a time
     };
     struct Totals {
         std::uint64_t records = 0;
@@ -189,8 +189,9 @@ private:
         program_ = Program({{exact_ ? "line/exact.comp" : "line/published.comp"}, all, shaderFolder_});
     }
 
-    // Returns the size of an invocation's state between dispatches, in elements of `ranges`: 2 plus stateSize in
-    // shaders/line/envelope.glsl (exact) or shaders/line/segment_buffer.glsl (published).
+    // Returns the size of the state that a shader invocation saves between dispatches, in elements of `ranges`: 2 for
+    // the bit masks `sides` (shaders/line/visible.glsl) of visible triangles whose segments are not yet added, plus
+    // stateSize in shaders/line/envelope.glsl (exact) or shaders/line/segment_buffer.glsl (published).
     [[nodiscard]] std::size_t stateRanges() const {
         return 2 + (exact_ ? 2 + 4 * std::size_t{capacity_} : 3 + 3 * std::size_t{segments_});
     }
@@ -206,7 +207,7 @@ private:
         const Places places{rays, rays + jobRanges * jobs, slots};
         const std::size_t bytes = sizeof(Counters) + places.states * rangeBytes + slots * slotBytes;
         if (output_.bytes() < bytes) {
-            output_ = Buffer();  // free the old buffer first: memory may not hold old and new buffers
+            output_ = Buffer();  // free the old buffer first: memory might not suffice for old and new buffers
             output_ = storage(bytes, "the lines of a wave");
         }
 

@@ -3,8 +3,8 @@
 // i has the angle π·(i + r)/n. Each variant (ray_sets.h) has its own rotation r of the wheel and its own positions of
 // the lines in the pixel. Equal lines in all pixels would be visible as strobing, an open problem in the paper.
 //
-// The lines' positions in the pixel are well distributed over the pixel and the wheel jointly, because only the
-// positions antialias surfaces in focus.
+// The lines' positions are well distributed over the pixel, because only they antialias surfaces in focus. Positions
+// and angles are also well distributed jointly: lines with similar angles have positions in all parts of the pixel.
 //
 // Angles are spaced so that equal amounts of the aperture's light pass between them. Thus all lines have equal weight
 // for any aperture that is not given by an image.
@@ -15,18 +15,21 @@
 namespace defocus::engine {
 
 struct LineSets {
-    // GpuRay::lensAndPixel.xy is the vector (u, k·v) from the lens centre to the rim, where k = image width / height.
-    // GpuRay::values: length of the line's part behind the lens centre relative to the part ahead, fraction of the
-    // light on the part ahead, and position of the shading point in a segment, [0, 1).
+    // A line runs through the lens centre, from rim to rim. GpuRay::lensAndPixel.xy is the vector (u, k·v) from the
+    // lens centre to one end of the line, where (u, v) is in the unit disk and k = image width / height.
+    // GpuRay::values.x is the distance from the centre to the opposite end, relative to this vector's length. values.y
+    // is the fraction of the line's light between the centre and the vector's end. values.z is the position of the
+    // shading point within a visible segment of the line, [0, 1).
     RaySets sets;
     // Per line: xy is the unit vector in (u, v) perpendicular to the mean of the line's variants (ray_sets.h); z is the
     // max distance of a variant from that mean line.
     std::vector<glm::vec4> strips;
 };
 
-// Returns the lines of a frame's pixels. If `turned` is false, the lines have the same angles and positions in all
-// pixels, as in the paper. Groups of `linesPerPosition` lines share a position in the pixel (Figure 2 of the paper).
-// The angles of each group are evenly spread. Throws Error if the lens has an aperture image.
+// Returns the lines of a frame's pixels. If `turned`, angles and positions differ between neighbouring pixels;
+// otherwise they are the same in all pixels, as in Tzeng et al. 2012. Groups of `linesPerPosition` lines share a
+// position in the pixel (Figure 2 of Tzeng et al. 2012). The angles of each group are evenly spread. Throws Error if
+// the lens has an aperture image.
 LineSets lineSets(const FramePlan& plan, bool turned, std::uint32_t linesPerPosition = 1);
 
 // Returns the distance from the aperture's centre to its rim at `angle` in radians, without blade rotation and

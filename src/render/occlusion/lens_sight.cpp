@@ -26,8 +26,10 @@ bool seesBoxes(const ObjectPlan& object) {
            object.refinement == Refinement::none;
 }
 
-// Uses the formula of throughLens in shaders/include/lens.glsl: clip position (x, y) in a pinhole view, plus the circle
-// of confusion a + b·w times lens point (u, k·v), plus w·jitter.
+// Uses the formula of throughLens in shaders/include/lens.glsl. The clip position is (x, y) in the pinhole view, plus
+// C·(u, k·v), plus w·jitter. (u, v) is the lens point, k the aspect ratio of the image, w the depth, and C = a + b·w
+// the circle of confusion with the coefficients a = coc.a and b = coc.front. jitter is the subpixel offset of the
+// sample.
 LensSight::LensSight(const FramePlan& plan, const ObjectPlan& object, std::uint32_t sample)
     : nearPlane_(plan.view.nearPlane) {
     const LensSample& lens = plan.samples[sample];

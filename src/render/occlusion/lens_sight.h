@@ -19,10 +19,10 @@ struct SeenBox {
     float depth = 0;  // upper bound of the box's depth values; depth is reversed, so no point is nearer
 };
 
-// Returns whether LensSight supports the plan: the circle of confusion is C = a + b·w for all samples, and nothing
-// moves.
+// Returns whether LensSight supports the plan: the circle of confusion must be the same linear function of depth for
+// all samples, and nothing may move.
 bool seesBoxes(const FramePlan& plan);
-// Returns whether LensSight supports the object, which must not move and not be deformed.
+// Returns whether LensSight supports the object: it must neither move nor be deformed, and must have no blur modifiers.
 bool seesBoxes(const ObjectPlan& object);
 
 class LensSight {

@@ -12,9 +12,9 @@ namespace defocus::engine {
 
 namespace {
 
-// Below these counts, drawing hidden triangles costs less than the occlusion test.
-constexpr std::uint64_t minTriangles = 50'000;  // triangles of one sample
-constexpr std::uint64_t minInAll = 500'000;     // triangles of all samples of the plan except the first
+// Occlusion culling is off below these numbers of triangles, because the test would cost more than it saves.
+constexpr std::uint64_t minTriangles = 50'000;  // min triangles of one sample
+constexpr std::uint64_t minInAll = 500'000;     // min triangles summed over all samples after the first
 constexpr double maxShown = 0.8;                // max fraction of visible triangles; above it, drawing all is faster
 
 std::uint64_t trianglesOfSample(const FramePlan& plan) {

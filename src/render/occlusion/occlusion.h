@@ -45,14 +45,15 @@ struct RemainingDraw {
     std::uint32_t indexCount = 0;
 };
 
-// Draws without hidden triangles, in the order of the original draws; one draw per sample if samples need different
-// triangles.
+// Draw calls without the hidden triangles, in the order of the original draw calls; one draw call per sample if samples
+// need different triangles.
 struct RemainingDraws {
     std::vector<RemainingDraw> draws;
     std::vector<std::uint32_t> indices;
 };
 
-// Classification of all pieces (groups of neighbouring triangles) as visible or hidden in a block's first sample.
+// Classification of all pieces (groups of neighbouring triangles) as visible or hidden in the first sample of a block
+// of 64 lens samples.
 struct PieceVisibility {
     std::vector<std::vector<bool>> shown;  // per draw of prepare(): whether each piece (group of triangles) is visible
     RemainingDraws draws;                  // draws of the visible pieces, and of objects that cannot be tested
@@ -65,7 +66,8 @@ struct PieceVisibility {
 // waiting batches throw std::future_error.
 struct WaveVisibility {
     using Value = std::shared_ptr<const PieceVisibility>;
-    std::optional<std::promise<Value>> made;  // set in the block's first batch until it has made the classification
+    // Has a value only in the batch with the block's first sample, until this batch has classified the triangles.
+    std::optional<std::promise<Value>> made;
     std::shared_future<Value> shared;
 
     void make(PieceVisibility visibility) {
@@ -82,8 +84,8 @@ public:
     // Prepares culling for `plan`, which must exist until the last draw. Nothing is culled if there are few triangles,
     // or if the lens or motion makes the test impossible.
     void prepare(const FramePlan& plan, const std::vector<OccludableDraw>& draws);
-    // Returns whether hidden triangles are culled. If so, all triangles of the first sample of each block must be
-    // drawn.
+    // Returns whether hidden triangles are culled. If so, the first sample of each block of 64 samples must be drawn
+    // with all triangles, because its depth buffer is used to classify triangles as visible or hidden.
     [[nodiscard]] bool culls() const { return !tested_.empty(); }
 
     // Any number of threads may call the functions below. Each thread needs a current OpenGL context.

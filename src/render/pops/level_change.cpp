@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr float maxBlur = 256;  // max diameter (px) of the blur disks by which objects are grown
+constexpr float maxBlur = 256;  // max diameter (px) of the blur disks by which an object's pixels are dilated
 
 bool sameDraw(const LevelDraw& a, const LevelDraw& b) {
     return a.sampleCount == b.sampleCount &&
@@ -85,7 +85,8 @@ Image pixelsOf(const std::vector<const ObjectPlan*>& changed, const FramePlan& p
     for (const ObjectPlan* object : changed) {
         CocBox box{.ndcMin = glm::dvec2(-1), .ndcMax = glm::dvec2(1)};
         if (object->nearestDepth > plan.view.nearPlane) box = cocBoxOf(object->viewBox, object->own, plan);
-        const double reach = 0.5 * object->coc.largest + 1;  // margin: edges may be half a pixel from pixel centres
+        // The margin of 1 px is needed because a covered pixel extends half a pixel beyond its centre.
+        const double reach = 0.5 * object->coc.largest + 1;
         const int left = bounded(0.5 * (1 + box.ndcMin.x) * objects.width - reach, objects.width);
         const int right = bounded(0.5 * (1 + box.ndcMax.x) * objects.width + reach + 1, objects.width);
         const int top = bounded(0.5 * (1 - box.ndcMax.y) * objects.height - reach, objects.height);

@@ -18,8 +18,8 @@ public:
     // `opaque` is the image of the opaque surfaces. The image must have the format `format` and outlive this object.
     BucketPass(const PinholeImage& opaque, LayerFormat format, const std::filesystem::path& shaderFolder);
 
-    // Draws the objects of `bucket` for sample `sample`. `surfaces` must be prepared, and the opaque image must contain
-    // the same sample.
+    // Draws the objects of `bucket` for sample `sample`. `surfaces` must be prepared, and the image of the opaque
+    // surfaces must have been drawn for the same sample.
     void draw(SurfacePass& surfaces, std::uint32_t sample, const ObjectSet& bucket);
     // Returns the image of the latest draw().
     [[nodiscard]] PinholeImage& image() { return image_; }

@@ -28,14 +28,16 @@ public:
     PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool ownBlur, int samples,
                 const std::filesystem::path& shaderFolder);
 
-    // Prepares drawing of `pinholes`. `frame` must have been uploaded for `pinholes` with one layer, and must exist
-    // until the last draw. Objects in `buckets` are drawn only by drawBucket().
+    // Prepares to draw `pinholes`. `frame` must hold the uniforms of `pinholes`, uploaded with a layerCount of 1, and
+    // must exist until the last draw. Objects in `buckets` are drawn only by drawBucket().
     void prepare(const FramePlan& pinholes, const FrameUniforms& frame, const std::vector<TransparencyBucket>& buckets);
-    // Draws sample `index`. Alpha-blended surfaces that are in no bucket write their depth in a second pass, so that
-    // the background visible through them is blurred by their depth (Scheuermann 2004).
+    // Draws sample `index`. Alpha-blended surfaces that are in no bucket (group of objects that is blurred separately)
+    // write their depth in a second pass. The background visible through such a surface is thus blurred according to
+    // the depth of the surface (Scheuermann 2004).
     void draw(std::uint32_t index);
     // Returns the image of the latest draw(): linear radiance with coverage as alpha (1 for an opaque background), and
-    // depth. Transmitting surfaces of a multisampled image refract the opaque surfaces behind them, but not each other.
+    // depth. In a multisampled image, transmitting surfaces refract the opaque surfaces behind them, but not each
+    // other.
     [[nodiscard]] PinholeImage& image() { return image_; }
 
     [[nodiscard]] std::size_t buckets() const { return buckets_.size(); }

@@ -123,7 +123,7 @@ private:
         const bool same = sum_ && sum_->info().width == view.width && sum_->info().height == view.height &&
                           sum_->info().format == format && pinhole_->hasOwnBlur() == plan_.usesOwnBlur;
         if (!same) {
-            layer_.reset();  // free the old layer and sum first: memory may not hold the old and new ones
+            layer_.reset();  // free the old layer and sum first: memory might not suffice for old and new ones
             sum_.reset();
             layer_.emplace(WaveLayersInfo{view.width, view.height, 1, format});
             sum_.emplace(LayerSumInfo{view.width, view.height, format, options_.shaderFolder});
@@ -146,8 +146,8 @@ private:
     std::optional<WaveLayers> layer_;
     std::optional<LayerSum> sum_;
     std::optional<PinholePass> pinhole_;
-    GlTexture coverage_;  // blurred coverage; only with a transparent background or buckets
-    GlTexture radiance_;  // blurred radiance of a bucket; only with buckets
+    GlTexture coverage_;  // blurred coverage; used only with a transparent background or with transparency buckets
+    GlTexture radiance_;  // blurred radiance of a transparency bucket; used only with transparency buckets
     Target coverageTarget_, radianceTarget_;
     Program coverageToAlpha_, bucketOver_;
     Fullscreen fullscreen_;

@@ -30,8 +30,8 @@ bool overlapInTheImage(const ObjectPlan& a, const ObjectPlan& b, const FramePlan
     return glm::all(glm::lessThan(boxA.ndcMin, boxB.ndcMax)) && glm::all(glm::lessThan(boxB.ndcMin, boxA.ndcMax));
 }
 
-// Returns the indices of blended objects for buckets, front to back. Omits transmitting objects, and objects behind a
-// transmitting or an omitted object.
+// Returns the indices of blended objects for buckets, front to back. Omits transmitting objects and, in turn, each
+// object that is behind an omitted object and may overlap it in the image.
 std::vector<std::size_t> blendedObjects(const FramePlan& plan) {
     std::vector<std::size_t> blended;
     std::vector<std::size_t> staying;
@@ -54,8 +54,8 @@ std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::
     if (blended.empty()) return {};
 
     struct Step {
-        double height = 0;       // difference in px between the blurs of two neighbouring objects
-        std::size_t behind = 0;  // index into `blended` of the first object behind this step
+        double height = 0;  // difference in blur diameter (px) between two objects that are neighbours in depth order
+        std::size_t behind = 0;  // index into `blended` of the farther of the two objects
     };
     std::vector<Step> steps;
     const auto blurOf = [&](std::size_t i) { return middleOf(plan.objects[blended[i]].coc, plan.view.width); };

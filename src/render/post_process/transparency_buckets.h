@@ -14,8 +14,8 @@ using TransparencyBucket = std::vector<std::size_t>;
 
 // Returns at most `max` buckets, the farthest first. The blended objects, in depth order, are divided where the blur
 // differs most between neighbours. Neighbours whose blurs differ by less than 1 px are in the same bucket. Objects that
-// may be visible through a transmitting surface are in no bucket, because the background of this surface is a copy of
-// the image drawn before the surface. Without lens blur, there are no buckets.
+// may be visible through a transmitting surface are in no bucket: the surface refracts a copy of the image drawn before
+// it, which must already contain these objects. Without lens blur, there are no buckets.
 std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::uint32_t max);
 
 // Returns a rectangle, in px from the image's lower left corner, that contains the blurred images of the bucket's

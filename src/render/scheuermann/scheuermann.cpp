@@ -21,10 +21,11 @@ namespace defocus::engine {
 namespace {
 
 constexpr double publishedLargest = 10;  // max blur diameter in px
-// Factors on the tap radius in the small image, whose pixels are 4 times as wide.
+// Tap radius in px of the small image, relative to the tap radius in px of the full-size image. Pixels of the small
+// image are 4 times as wide.
 constexpr float publishedSmallRadius = 0.4f;
-constexpr float trueSmallRadius = 0.25f;  // factor for taps at the same positions as in the image
-constexpr int smallReduction = 4;         // width of a pixel of the small image in image pixels
+constexpr float trueSmallRadius = 0.25f;  // taps at the same positions as in the full-size image
+constexpr int smallReduction = 4;         // width of a pixel of the small image in px of the full-size image
 constexpr std::uint32_t maxTaps = 64;
 constexpr std::uint32_t candidatesPerPoint = 32;
 
@@ -193,9 +194,12 @@ private:
 }  // namespace
 
 BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focusDistance, double largest, int width) {
-    const double radius = largest / width;  // max radius in units of |C/w|, for circle of confusion C at depth w
+    // The blur radius at depth w, in normalised device coordinates, is |C/w| with the clip-space circle of confusion C.
+    // `radius` is its max.
+    const double radius = largest / width;
     BlurrinessPlanes planes;
-    // At depth w, C/w = a/w + b with a < 0. C/w is −radius at the near plane and +radius at the far plane.
+    // At depth w, C/w = a/w + b with a = coc.a < 0; b is coc.front in front of the focus plane and coc.behind behind
+    // it. C/w is −radius at the near plane and +radius at the far plane.
     planes.near = -coc.a / (coc.front + radius);
     if (std::isinf(focusDistance)) {  // nothing is behind the focus plane
         planes.focus = 2 * planes.near;
@@ -209,7 +213,7 @@ BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focus
         return planes;
     }
     planes.cutoff = coc.behind / radius;
-    // The blurriness at twice the focus distance is half the cutoff, which is the blurriness at infinity.
+    // The cutoff is the blurriness at infinity. At twice the focus distance, the blurriness is half the cutoff.
     planes.far = focusDistance + focusDistance / (0.5 * planes.cutoff);
     return planes;
 }

@@ -33,7 +33,8 @@ struct BlurrinessPlanes {
     double cutoff = 1;
 };
 
-// Planes set by the user, in m; 0: value of blurrinessPlanes(). The cutoff is in (0, 1].
+// Planes set by the user, in m, and the max blurriness behind the focus plane (cutoff), in (0, 1]. 0: use the value of
+// blurrinessPlanes().
 struct PlanesByHand {
     double near = 0;
     double focus = 0;
@@ -49,8 +50,8 @@ BlurrinessPlanes withPlanesByHand(const BlurrinessPlanes& planes, const PlanesBy
 // 0; `width` is the image's width in px.
 BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focusDistance, double largest, int width);
 
-// Returns `count` points in the unit disk with large distances to each other and to the centre (best candidates,
-// Mitchell 1991). As in the slides, the centre is not a tap: only its depth is read. All calls return the same points.
+// Returns `count` points in the unit disk that are far from each other and from the centre (best candidates, Mitchell
+// 1991). As in Scheuermann's slides, the centre is not a tap: only its depth is read. All calls return the same points.
 std::vector<glm::vec2> poissonDisk(std::uint32_t count);
 
 Method scheuermannMethod();

@@ -10,8 +10,9 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint32_t pointTile = 8;        // tile side in px
-constexpr std::uint32_t maxEntries = 40'000;  // max list entries of a tile per dispatch
-// Bytes of the lens bounds of rays that are traced together.
+constexpr std::uint32_t maxEntries = 40'000;  // max triangles of a tile's list that one dispatch tests
+// Size in bytes of the lens bounds of all rays that are traced together: one vec4 per ray, the bounding box of its lens
+// points.
 constexpr std::size_t boundBytes = blockSamples * sizeof(glm::vec4);
 
 class StochasticKernel final : public VisibilityKernel {
@@ -87,7 +88,7 @@ private:
     ShaderDefines defines_;
     Program program_;
     Buffer boundBlock_;
-    Buffer tests_;              // uniform block TestBlock of shaders/stochastic/visible.comp
+    Buffer tests_;              // shader storage block TestBlock of shaders/stochastic/visible.comp
     std::uint64_t groups_ = 0;  // number of workgroups so far; each traces one ray per pixel of a tile
     RecordBuffer records_;
 };
