@@ -54,9 +54,9 @@ const char* extensionOf(GLenum stage) {
     }
 }
 
-// Redirects a function pointer of libepoxy to `mine` and keeps its original value. That value is first libepoxy's
-// resolver, which must be called through the pointer: it looks up the driver's function and stores it in the pointer.
-// Later calls use the driver's function directly, so that the pointer stays redirected for all threads.
+// Redirects a function pointer of libepoxy to `mine` and keeps its original value. At first, this value is libepoxy's
+// resolver, which looks up the driver's function and stores it in the pointer. The pointer is therefore restored during
+// the first call. Later calls use the driver's function directly, so that the pointer stays redirected for all threads.
 template <typename Function>
 class Detour {
 public:
@@ -88,7 +88,7 @@ private:
     Function& pointer_;
     Function mine_;
     Function before_;
-    bool resolved_ = false;  // whether before_ is the driver's function
+    bool resolved_ = false;  // whether before_ holds the driver's function instead of libepoxy's resolver
 };
 
 GLuint EPOXY_CALLSPEC createShader(GLenum stage);

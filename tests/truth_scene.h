@@ -80,8 +80,8 @@ inline RenderSettings fullDetailSettings(std::uint32_t samples, std::uint32_t se
 // Signed difference b − a of two images a and b, averaged over blocks of 32 × 32 px and three channels.
 struct BlockDifference {
     double mean = 0;     // mean difference over the whole image
-    double rms = 0;      // RMS of the blocks' means
-    double largest = 0;  // max absolute mean of a block
+    double rms = 0;      // RMS of the blocks' mean differences
+    double largest = 0;  // largest absolute value of the blocks' mean differences
 };
 
 inline BlockDifference blockDifference(const Image& a, const Image& b) {

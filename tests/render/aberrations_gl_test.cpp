@@ -29,7 +29,7 @@ View viewOf(double astigmatism, double coma) {
 }
 
 RenderSettings fullDetail(std::uint32_t samples) {
-    // keepAll: by default, a pinhole image uses fewer samples
+    // keepAll, because a frame without blur would otherwise use at most 16 samples
     return {.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
 }
 
@@ -66,19 +66,20 @@ Spot spotAt(const View& view, const glm::dvec2& place, double depth, const char*
 }
 
 constexpr glm::dvec2 middle{80, 60};
-constexpr double perHalfWidth = 80;  // px
+constexpr double perHalfWidth = 80;  // half the image's width, px
 constexpr double inFocus = 2;        // distance of the point, equal to the focus distance, m
 // Variance along an axis, in px², of the point without aberrations: 1/3 from its width of two pixels, and 1/12 from the
 // jitter inside a pixel.
 constexpr double ownVariance = 5.0 / 12;
 
-// Astigmatism A turns a point at the image position m, relative to the image's centre, into a line towards the centre.
-// Lens points l = (u, v) cover the unit disk with u along m. Over the disk E[u²] = 1/4, so the variance is (A·|m|²)²/4
-// along the line and 0 across it. The line's outer half is brighter, because a ray through l enlarges the point by
-// 3·A·(m·l). This moves the mean by ¾·A²·|m|²·m.
+// Astigmatism A turns a point at the image position m into a line towards the image's centre. m is relative to the
+// centre, in units of half the image's width. Lens points l = (u, v) cover the unit disk with u along m. Over the disk
+// E[u²] = 1/4, so the variance is (A·|m|²)²/4 along the line and 0 across it. Seen through l, the area of the point's
+// image is multiplied by 1 + 3·A·(m·l). The line's outer half is therefore brighter, which moves the mean by
+// ¾·A²·|m|²·m.
 TEST_F(Aberrations, astigmatismMakesLinesToTheCentre) {
     SKIP_ON_SECOND_DRIVER();
-    constexpr double share = 0.05;  // astigmatism A as a fraction of half the image's width
+    constexpr double share = 0.05;  // astigmatism A: length of the line at the left and right edges / image width
     for (const glm::dvec2& place : {glm::dvec2(138, 71), glm::dvec2(124, 93), glm::dvec2(40, 100)}) {
         const Spot sharp = spotAt(viewOf(0, 0), place, inFocus);
         const Spot line = spotAt(viewOf(share * 36, 0), place, inFocus);
@@ -95,12 +96,14 @@ TEST_F(Aberrations, astigmatismMakesLinesToTheCentre) {
     }
 }
 
-// Coma B turns a point at the distance m from the image's centre into a comet. Lens points l = (u, v) cover the unit
-// disk with u along the line to the centre. A ray deviates by B·m·(3u² + v²) along this line and by 2·B·m·u·v across
-// it. Over the disk, the mean deviation is B·m, and the variances are B²·m²/2 and B²·m²/6. A ray through l enlarges the
-// point by 4·B·|l|², which moves the mean to B·m·(1 + ⅔·B).
+// Coma B turns a point at the distance m from the image's centre into a comet. Distances are in units of half the
+// image's width. Lens points l = (u, v) cover the unit disk with u along the line to the centre. A ray deviates by
+// B·m·(3u² + v²) along this line and by 2·B·m·u·v across it. Over the disk, the mean deviation is B·m, and the
+// variances are B²·m²/2 and B²·m²/6. Seen through l, the area of the point's image is multiplied by 1 + 4·B·|l|². With
+// these factors as weights, the mean deviation is B·m·(1 + ⅔·B).
 TEST_F(Aberrations, comaMakesComets) {
-    for (const double share : {0.03, -0.03}) {  // coma B as a fraction of half the image's width
+    // Coma B. At the left and right edges, the comet's tail is 1.5·B times as long as the image is wide.
+    for (const double share : {0.03, -0.03}) {
         const glm::dvec2 place(134, 60);
         const Spot sharp = spotAt(viewOf(0, 0), place, inFocus);
         const Spot comet = spotAt(viewOf(0, 1.5 * share * 36), place, inFocus);
@@ -115,7 +118,8 @@ TEST_F(Aberrations, comaMakesComets) {
 }
 
 // Astigmatism widens the blur along one axis only. A blur of c px and a line of L px add up to the variance (c + L)²/16
-// along the line and c²/16 across it. An astigmatic lens has two focal distances: where c = −L, a point becomes a line
+// along the line and c²/16 across it. The blur c is negative in front of the focal plane. An astigmatic lens has two
+// focal distances: at c = 0, a point becomes a line towards the image's centre; at c = −L, it becomes a line
 // perpendicular to the line at c = 0.
 TEST_F(Aberrations, astigmatismAddsToTheBlurAlongOneAxis) {
     const glm::dvec2 place(134, 60);

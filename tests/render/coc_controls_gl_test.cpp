@@ -1,5 +1,5 @@
 // Tests the controls of the circle of confusion, such as a focus range or a blur limit. Each control has its documented
-// effect on images, and large triangles look like small ones.
+// effect on images. A surface of large triangles gives the same image as a surface of small triangles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ using CocControls = GlContextTest;
 
 Image rendered(const SmallWorld& small, std::uint32_t samples, double tolerance = 0.5,
                const char* method = "accumulation") {
-    // keepAll: by default, a pinhole image uses fewer samples
+    // keepAll, because a frame without blur would otherwise use at most 16 samples
     const RenderSettings settings{
         .sampleCount = samples, .lod = LodMode::off, .cocTolerance = tolerance, .keepAll = true};
     return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
@@ -104,8 +104,9 @@ std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end
     return small;
 }
 
-// A geometry shader cuts triangles where the slope of the circle of confusion jumps. Triangles without such a jump are
-// divided without this shader. With the shader, their image is the same.
+// Triangles in which the circle of confusion is not linear are subdivided. A geometry shader also cuts triangles in
+// which the slope of the circle of confusion jumps. Objects without such a jump are drawn without this shader. With the
+// shader, their image is the same.
 TEST_F(CocControls, dividedTrianglesNeedNoCuts) {
     const auto floor = checkeredFloor(3, 2, 12);
     floor->view.lens.fieldCurvature = 0.5;
@@ -155,7 +156,7 @@ TEST_P(LargeTriangles, lookLikeSmallOnes) {
     const Image reference = rendered(*fine, 16, 1e6);
     const Image divided = rendered(*large, 16, 0.1);
     const double error = rootMeanSquare(divided, reference);
-    if (GetParam().begin < 0) {  // a surface that reaches the camera is always divided
+    if (GetParam().begin < 0) {  // triangles of a surface that reaches the camera are divided at any tolerance
         // GPUs clip and round differently from the software rasterizer llvmpipe: the error on an NVIDIA H100 is 0.0022.
         EXPECT_LT(error, currentIsSoftware() ? 0.002 : 0.003);
         return;
@@ -262,8 +263,8 @@ TEST_F(CocControls, limitBehindLeavesFocusAndForeground) {
 }
 
 // Between the camera and the focus range, the blur equals that of a lens focused at the near end. Behind the range, the
-// blur equals that of a lens focused at the far end. With focusRangeRefocuses, the aperture is unchanged. Otherwise it
-// is multiplied by the far end's distance over the focus distance.
+// blur equals that of a lens focused at the far end. With focusRangeRefocuses, the latter lens has the same aperture.
+// Otherwise its aperture is multiplied by the far end's distance over the focus distance.
 TEST_F(CocControls, focusRangePreservesNearAndFarBlur) {
     for (const bool refocuses : {false, true}) {
         const auto small = threePatches();
@@ -406,8 +407,8 @@ TEST_F(CocControls, aovIsTheFunctionOfThePlan) {
         }
 }
 
-// Post-process methods use the same circle of confusion. If the controls limit all blur to zero, these methods give the
-// pinhole image.
+// Post-process methods also apply the controls of the circle of confusion. If the controls limit all blur to zero,
+// these methods give the pinhole image.
 TEST_F(CocControls, postProcessMethodsFollow) {
     for (const char* method : {"circular", "scheuermann:coc=thin-lens"}) {
         const auto small = threePatches();

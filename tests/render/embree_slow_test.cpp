@@ -1,4 +1,4 @@
-// Tests the ray tracer's bokeh against the definition of each aperture that needs a mask.
+// Tests the ray tracer's bokeh against the definition of each aperture that is sampled from a mask.
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,9 @@
 namespace defocus::engine {
 namespace {
 
-// If lens points of an aperture are chosen by rejection, or the aperture is an image, the bokeh has the aperture's
-// distribution of light. The tolerance covers the noise of the 18,000 rays that hit the bright square.
+// Lens points are chosen by rejection sampling for all apertures except disks and polygons with straight blades. The
+// bokeh shows the aperture's distribution of light. The tolerance covers the noise of the 18,000 rays that hit the
+// bright square.
 TEST(EmbreeBokehShape, MaskedAperturesShowTheirDefinition) {
     View view = bokehView(36, 36);
     view.lens.fStop = 0.03;  // with its blur of 28 px, the square just fits into the image

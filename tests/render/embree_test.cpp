@@ -159,9 +159,9 @@ TEST(EmbreeBokehShape, TriangleStandsUprightBehindFocusAndUpsideDownInFront) {
     for (const double depth : {1.2, 6.0}) {
         const Image image = traced(rectangleScene(view, {quadAt(view, depth)}, glm::vec3(100)), view, 1024);
         const double radius = blurDiameter(view, depth) / 2;
-        // distance in px towards the corner, inside the bokeh
+        // distance in px from the bokeh's centre towards its corner, to a pixel inside the bokeh
         const int lit = static_cast<int>(0.8 * radius);
-        // distance in px towards the flat side, outside the bokeh
+        // distance in px from the bokeh's centre towards its flat side, to a pixel outside the bokeh
         const int dark = static_cast<int>(0.5 * radius + 1.5) + 1;
         const bool upright = depth > view.lens.focusDistance;
         EXPECT_GT(*image.at(32, upright ? 31 - lit : 32 + lit), 0.5f * *image.at(32, 32));
@@ -297,8 +297,9 @@ TEST(EmbreePlanned, SamplePointsAreThoseOfThePlan) {
     EXPECT_DOUBLE_EQ(moments.mean.x, 31.5 + 4);
     EXPECT_DOUBLE_EQ(moments.mean.y, 21.5 - 6);
     sample.pixel = glm::vec2(0.4f, 0.4f);
-    // A lens point that lies 0.2 px farther out moves the image by another pixel only together with a pixel offset of
-    // −0.4: 4.2 − 0.4 rounds to 4, and 4.2 + 0.4 rounds to 5.
+    // This lens point moves the image by 4.2 px to the right and 6.2 px up. The pixel offset is subtracted, and the
+    // difference is rounded. With an offset of 0.4 px, the image still moves by 4 and 6 px (3.8 and 5.8, rounded). With
+    // an offset of −0.4 px, it moves by 5 and 7 px (4.6 and 6.6, rounded).
     sample.lens = glm::vec2(4.2 / radius, 6.2 / radius);
     plan.samples = {sample};
     const Moments further = momentsOf(imageOf(*makeEmbreeRenderer(world, EmbreeSampling::planned), plan));

@@ -12,8 +12,8 @@ namespace {
 
 using EnvironmentMaps = LitWall;
 
-// `first` returns linear terms of the radiance L(d), and `second` traceless quadratic terms, so that each function
-// belongs to a single band. All axes differ, so that an exchanged or rotated axis fails a test.
+// `first` returns linear terms of the radiance L(d), and `second` traceless quadratic terms, so that each function lies
+// in a single band of spherical harmonics. All axes differ, so that a test fails if axes are swapped or rotated.
 glm::dvec3 first(const glm::dvec3& d) {
     return {0.3 * d.x + 0.2 * d.y - 0.1 * d.z, 0.35 * d.y, 0.3 * d.z};
 }
@@ -43,8 +43,9 @@ Environment mapEnvironment() {
     return {EnvironmentType::map, {}, {}, {}, map, 1};
 }
 
-// Bound on the error of the map. Half floats, and linear interpolation between texels that are π/128 apart, have an
-// error of 2⁻¹¹·1.7 + (π/128)²/8·4.
+// Bound on the error of the map, whose radiance is below 1.7 and has second derivatives below 4. Half floats have a
+// rounding error of up to 2⁻¹¹·1.7. Linear interpolation between texels that are π/128 apart has an error of up to
+// (π/128)²/8·4.
 constexpr double mapError = 1.2e-3;
 
 const std::vector<glm::dmat4>& turns() {
@@ -129,8 +130,8 @@ TEST_F(EnvironmentMaps, aMirrorShowsTheMirroredDirection) {
 
 // A matt wall under a gradient sky has the radiance E(n)/π. The irradiance E(n) is summed numerically over the
 // hemisphere in front of the wall. The renderer omits the spherical harmonics beyond the second band. The largest
-// omitted band is the fourth: its coefficient is −3/32 times zenith + nadir − 2·horizon, and the clamped cosine scales
-// it by −1/24.
+// omitted band is the fourth: its coefficient is −3/32·(zenith + nadir − 2·horizon), in terms of the sky's radiances,
+// and the clamped cosine scales it by −1/24.
 TEST_F(EnvironmentMaps, aMattWallUnderAGradientGathersItsHemisphere) {
     const Environment sky = {
         EnvironmentType::gradient, {0.6f, 0.8f, 1.0f}, {0.4f, 0.5f, 0.6f}, {0.1f, 0.1f, 0.2f}, nullptr, 1};

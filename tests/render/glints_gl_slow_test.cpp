@@ -32,8 +32,9 @@ std::unique_ptr<SmallWorld> rippledBall(float roughness, float metallic) {
     return small;
 }
 
-// Returns suns in all directions, evenly on a spiral from pole to pole (Vogel 1979). Each value of `set` gives all suns
-// another offset. With a single sun, the result would depend on the positions of the ripples' caustics.
+// Returns suns in all directions, evenly on a spiral from pole to pole (Vogel 1979). Each value of `set` moves all suns
+// by different offsets in height and azimuth. With a single sun, the result would depend on the positions of the
+// ripples' caustics.
 std::vector<PlacedLight> sunsAllAround(std::uint32_t set) {
     constexpr int count = 60;
     std::vector<PlacedLight> suns;

@@ -90,7 +90,7 @@ TEST_F(LensColour, bandsHaveTheBlurOfTheirOwnFocus) {
         central += middle * middle / 8 / steps;
     }
     EXPECT_NEAR(plain.moment.r - central, plain.moment.b - central, 1e-6);
-    const double box = plain.moment.g - central;  // contribution of the point's size and the pixel filter
+    const double box = plain.moment.g - central;  // second moment added by the point's size and the pixel filter
     for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(blob.moment[c], expected[c] + box, 0.02 * expected[c]) << "channel " << c;
         EXPECT_NEAR(blob.energy[c] / plain.energy[c], 1, 0.01) << "channel " << c;
@@ -120,8 +120,8 @@ TEST_F(LensColour, greyStaysGrey) {
 }
 
 // With the cat's eye effect, the aperture seen from the image's corner is the intersection of two circles that are
-// `catEye` radii apart. Its short axis points towards the image's centre. The brightness is unchanged, because the
-// remaining rays have larger weights.
+// `catEye` radii apart: the aperture and the rim of the lens barrel. Its short axis points towards the image's centre.
+// The brightness is unchanged, because the remaining rays have larger weights.
 TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
     View view = viewOf(0.35);
     view.lens.catEye = 0.8;
@@ -143,8 +143,8 @@ TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
             across += weight * std::pow(away.x * outward.y - away.y * outward.x, 2);
         }
 
-    // Expected second moments. A lens point counts if it lies inside both circles. The position of the second
-    // circle depends on the pixel that the point lights.
+    // Expected second moments. A lens point counts if it lies inside the aperture and inside the rim of the lens
+    // barrel, a circle of the same size. The position of the rim depends on the pixel that the lens point lights.
     const double diameter = 0.05 / 0.35 * (1 / 2.0 - 1 / depth) * 128 / 0.72;
     const double corner = std::sqrt(1 + 0.75 * 0.75);
     double expectedAlong = 0;

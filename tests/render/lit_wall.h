@@ -183,7 +183,7 @@ inline void expectRadiance(const Image& image, const WallPoint& point, const glm
 
 // Expects a pixel to have the radiance `expected`, within rounding errors. Single precision over some dozens of
 // operations errs by 2e-5. The GGX distribution magnifies rounding of the half vector's cosine in proportion to 1/α².
-// `slope` is the change of the radiance over the uncertainty of the position.
+// `slope` is the amount by which the radiance changes within the uncertainty of the position.
 inline void expectLitRadiance(const Image& image, const WallPoint& point, const glm::dvec3& expected, double roughness,
                               const glm::dvec3& slope = glm::dvec3(0)) {
     const double relative = 2e-5 + 1e-6 / std::pow(roughness, 4);

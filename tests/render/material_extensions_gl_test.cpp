@@ -10,7 +10,7 @@ namespace {
 
 class MaterialExtensions : public Transmission {
 protected:
-    // Returns the mean of the four middle pixels, at whose common corner the view axis passes.
+    // Returns the mean of the four central pixels. The view axis passes through their common corner.
     static glm::dvec3 middleOf(const Image& image) {
         glm::dvec3 sum(0);
         for (const auto& [x, y] : {std::pair(15, 11), {16, 11}, {15, 12}, {16, 12}})
@@ -45,8 +45,8 @@ struct Widths {
     double along, across;
 };
 
-// Returns D·V, distribution times visibility, by KHR_materials_anisotropy. The components of `v` and `l` are along the
-// tangent, across it and along the normal.
+// Returns D·V, the distribution times the visibility, as defined in KHR_materials_anisotropy. The components of `v` and
+// `l` are along the tangent, across it and along the normal.
 double stretchedGgx(const Widths& widths, const glm::dvec3& v, const glm::dvec3& l) {
     const glm::dvec3 h = glm::normalize(v + l);
     const glm::dvec3 scaled(h.x / widths.along, h.y / widths.across, h.z);
@@ -173,8 +173,8 @@ Material filmed(float base, float ior, float thickness, float roughness = 0) {
             .iridescenceThicknessMaximum = thickness};
 }
 
-// KHR_materials_iridescence approximates spectra by Gaussians and Fresnel's equations by Schlick's. The reflectance
-// differs from the spectral sum by up to 0.035 at normal incidence, and by up to 0.09 at 53°.
+// KHR_materials_iridescence approximates spectra by Gaussians, and Fresnel's equations by Schlick's approximation. The
+// reflectance differs from the spectral sum by up to 0.035 at normal incidence, and by up to 0.09 at 53°.
 TEST_F(MaterialExtensions, filmsReflectTheColoursOfInterference) {
     for (const float base : {0.04f, 0.3f, 0.8f})
         for (const float ior : {1.3f, 1.8f})
@@ -194,7 +194,8 @@ TEST_F(MaterialExtensions, filmsColourTheHighlightsOfLights) {
     const auto small = litWall(filmed(0.3f, 1.8f, thickness, 0.4f));
     small->world.lights = {sunFrom(fromWall(*small, {0, 0, -1}), 3)};
     const glm::dvec3 seen = middleOf(wallImage(*small));
-    const double unfilmed = 3 / (4 * std::numbers::pi * 0.16 * 0.16);  // without a film: E·D·V for n = v = l
+    // Radiance of a white metal without a film: the sun's illuminance of 3 times the GGX terms D·V for n = v = l.
+    const double unfilmed = 3 / (4 * std::numbers::pi * 0.16 * 0.16);
     const glm::dvec3 expected = filmColor(1, 0.3, 1.8, thickness) * unfilmed;
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], expected[c], 0.035 * unfilmed) << c;
 }

@@ -55,7 +55,7 @@ TEST_F(MaterialLayers, specularScalesAndColoursTheReflectance) {
     colored.specularColorFactor = {0.2f, 0.9f, 0.5f};
     colored.ior = 2;
     expectWall(colored, {{0.5f, 0.2f, 0.4f}, 0, 0.3f, reflectanceOf(2) * glm::dvec3(0.2f, 0.9f, 0.5f)});
-    colored.metallicFactor = 1;  // the material is a metal, which ignores both factors
+    colored.metallicFactor = 1;  // a metal, which ignores the specular colour and the index of refraction
     expectWall(colored, {{0.5f, 0.2f, 0.4f}, 1, 0.3f});
 }
 

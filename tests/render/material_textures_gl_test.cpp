@@ -93,7 +93,7 @@ TEST_F(MaterialTextures, alphaMaskCutsHoles) {
     }
     EXPECT_GT(holes, 100);
     EXPECT_GT(left, 100);
-    // At a cutoff of 1, texels with an alpha of 1 are kept if the alpha factor is 1, too.
+    // At a cutoff of 1, texels with an alpha of 1 are kept if the alpha factor is also 1.
     small->scene.materials[0].baseColorFactor.a = 1;
     small->scene.materials[0].alphaCutoff = 1;
     const Image full = wallImage(*small);
@@ -207,7 +207,7 @@ TEST_F(MaterialTextures, allCodesOfABaseColourAreDecoded) {
         ASSERT_TRUE(nearestCode(5.0 * pixel[1], texel[1])) << texel[1] << ": " << pixel[1];
         ASSERT_TRUE(nearestCode(pixel[2], texel[2])) << texel[2] << ": " << pixel[2];
     }
-    // At least 80 of the texture's 256 texels, each with another sRGB value, must be visible in the image.
+    // The texture has 256 texels with different sRGB values. At least 80 of them must be visible in the image.
     EXPECT_GT(std::ranges::count_if(seen, [](int times) { return times > 0; }), 80);
 }
 

@@ -201,7 +201,7 @@ TEST_F(Motion, aBendingReedBeforeAMovingCameraIsTheMeanOfItsMoments) {
 
 TEST_F(Motion, aRunningFoxBeforeAMovingCameraIsTheMeanOfItsMoments) {
     DEFOCUS_MODEL_OR_SKIP(path, "Fox.glb");
-    expectMeanOfMoments(path, 2, 0.02, 20'000);  // large values, since the fox is a hundred metres long
+    expectMeanOfMoments(path, 2, 0.02, 20'000);  // f/0.02 and 20,000 cd, since the fox is a hundred metres long
 }
 
 // Returns five spheres with a morph target. openShutter() moves them along straight lines and moves the camera.
@@ -232,8 +232,8 @@ void openShutter(SmallWorld& small, const std::vector<double>& shares) {
     }
 }
 
-// Translation is linear in time, so one motion segment between two poses is exact. This includes morph targets and blur
-// controls.
+// Translation is linear in time, so one motion segment between two poses is exact. The same holds for morph targets,
+// with and without blur controls.
 TEST_F(Motion, oneSegmentIsExactForTranslationAndMorphs) {
     constexpr std::uint32_t samples = 16;
     for (const bool controlled : {false, true}) {

@@ -27,7 +27,7 @@ TEST_F(Shadowed, multirateAndPostProcessDrawThemToo) {
     const RenderSettings settings = settingsFor(64, Shadows::on);
     const Image accumulated = shadowImage(*small, settings);
     EXPECT_GT(compareImages(accumulated, shadowImage(*small, settings, "multirate")).psnr,
-              35);  // multirate uses other sample points on the lights
+              35);  // a low bound, because multirate uses different sample points on the lights
     const auto edge = wall();
     addSun(*edge, {1, 0, 1}, glm::radians(20.0));
     addEdge(*edge, 1, 1);
@@ -40,7 +40,7 @@ TEST_F(Shadowed, multirateAndPostProcessDrawThemToo) {
         max = std::max(max, std::abs(shares[static_cast<std::size_t>(x)] -
                                      litShareBehindEdge(place, 1, 1, std::tan(glm::radians(10.0)))));
     }
-    EXPECT_LT(max, 0.12);  // noise: each of 4 pinhole images uses 16 points on the sun
+    EXPECT_LT(max, 0.12);  // tolerance for the noise of 4 pinhole images with 16 points on the sun each
 }
 
 }  // namespace

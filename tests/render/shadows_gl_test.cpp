@@ -32,7 +32,8 @@ TEST_F(Shadowed, penumbraOfADiskBehindAnEdge) {
             double expectedWidth = 0;
             for (int x = 0; x < small->view.width; ++x) {
                 const double place = wallX(small->view, x);
-                if (std::abs(place) > 0.7 * height) continue;  // farther right, the board itself hides the wall
+                // Test only the wall near the shadow's edge; farther right, the board itself hides the wall.
+                if (std::abs(place) > 0.7 * height) continue;
                 const double share = shares[static_cast<std::size_t>(x)];
                 EXPECT_LT(share, litShareBehindEdge(place - bias, height, height, t) + 0.04) << place;
                 EXPECT_GT(share, litShareBehindEdge(place + bias, height, height, t) - 0.04) << place;
@@ -81,7 +82,9 @@ TEST_F(Shadowed, noLightLeaksAtAContact) {
     for (int x = 0; x < small->view.width; ++x) {
         const double place = wallX(small->view, x);
         if (place > -2 * texel || place < -0.9)
-            continue;  // the shadow is 1 m wide; at the board, the depth bias lights up to two texels
+            // Skip the pixels next to the board, where the depth bias leaves up to two shadow-map texels lit. Also skip
+            // the far edge of the shadow, which is 1 m wide.
+            continue;
         EXPECT_EQ(shares[static_cast<std::size_t>(x)], 0) << place;
         ++dark;
     }
@@ -166,7 +169,7 @@ TEST_F(Shadowed, glassShadesByItsTexturesAndThickness) {
     int seen = 0;
     for (int x = 0; x < small->view.width; ++x) {
         const double place = wallX(small->view, x);
-        if (place < 0.1 || place > 0.9) continue;  // farther right, the pane hides the wall
+        if (place < 0.1 || place > 0.9) continue;  // skip the shadow's edge; on the right, the pane hides the wall
         sum += shares[static_cast<std::size_t>(x)];
         ++seen;
     }
@@ -205,7 +208,7 @@ TEST_F(Shadowed, colouredGlassTintsTheLight) {
         int seen = 0;
         for (int x = 0; x < small->view.width; ++x) {
             const double place = wallX(small->view, x);
-            if (place < 0.1 || place > 0.65) continue;  // farther right, the pane hides the wall
+            if (place < 0.1 || place > 0.65) continue;  // skip the shadow's edge; on the right, the pane hides the wall
             for (int c = 0; c < 3; ++c) mean[c] += double{image.at(x, 36)[c]} / double{lit.at(x, 36)[c]};
             ++seen;
         }
@@ -240,7 +243,7 @@ TEST_F(Shadowed, blendedLayersShadeByTheirProduct) {
     int seen = 0;
     for (int x = 0; x < small->view.width; ++x) {
         const double place = wallX(small->view, x);
-        if (place < 0.15 || place > 0.65) continue;  // farther right, the layers hide the wall
+        if (place < 0.15 || place > 0.65) continue;  // skip the shadow's edge; on the right, the layers hide the wall
         sum += shares[static_cast<std::size_t>(x)];
         ++seen;
     }
@@ -278,7 +281,8 @@ TEST_F(Shadowed, lampsThrowMagnifiedShadows) {
     }
 }
 
-// Under a uniform sky, a tall and wide board that stands on the wall hides half of the sky from the wall beside it.
+// Under a uniform sky, a tall and wide board at right angles to the wall hides half of the sky from the wall beside the
+// board.
 TEST_F(Shadowed, surroundingsAreHiddenByHalf) {
     const auto small = wall();
     small->world.environment = {EnvironmentType::uniform, glm::vec3(1), glm::vec3(1), glm::vec3(1), nullptr, 1};

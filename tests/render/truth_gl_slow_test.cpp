@@ -1,5 +1,6 @@
 // Tests the rasterizer against an independent ray tracer on real geometry, and against closed forms of a small quad's
-// bokeh. If DEFOCUS_TEST_OUTPUT names a folder, images and their differences (× 16 around grey) are written there.
+// bokeh. If DEFOCUS_TEST_OUTPUT names a folder, images and their differences, scaled by 16 and centred on grey, are
+// written there.
 
 #include <gtest/gtest.h>
 
@@ -59,8 +60,8 @@ void expectNoStructure(const std::string& name, const TruthScene& baked, const I
     EXPECT_GE(compareImages(planned, image).psnr, 70) << name;
     EXPECT_LE(blocks.largest, 1.5e-4) << name;
     EXPECT_LE(std::abs(blocks.mean), 2e-6) << name;
-    EXPECT_NEAR(widened, 0, 5e-4) << name;      // excess of the blur's width, as a fraction
-    EXPECT_NEAR(moved.right, 0, 1e-3) << name;  // px
+    EXPECT_NEAR(widened, 0, 5e-4) << name;      // ratio of the blur's width to the ray tracer's, minus 1
+    EXPECT_NEAR(moved.right, 0, 1e-3) << name;  // shift, px
     EXPECT_NEAR(moved.down, 0, 1e-3) << name;
     EXPECT_NEAR(moved.growth * baked.view.width, 0, 2e-3) << name;  // change in the image's size, px
 }
@@ -76,8 +77,8 @@ void expectTruth(const std::string& name, Scene scene) {
     const Difference difference = compareImages(reference, image);
     EXPECT_GE(difference.psnr, 45) << name;
     EXPECT_EQ(difference.nonFinite, 0) << name;
-    // At 256 samples, the bounds allow for the noise of the ray tracer's independent sample points, and for a mean lens
-    // point of the plan that is up to 0.006 lens radii off the centre.
+    // At 256 samples, the bounds allow for the noise of the ray tracer's independent sample points. They also allow for
+    // the mean of the rasterizer's lens points, which is up to 0.006 lens radii off the lens's centre.
     const BlockDifference blocks = blockDifference(reference, image);
     EXPECT_LE(blocks.largest, 5e-4) << name;  // an eighth of a step of an 8-bit value
     EXPECT_LE(std::abs(blocks.mean), 1e-4) << name;

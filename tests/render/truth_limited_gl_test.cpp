@@ -14,7 +14,7 @@
 namespace defocus::engine {
 namespace {
 
-constexpr double limit = 5;  // foreground limit, px
+constexpr double limit = 5;  // max diameter of the circle of confusion in front of the focus plane, px
 
 // Returns a small school of fish. Without a foreground limit, its nearest fish have more than three times the blur
 // `limit`.

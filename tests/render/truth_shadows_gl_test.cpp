@@ -5,9 +5,9 @@
 namespace defocus::engine {
 namespace {
 
-// With the same sample points on lens and sun, GPU and ray tracer give the same penumbrae, up to the size of shadow-map
-// texels. A shadow map rounds the edge of a shadow to texels, differently in each sample. A bias also moves shadow-map
-// lookups by part of a texel, which is visible where light grazes the ball.
+// With the same sample points on the lens and the sun, the GPU and the ray tracer give the same penumbrae, up to the
+// size of shadow-map texels. A shadow map rounds the edge of a shadow to texels, differently in each sample. A bias
+// also moves shadow-map lookups by part of a texel, which is visible where light grazes the ball of the test scene.
 TEST_F(TruthOfShadows, rasteriserAndRayTracerSeeTheSamePenumbrae) {
     expectTheSameShadows(*ballBeforeAWall(), 64, 37);
 }

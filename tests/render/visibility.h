@@ -61,7 +61,7 @@ protected:
     }
 };
 
-// Parameterized fixture for models of scanned and modelled surfaces, with needle-shaped triangles, folds and holes.
+// Parameterized fixture for scanned and hand-made models, with needle-shaped triangles, folds and holes.
 class VisibilityOf : public Visibility, public testing::WithParamInterface<const char*> {};
 
 }  // namespace defocus::engine

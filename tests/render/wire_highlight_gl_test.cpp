@@ -34,7 +34,7 @@ Mesh ringMesh() {
     return mesh;
 }
 
-// Returns a golden ring about 40 px across, whose wire is 1.6 px thick, in the light of a sun from the left.
+// Returns a golden ring about 40 px across, whose wire is 1.6 px thick, lit by a sun from the left.
 std::unique_ptr<SmallWorld> ring() {
     auto small = std::make_unique<SmallWorld>();
     const Material gold{.baseColorFactor = {1, 0.77f, 0.34f, 1}, .roughnessFactor = 0.25f};
@@ -49,8 +49,8 @@ std::unique_ptr<SmallWorld> ring() {
     return small;
 }
 
-// Returns the sums of the red channel over the quarters of the ring at its right, top, left and bottom. The renderer
-// widens highlights only in the first samples of a frame, so images without widened highlights begin with sample 2²⁰.
+// Returns the sums of the red channel over the right, top, left and bottom quarters of the ring. The renderer widens
+// highlights only in the first samples of a frame, so images without widened highlights begin with sample 2²⁰.
 glm::dvec4 lightOfQuarters(const SmallWorld& small, std::uint32_t samples, bool widened) {
     const RenderSettings settings{
         .sampleCount = samples, .firstSample = widened ? 0 : 1u << 20, .lod = LodMode::off, .keepAll = true};

@@ -34,7 +34,7 @@ TEST_F(Accumulation, geometryShaderLayersGiveTheSameImage) {
     const Image expected = rendered(*small, settingsFor(16));
     const Image image = rendered(*small, settingsFor(16), options);
     EXPECT_LT(largestDifference(expected, image),
-              // with a geometry shader, vertices may round differently but must cover the same pixels
+              // a geometry shader may round vertex positions differently, but triangles must cover the same pixels
               1e-3);
 }
 
@@ -73,7 +73,7 @@ TEST_F(Accumulation, apertureZeroIsThePinhole) {
 TEST_F(Accumulation, focusPlaneIsUnchangedByTheAperture) {
     const auto small = wall(2, 0.4);  // the square is in focus, so its edges must stay sharp
     RenderSettings settings = settingsFor(64);
-    settings.keepAll = true;  // keeps the lens in the plan even if nothing is blurred
+    settings.keepAll = true;  // draws all lens samples; without blur, the default is a pinhole image
     const Image wide = rendered(*small, settings);
     small->view.lens.dofEnabled = false;
     EXPECT_LT(largestDifference(wide, rendered(*small, settings)), 1e-3);
@@ -83,7 +83,8 @@ TEST_F(Accumulation, blurredEdgeSpreadsOverTheCircleOfConfusion) {
     const auto small = wall(1, 0.2);
     const double c = 0.05 * 0.5 * 96 / 0.72;  // diameter of the blur, px
     const Image image = rendered(*small, settingsFor(512));
-    // In the middle row, the left edge of the square lies at x = 48 − 0.2/0.36·48 px and is blurred over ± c/2.
+    // In the middle row, the left edge of the square lies at x = 48 − 0.2/0.36·48 px and is blurred over ± c/2. The
+    // square extends 0.2 m to each side of the centre at 48 px, and the image 0.36 m.
     const double edge = 48 - 0.2 / 0.36 * 48;
     for (int x = 0; x < 48; ++x) {
         const double green = image.at(x, 32)[1];
@@ -266,7 +267,7 @@ TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
         light.position = glm::dvec3(turn * glm::dvec4(light.position, 1));
         light.direction = glm::dmat3(turn) * light.direction;
     }
-    // the images differ while only objects and lights have moved, but not the camera
+    // the images differ, because objects and lights have moved, but the camera has not
     EXPECT_LT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);
     small->view.worldFromCamera = turn * small->view.worldFromCamera;
     EXPECT_GT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);

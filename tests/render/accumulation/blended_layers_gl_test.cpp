@@ -67,7 +67,8 @@ protected:
             for (std::size_t pixel = 0; pixel < pixels; ++pixel)
                 errors.push_back(sharesAt(frame, pixel)[object] - expected[object]);
             const Residual error = errorOf(errors);
-            // Standard deviation of the fraction if each sample chose the object at random.
+            // Standard deviation of the fraction of samples that show the object, if each sample chose its object at
+            // random.
             const double noise = std::sqrt(expected[object] * (1 - expected[object]) / samples);
             EXPECT_NEAR(error.mean, 0, 4 * noise / std::sqrt(static_cast<double>(pixels))) << object;
             EXPECT_LT(error.rms, 1.1 * noise) << object;

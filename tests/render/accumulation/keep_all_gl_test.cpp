@@ -1,5 +1,6 @@
-// Tests that RenderSettings::keepAll, which draws objects outside the view of all lens samples, does not change the
-// image. Such objects must not affect decisions on sorting, glass and shadows.
+// Tests that RenderSettings::keepAll, which draws even objects that no lens sample sees, does not change the image.
+// Such objects must not affect the drawing order of blended surfaces, the visibility of glass behind glass, and
+// shadows.
 
 #include "likeness.h"
 #include "render/accumulation/blended_panes.h"

@@ -34,7 +34,7 @@ inline Image drawnBy(const char* method, const SmallWorld& small, const RenderSe
     return imageOf(*rendererOf(method, small.world, options), planFrame(small.world, small.view, settings));
 }
 
-// Returns a reference image of 2048 samples, drawn with another sample sequence than the tested images.
+// Returns a reference image of 2,048 samples, whose sample sequence differs from that of the tested images.
 inline Image convergedImage(const SmallWorld& small) {
     RenderSettings settings = ratedSettings(2048);
     settings.sequence = Sequence::halton;

@@ -161,8 +161,9 @@ double ripple(const Image& image, const FarLight& light) {
     return std::sqrt(squares / count - std::pow(sum / count, 2)) / (sum / count);
 }
 
-// With few samples, the blur of a bright square consists of separate copies of the square. Lens cells, whose images are
-// blurred, fill the gaps between these copies.
+// With few samples, the blur of a bright square consists of separate copies of the square, one per sample. Method
+// "multirate" blurs the image of each sample by its lens cell, the part of the lens that the sample represents. This
+// blur fills the gaps between the copies.
 TEST_F(LensCellImages, gapsBetweenCopiesAreFilled) {
     const FarLight light = farLight(0.1846);
     ASSERT_NEAR(light.blur, 40, 0.5);
@@ -203,8 +204,8 @@ double expectedRadius(const FarLight& light) {
     return std::sqrt(2 * (light.blur * light.blur / 16 + 16.0 / 12 + 2.0 / 12));
 }
 
-// A bright square blurred to a disk keeps its energy, position and size. The images of single samples are blurred by σ
-// = 0.4 to 6 px.
+// The lens blurs a bright square to a disk. Its energy, centre and RMS radius have the expected values, although the
+// image of each sample is itself blurred, with σ = 0.4 to 6 px.
 TEST_F(LensCellImages, aBlurredLightKeepsItsEnergyAndItsSpread) {
     for (const double fStop : {0.8, 0.4, 0.25, 0.17, 0.1, 0.06}) {
         const FarLight light = farLight(fStop);
@@ -297,9 +298,9 @@ double largestBesideOutlines(const Image& reference, const Image& image, const I
     return largest;
 }
 
-// The background does not shine through outlines. Away from the outlines of objects in focus, method multirate exceeds
-// the error of method accumulation by at most 2/255. The scenes are a sharp fence in front of a blurred wall, a sharp
-// wall behind a blurred fence, and a half transparent sharp fence.
+// The background does not shine through the outlines of objects. Except at outlines of objects in focus, the error of
+// method "multirate" is at most 2/255 larger than that of method "accumulation". The scenes are a sharp fence in front
+// of a blurred wall, a sharp wall behind a blurred fence, and a half-transparent sharp fence.
 TEST_F(LensCellImages, nothingShinesThroughOutlines) {
     SKIP_ON_SECOND_DRIVER();
     const FenceColors colors{{0.9f, 0.8f, 0.3f, 1}, {0.05f, 0.2f, 0.5f, 1}, {0.3f, 0.1f, 0.1f}};
@@ -353,8 +354,9 @@ TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
     }
 }
 
-// With more samples, the blur of lens cells vanishes and the image converges to the reference. The error is compared
-// with that of method accumulation at the same number of samples: below 60 % with 16 samples, never above 105 %.
+// With more samples, lens cells shrink, the blur of their images vanishes, and the image converges to the reference.
+// The error is compared with that of method "accumulation" at the same number of samples: it is below 60 % with 16
+// samples, and never above 105 %.
 TEST_F(LensCellImages, convergesToTheReference) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = blurredSpheres();

@@ -1,4 +1,5 @@
-// Tests images in which each lens sample draws four positions in each pixel instead of one (RenderSettings::positions).
+// Tests images in which each lens sample is drawn at four positions in each pixel instead of one
+// (RenderSettings::positions).
 
 #include <algorithm>
 #include <vector>
@@ -22,7 +23,7 @@ protected:
         return settings;
     }
 
-    // Returns a reference image of 1,024 samples, drawn with another sample sequence than the tested images.
+    // Returns a reference image of 1,024 samples, whose sample sequence differs from that of the tested images.
     static Image referenceOf(const SmallWorld& small) {
         RenderSettings settings = ratedSettings(1024);
         settings.sequence = Sequence::halton;
@@ -165,8 +166,8 @@ TEST_F(Positions, doNotSharpenRoughGlass) {
     EXPECT_GT(compareImages(image, drawnBy("accumulation", *small, four)).psnr, 40);
 }
 
-// With four positions per pixel, too, the renderer draws samples until the estimated error is as small as the chosen
-// quality requires.
+// If lens samples have four positions per pixel, the renderer draws samples until the estimated error is as small as
+// the chosen quality requires, as with one position.
 TEST_F(Positions, areDrawnUntilTheQualityIsReached) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = fiveSpheres();

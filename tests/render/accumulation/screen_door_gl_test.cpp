@@ -32,8 +32,8 @@ std::unique_ptr<SmallWorld> oneSphere() {
     return small;
 }
 
-// If sample n + 1 is split between two levels of detail, each pixel is bit-identical to that pixel of an image without
-// a split, in which either n or n + 1 samples show the coarser level.
+// If a sample is split between two levels of detail, each pixel is bit-identical to the same pixel of one of two images
+// without a split. In one image, this sample shows the finer level; in the other, it shows the coarser level.
 TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
     const auto small = oneSphere();
     constexpr std::uint32_t samples = 8;
@@ -88,8 +88,8 @@ TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     }
 }
 
-// A small change in the level of detail λ changes few pixels, and each of them by one sample. The fraction of changed
-// pixels equals the change in the number of coarse samples.
+// A small change in the level of detail λ changes few pixels, and each of them by one sample. If λ changes by δ, the
+// expected fraction of changed pixels is at most δ times the number of samples. The test allows twice this fraction.
 TEST_F(ScreenDoor, changesLittleWithLambda) {
     const auto small = oneSphere();
     constexpr std::uint32_t samples = 16;
@@ -120,7 +120,7 @@ TEST_F(ScreenDoor, ofBlendedSurfacesLeavesNoHole) {
     finish(*small);
     small->world.environment = {EnvironmentType::uniform, {1, 0, 0}, {}, {}, nullptr, 1};
     FramePlan plan = planFrame(small->world, small->view, continuousFor(1));
-    plan.blendOrder.at(0).stochastic = false;  // sorted: stochastic transparency leaves holes in a single sample
+    plan.blendOrder.at(0).stochastic = false;  // draw sorted; stochastic transparency leaves holes in a single sample
     setSplit(plan, small->world, 1, 0, 0.4);
     const Image image = renderedPlan(*small, plan);
     EXPECT_NEAR(image.at(80, 60)[0], 0.6, 2e-3);  // half the sphere's colour and half the background's in each pixel

@@ -160,7 +160,8 @@ TEST_F(DrawingThreads, keepToTheLimitOfLayers) {
     for (const std::uint32_t layers : {1u, 3u, 4u, 9u}) {
         const RenderStats stats = statsWith(4, layers);
         EXPECT_EQ(stats.threads, std::min(layers, 4u));
-        // statsWith(1, 1) already contains one layer. The bound thus leaves one layer for the threads' uniform buffers.
+        // The peak memory of statsWith(1, 1) already includes one layer. The bound thus leaves the memory of one layer
+        // for the threads' uniform buffers.
         EXPECT_LE(stats.peakBytes, statsWith(1, 1).peakBytes + layers * layerBytes) << layers;
     }
 }

@@ -34,12 +34,12 @@ double profileOf(std::span<const CircularComponent> kernel, double squaredRadius
     return sum;
 }
 
-// Integrals of a kernel K over the square [−1, 1]², as midpoint sums.
+// Integrals of a kernel K(r) over the square [−1, 1]², as midpoint sums. r is the distance from the square's centre.
 struct Integrals {
     double kernel = 0;   // ∫K dA
     double disk = 0;     // ∫K dA over the disk of radius 1
     double squares = 0;  // ∫K² dA
-    double corners = 0;  // ∫K² du over 1 < u < 2, with u = r²
+    double corners = 0;  // ∫K² du over 1 < u < 2 with u = r², which covers the square's corners
 };
 
 Integrals integralsOf(std::span<const CircularComponent> kernel) {
@@ -47,10 +47,10 @@ Integrals integralsOf(std::span<const CircularComponent> kernel) {
     Integrals sums;
     for (int i = 0; i < steps; ++i) {
         const double t = (i + 0.5) / steps;
-        const double inside = profileOf(kernel, t);  // inside the disk, u = t and dA = π du
+        const double inside = profileOf(kernel, t);  // inside the disk, r² = t and dA = π dt
         const double outside = profileOf(kernel, 1 + t * t);
         const double du = 2 * t / steps;
-        const double arcs = (pi - 4 * std::atan(t)) * du;  // area of the ring at u = 1 + t², inside the square
+        const double arcs = (pi - 4 * std::atan(t)) * du;  // area of the ring at r² = 1 + t², inside the square
         sums.disk += pi / steps * inside;
         sums.kernel += pi / steps * inside + arcs * outside;
         sums.squares += pi / steps * inside * inside + arcs * outside * outside;
@@ -59,7 +59,8 @@ Integrals integralsOf(std::span<const CircularComponent> kernel) {
     return sums;
 }
 
-// Returns the relative RMS error of the kernel, scaled to ∫K = ∫D, from the disk D of radius 1.
+// Returns the RMS difference of the kernel from the disk of radius 1, relative to the disk's RMS value. The kernel is
+// scaled to the disk's integral.
 double diskError(std::span<const CircularComponent> kernel) {
     const Integrals sums = integralsOf(kernel);
     const double gain = pi / sums.kernel;
@@ -105,8 +106,8 @@ TEST(CircularKernel, moreComponentsComeCloserToTheDisk) {
     }
 }
 
-// The published kernel has the constants of Garcia's slides, with the distance x = tap/8. At the outermost tap, the
-// kernel of two components is 0.9245 by the printed formula.
+// The published kernels have the constants of Garcia's slides, with the distance x = tap/8. At the outermost tap
+// (x = 1), the formula on the slides gives 0.9245 for the kernel of two components.
 TEST(CircularKernel, publishedKernelIsThatOfTheSlides) {
     const auto kernel = circularKernel(2, KernelConstants::published);
     EXPECT_EQ(kernel[0].decay, 0.886528);
@@ -115,7 +116,8 @@ TEST(CircularKernel, publishedKernelIsThatOfTheSlides) {
 }
 
 // Rescaled kernels are the published ones in units of the radius of the disk that they approximate. Kernels scaled to a
-// radius 3 % larger or smaller approximate the disk worse. The fitted kernels approximate the disk at least as well.
+// radius 3 % larger or smaller approximate the disk worse. The kernels that were fitted for this program approximate
+// the disk at least as well as the rescaled kernels.
 TEST(CircularKernel, rescaledKernelsAreInRadiiOfTheirDisk) {
     EXPECT_THROW(circularKernel(0, KernelConstants::published), Error);
     EXPECT_THROW(circularKernel(publishedKernelLimit + 1, KernelConstants::rescaled), Error);
@@ -135,7 +137,8 @@ TEST(CircularKernel, rescaledKernelsAreInRadiiOfTheirDisk) {
             EXPECT_GT(diskError(other), error) << n << ", " << factor;
         }
         EXPECT_LE(diskError(circularKernel(n)), error) << n;
-        // A mistyped constant would fit no disk, or fit worse than the kernel with one component less.
+        // With a mistyped constant, the kernel would fit no disk, or fit worse than the kernel with one component
+        // fewer.
         EXPECT_LT(error, n == 1 ? 0.25 : diskError(circularKernel(n - 1, KernelConstants::rescaled)));
     }
 }

@@ -38,9 +38,10 @@ TEST_F(ComplexBlurs, aConstantStaysConstantHoweverTheRadiusVaries) {
         for (int x = 0; x < width; ++x) *varying.at(x, y) = x + y < 90 ? 0.07f * static_cast<float>(x) : 11.0f;
     for (const ComplexStorage storage : {ComplexStorage::float32, ComplexStorage::half})
         for (int components = 1; components <= circularKernelLimit; ++components) {
-            // Half floats store radiance and weight with 11 bits, rounded or truncated, and the kernel amplifies that
-            // error by m = Σ √(A² + B²)·(∫|F| dx)² / ∫D for the components' factors F and weights A and B. For n
-            // components, m is 1.29, 1.83, 2.30, … 4.41, at most 1.5·√n.
+            // Half floats store radiance and weight with 11 significant bits, rounded or truncated. The kernel
+            // amplifies the rounding error by m = Σ √(A² + B²)·(∫|F| dx)²/π, a sum over the kernel's components. F is a
+            // component's factor along an axis, and A and B are its weights (circular_kernel.h). For 1, 2, 3, … 9
+            // components, m is 1.29, 1.83, 2.30, … 4.41. For n components, it is at most 1.5·√n.
             const double amplification = 1.5 * std::sqrt(components) * 4 / std::numbers::pi;
             const double tolerance = storage == ComplexStorage::half ? amplification * 2 * 0x1p-10 : 1e-4;
             for (const float value : {1.0f / 3, 1e-4f, 1e4f})
@@ -162,8 +163,8 @@ TEST(Brackets, boundTheTapsOfEveryRadius) {
         }
 }
 
-// With ten bits, storage scaled by the sum of the taps loses less precision than storage scaled by the range of taps
-// over all radii.
+// A published bracket (storage range) stores a white field as 1. A bracket for taps at any radius spans the range of
+// the taps, and images use only its lower half. With ten bits, published brackets therefore lose less precision.
 TEST_F(ComplexBlurs, publishedBracketsLoseLessThanRanges) {
     const auto lost = [&](ComplexTaps taps) {
         ComplexBlurInfo info = infoOf(2, ComplexStorage::float32);

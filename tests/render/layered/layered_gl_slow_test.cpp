@@ -1,5 +1,5 @@
 // Tests method "layered", which traces lens rays through depth layers, with method "accumulation" as the reference. The
-// scenes have round surfaces, and the lenses have many shapes and controls.
+// scenes have round surfaces. The lenses vary in aperture shape, blur controls and aberrations.
 
 #include <functional>
 #include <utility>

@@ -134,8 +134,9 @@ TEST_P(Models, lookAsInTheAccumulation) {
 }
 INSTANTIATE_TEST_SUITE_P(Methods, Models, testing::Values("stochastic", "line"));
 
-// Visibility along lens lines, which are lines across the lens, is exact or uses the published buffers of segments. If
-// no segment is dropped, both give the same image. Two separate quads that do not intersect fit into any buffer.
+// Visibility along lens lines, which are lines across the lens, is exact by default. With resolve=published, it uses
+// the fixed-size segment buffers of Tzeng et al. 2012. If no segment is dropped, both give the same image. Two separate
+// quads that do not intersect fit into any buffer.
 TEST_F(LensSpaceAlone, exactLinesAreTheBuffersWhereNothingWasDropped) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({1, 0.5f, 0.2f, 1}), unlitMaterial({0.1f, 0.4f, 0.9f, 1})};
@@ -199,14 +200,15 @@ TEST_F(LensSpaceAlone, turnedWheelsMakeNoiseOfStrobes) {
     const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(4096)));
     const Image shared = lensSpaceImage("line:wheel=shared", *small, 8);
     const Image turned = lensSpaceImage("line", *small, 8);
-    // The noise is no larger than the error of the spokes that it replaces. Averaged over 8 × 8 px, less than half of
-    // the spokes' error remains.
+    // In single pixels, the error of the noise is no larger than that of the spokes. Averaged over 8 × 8 px, it is less
+    // than half as large.
     EXPECT_LT(errorOfSquares(reference, turned, 1), 1.05 * errorOfSquares(reference, shared, 1));
     EXPECT_LT(errorOfSquares(reference, turned, 8), 0.5 * errorOfSquares(reference, shared, 8));
 }
 
-// Exact visibility along lens lines, which are lines across the lens, shows both of two intersecting quads. One quad is
-// seen from behind. A published segment buffer shows a single quad between the ends of a segment.
+// Exact visibility along lens lines, which are lines across the lens, changes from one of two intersecting quads to the
+// other where they intersect. The segment buffers of Tzeng et al. 2012 change only at the ends of segments. One of the
+// quads is seen from behind.
 TEST_F(LensSpaceAlone, exactLinesFindIntersections) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({1, 0, 0, 1}), unlitMaterial({0, 0, 1, 1})};

@@ -61,7 +61,7 @@ inline double figureOf(const RenderStats& stats, const std::string& name) {
     return std::nan("");
 }
 
-// Returns a ground that extends from behind the camera into the distance, so that the near plane cuts it.
+// Returns a ground plane that extends from behind the camera into the distance, so that the near plane cuts it.
 inline std::unique_ptr<SmallWorld> groundUnderCamera() {
     auto small = std::make_unique<SmallWorld>();
     Mesh mesh = quad(0);
@@ -117,8 +117,8 @@ inline std::unique_ptr<SmallWorld> gridInATile(std::uint32_t side) {
     small->view.width = small->view.height = 32;
     small->view.lens.dofEnabled = false;
     const double pixel = 2 * tanHalfHorizontalFov(small->view.lens) * 2 / 32;  // size of a pixel in m at a depth of 2 m
-    // The grid covers pixels 17 to 23 from the left and from below, inside the tiles of 8 × 8 and of 16 × 16 px that
-    // begin at pixel 16.
+    // The grid covers columns 17 to 22 from the left and rows 17 to 22 from the bottom, counted from 0. It lies inside
+    // the tiles of 8 × 8 and of 16 × 16 px that begin at pixel 16.
     place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {pixel, pixel, -2}), glm::dvec3(6 * pixel)));
     small->world.environment.type = EnvironmentType::none;  // no environment, so that alpha is the coverage
     small->world.pyramids.push_back(fullDetail(small->scene.meshes[0]));

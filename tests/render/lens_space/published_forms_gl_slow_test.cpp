@@ -39,7 +39,7 @@ std::unique_ptr<SmallWorld> planks() {
 }
 
 // A focus range makes the circle of confusion C nonlinear inside the planks' triangles. Dividing the triangles
-// reproduces the image of method accumulation; linear interpolation of C between the corners does not.
+// reproduces the image of method "accumulation"; linear interpolation of C between the corners does not.
 TEST_P(CocInterpolation, bendsOnlyInDividedTriangles) {
     SKIP_ON_SECOND_DRIVER();
     const auto small = planks();
@@ -74,7 +74,7 @@ TEST_F(LensSpaceAlone, stochasticPixelsHaveTheirOwnPoints) {
     const Image image = lensSpaceImage("stochastic", *small, 4);
     std::set<float> values;
     for (int y = 0; y < image.height; ++y) values.insert(image.at(2, y)[0]);
-    EXPECT_GT(values.size(), 200u);  // if pixels shared 64 sets of sample points, there would be at most 64 values
+    EXPECT_GT(values.size(), 200u);  // if pixels shared 64 sets of sample points, they would have at most 64 colours
 }
 
 // Returns twoSpheres(), one of which moves during the exposure.
@@ -150,8 +150,8 @@ double middleOverRim(const Image& image) {
     return sums[0] / counts[0] / (sums[1] / counts[1]);
 }
 
-// With the factor κ, a blurred point is a uniform disk. Without κ, the disk's centre is brighter (Figure 4 of Tzeng et
-// al. 2012).
+// The factor κ weights the segments of lens lines, because the lines are denser near the lens's centre. With κ, a
+// blurred point is a uniform disk. Without κ, the disk's centre is brighter (Figure 4 of Tzeng et al. 2012).
 TEST_F(LensSpaceAlone, kappaMakesDisksUniform) {
     const auto small = brightSpot();
     EXPECT_NEAR(middleOverRim(lensSpaceImage("line", *small, 64)), 1, 0.15);

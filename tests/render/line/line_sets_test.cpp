@@ -25,7 +25,8 @@ TEST(LineSets, weighASquareByItsArea) {
         const double u = static_cast<double>(ray.lensAndPixel.x);
         EXPECT_NEAR(std::abs(u) + std::abs(static_cast<double>(ray.lensAndPixel.y)), 1, 1e-5);
         const double edge = 0.5 / u;
-        // κ, the fraction of the spoke's light beyond the edge (Tzeng et al. 2012), for each of the spoke's two parts.
+        // Add κ, the fraction of the spoke's light beyond the cut at u = 1/2 (Tzeng et al. 2012). Only one end of the
+        // spoke can reach beyond the cut: the forward end if u > 0, the backward end if u < 0.
         if (u > 0 && edge < 1) share += forwardShare * (1 - edge * edge);
         if (u < 0 && edge > -backward) share += (1 - forwardShare) * (1 - std::pow(edge / backward, 2));
     }

@@ -16,7 +16,8 @@ struct PlaceInImage {
 };
 
 // Returns the image position of the view-space point `inView` for a lens sample, by geometric optics. The ray from the
-// lens point through `inView` meets the focal plane at a point that a pinhole image shows at the same position.
+// lens point through `inView` meets the focal plane at a point. The result is the position of this point in a pinhole
+// image, less the sample's offset in the pixel.
 PlaceInImage seenThroughLens(const glm::dvec3& inView, const LensSample& sample, const FramePlan& plan) {
     const View& view = plan.view;
     const double radius = view.lens.dofEnabled ? 0.5e-3 * view.lens.focalLength / view.lens.fStop : 0;

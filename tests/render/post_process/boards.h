@@ -14,7 +14,7 @@
 namespace defocus::engine {
 
 inline RenderSettings settingsWithTheLens() {
-    // keepAll keeps the lens in the plan even if nothing is blurred
+    // with keepAll, the frame is planned with a lens even if nothing is blurred
     return {.lod = LodMode::off, .keepAll = true};
 }
 

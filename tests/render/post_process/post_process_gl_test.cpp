@@ -92,9 +92,9 @@ TEST_P(PostProcesses, aHighlightKeepsItsEnergyWhereTheBlurIsTheSame) {
 TEST_P(PostProcesses, aPointOfLightBecomesADiskOfTheCircleOfConfusion) {
     const std::string method = GetParam();
     if (method == "scheuermann") GTEST_SKIP() << "as published, blur follows planes and ends at 10 px";
-    // The method's low-resolution images widen the blurred disk. With a quarter of the width and height, pixels add the
-    // variance 16/12 and their linear interpolation 16/6, in px². A pre-blurred copy adds 8 by its Gaussian. A disk of
-    // radius R has the variance R²/4 along an axis.
+    // The method's low-resolution images widen the blurred disk. At a quarter of the width and height, the large pixels
+    // add a variance of 16/12 px², and their linear interpolation adds 16/6 px². The Gaussian of a pre-blurred copy
+    // adds 8 px². A disk of radius R has the variance R²/4 along an axis.
     const bool preblurred = method.starts_with("scheuermann");
     const double variance = preblurred ? 12 : method.find("quarter") != std::string::npos ? 4 : 0;
     // A square of 3 px on a black wall is at the same depth as the wall, in front of or behind the focal plane.
@@ -123,13 +123,14 @@ TEST_P(PostProcesses, whatIsInFocusStaysWhenOnlyTheBackgroundBlurs) {
 
 // A bright object in focus hardly leaks into the blurred background beside it. A gather with equal weights over a disk
 // of radius R would add to each column the fraction of the disk that lies beyond the edge. Over the columns within R of
-// the edge, the mean would be 2/(3π) of the bright radiance. The test allows a quarter of this mean. For scheuermann it
-// allows three quarters, because its pre-blurred copy mixes object and background before taps are weighted.
+// the edge, the mean would be 2/(3π) of the bright radiance. The test allows a quarter of this mean. For method
+// "scheuermann", it allows three quarters, because the method's pre-blurred copy mixes object and background before
+// taps are weighted.
 TEST_P(PostProcesses, aSharpObjectDoesNotLeakIntoTheBlurredBackground) {
     constexpr float bright = 4;
     const auto small = boards(
         {{2, {-0.4, 0}, {0.4, 1}, {bright, bright, bright, 1}}, {9, {0, 0}, {9, 9}, {0, 0, 0, 1}}}, glm::vec3(0));
-    constexpr int radius = 5;  // max blur radius of scheuermann as published, px
+    constexpr int radius = 5;  // max blur radius of method "scheuermann" as published, px
     small->view.lens.blurScale = 2 * radius / (0.05 * (1.0 / 2 - 1.0 / 9) * 96 / 0.72);
     const Image image = postProcessed(*small, GetParam());
     const int edge = 48;  // column where the board ends, in the middle of the image
@@ -190,8 +191,9 @@ TEST_P(PostProcesses, aTransparentBackgroundKeepsCoverage) {
         image.pixels[i + 3] = 1;
     }
     EXPECT_TRUE(partly);
-    // Three features are not linear in radiance: ten-bit storage, a bias by luminance, and negative lobes of the
-    // kernel. Lobes are clamped at black without a sky, but stay positive on top of a sky.
+    // Three features are not linear in radiance: ten-bit storage, a blend bias by luminance, and negative lobes of the
+    // kernel. Lobes may make pixels negative; such pixels are clamped to black. On top of a sky, the sum stays
+    // positive and is not clamped.
     const std::string method = GetParam();
     const bool rough =
         method.find("r10g10b10a2") != std::string::npos || method.find("resolution") != std::string::npos;
@@ -202,8 +204,9 @@ TEST_P(PostProcesses, aTransparentBackgroundKeepsCoverage) {
 
 using CircularNearField = PostProcesses;
 
-// A bright square just in front of the focal plane keeps its narrow blur beside a strongly blurred board. The default
-// weights each pixel in proportion to its own blur; near-field=coverage does not, and spreads the square.
+// A bright square just in front of the focal plane keeps its narrow blur beside a strongly blurred board. By default,
+// each pixel of the near field is weighted in proportion to the pixel's own blur. With near-field=coverage it is not,
+// so that the square is spread.
 TEST_P(CircularNearField, lightsThatAreHardlyBlurredKeepOutOfWideBlurs) {
     const auto small = boards(
         {{0.9, {-0.12, 0}, {0.08, 0.2}, {0, 0, 0, 1}}, {1.8, {0.1, 0}, {0.02, 0.02}, {9, 9, 9, 1}}}, glm::vec3(0));

@@ -34,7 +34,7 @@ double metresOf(double column, double depth) {
     return (column - 48) / 96 * 0.72 * depth;
 }
 
-// Returns a board at `depth` that covers the image columns from `left` to `right` in full height.
+// Returns a board at `depth` that covers the image columns from `left` to `right` over the full height.
 Board boardOver(double left, double right, double depth, const glm::vec4& color) {
     const double begin = metresOf(left, depth);
     const double end = metresOf(right, depth);
@@ -111,7 +111,7 @@ TEST_P(BlendedSurfaces, whatStandsBeforeAPaneHidesItAndLeavesNoHalo) {
     const Image image = inBuckets(*with, 1);
     const Image expected =
         laidOver(inBuckets(*boards({board}, sky), 0), glm::vec3(paneColor), [](int x) { return x < 48 ? 0 : 0.5; });
-    // method scheuermann leaks a little light, because it reads a low-resolution image
+    // method "scheuermann" leaks a little light, because it reads a low-resolution image
     const bool circular = std::string(GetParam()).starts_with("circular");
     EXPECT_LT(largestDifferenceInColumns(image, expected), circular ? 2e-3 : 0.03);
 }

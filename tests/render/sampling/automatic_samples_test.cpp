@@ -39,7 +39,8 @@ TEST(SamplesForBlur, bringNeighboursToTwoPixels) {
     EXPECT_EQ(before, maxAutomaticSamples);
 }
 
-// Neighbouring images of a point are at most 4.5 px apart. 16 points do this up to a blur of 4.5·√(64/π) = 20.3 px.
+// With n lens samples, neighbouring images of a point that is blurred over c px are c·√(π/(4n)) px apart. Quality
+// "good" allows 4.5 px. 16 samples are therefore enough up to a blur of c = 4.5·√(4·16/π) = 20.3 px.
 TEST(FirstSamples, doubleUntilTheyFillABlock) {
     EXPECT_EQ(firstSamples(planOf(0), Quality::good), 16u);
     EXPECT_EQ(firstSamples(planOf(20.3), Quality::good), 16u);
@@ -84,8 +85,8 @@ FramePlan detailedPlanOf(double blur) {
     return plan;
 }
 
-// Four positions per pixel need only a quarter of the lens samples. The copies of a blurred point are then twice as far
-// apart, and may be at most 1.25 px apart.
+// With four positions per pixel, a quarter of the lens samples that one position needs is enough. The images of a
+// blurred point in neighbouring samples are then twice as far apart. They may be at most 1.25 px apart.
 TEST(FourPositions, sufficeWhereAQuarterOfTheSamplesHasNoGaps) {
     for (const std::uint32_t samples : {16u, 32u, 64u})
         for (double blur = 0.5; blur < 200; blur *= 1.1)
@@ -144,7 +145,7 @@ TEST(SamplesForBlur, leaveOutWhatHasNoBound) {
     EXPECT_EQ(samplesForBlur(plan, Quality::good), 32u);
 }
 
-// If a point's blur disk has more than 1,024 times the area of the image, fewer than one of 1,024 samples shows the
+// If a point's blur disk has more than 1,024 times the area of the image, fewer than one in 1,024 samples shows the
 // point. More samples do not help, so such a blur is ignored.
 TEST(SamplesForBlur, leaveOutWhatNoNumberResolves) {
     const FramePlan plan = planOf(0);

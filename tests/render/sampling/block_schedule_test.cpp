@@ -1,4 +1,4 @@
-// Tests when BlockSchedule ends a frame, and for which expected final sample count it chooses the settings of each
+// Tests when BlockSchedule ends a frame, and which final sample count it expects when it chooses the settings of a
 // block. The images are synthetic and have a known error.
 
 #include "render/sampling/block_schedule.h"
@@ -29,7 +29,8 @@ public:
         }
     }
 
-    // Returns the mean image after `samples` samples in linear values. `means_` holds sRGB-encoded values.
+    // Returns the mean image after `samples` samples, converted from the sRGB-encoded values in `means_` to linear
+    // values.
     [[nodiscard]] Image mean(std::uint32_t samples) const {
         const std::vector<double>& values = means_[samples / 64 - 1];
         Image image(size / 3, 1, 3);

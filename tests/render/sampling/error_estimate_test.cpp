@@ -53,7 +53,8 @@ void addLensEdges(Image& sum, Sequence sequence, std::uint32_t first, std::uint3
 }
 
 TEST(ErrorEstimate, halvesDifferByTheirErrorsPower) {
-    // With the error s(n) of n samples, the expected ratio is s(2m)/√(s(m)² − s(2m)²).
+    // If the mean of n blocks of samples has the error s(n), the error of 2m blocks over the difference between the
+    // means of m and 2m blocks is expected to be s(2m)/√(s(m)² − s(2m)²).
     EXPECT_NEAR(errorOverDifference(3, 6), 1 / std::sqrt(std::pow(2, 2 * lensSampleExponent) - 1), 1e-12);
     EXPECT_NEAR(errorOverDifference(64, 128), errorOverDifference(1, 2), 1e-12);
 }
@@ -85,8 +86,8 @@ TEST(ErrorEstimate, anotherSizeIsRefused) {
 }
 
 // For edges, the estimated error is at least 2/3 of the true error. It is at most 1.5 times the true error, or 1.8
-// times with halton and r2. Edges converge faster than other images, with these two sequences far faster at some sample
-// counts.
+// times with halton and r2. Images of edges converge faster than other images. With these two sequences, they converge
+// far faster at some sample counts.
 TEST(ErrorEstimate, edgesUnderEachSequenceAreNotUnderrated) {
     const Image reference = trueLensEdges();
     for (const Sequence sequence : {Sequence::halton, Sequence::scrambledHalton, Sequence::sobol, Sequence::r2})

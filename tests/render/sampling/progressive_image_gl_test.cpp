@@ -67,7 +67,7 @@ TEST_F(Growing, firstBlockIsTheFrameOf64SamplesWithLevels) {
 }
 
 TEST_F(Growing, levelsBecomeFinerWithTheSamples) {
-    small_->view.lens.fStop = 0.5;  // strong blur, so that few samples allow coarse levels
+    small_->view.lens.fStop = 0.5;  // strong blur, so that coarse levels are accurate enough for few samples
     ProgressiveImage image = progressive();
     image.begin(small_->view, {}, 512);
     const double first = static_cast<double>(image.plan().trianglesDrawn);
@@ -119,7 +119,7 @@ TEST_F(Growing, continuingIsRefusedWithinABlock) {
     EXPECT_THROW(renderer->continueWith(plan), std::exception);
 }
 
-// The viewer displays the same values as an 8-bit image file would contain.
+// The viewer displays the same values that an 8-bit image file would contain.
 TEST_F(Growing, displayIsTheToneMapOfTheImage) {
     ProgressiveImage image = progressive();
     image.drawFrame(small_->view, settingsOf(8));

@@ -90,8 +90,8 @@ TEST_F(ScheuermannImage, ofARingIsDarkInTheMiddle) {
     EXPECT_LT(middle(), 0.1 * ofADisk);
 }
 
-// With 8-bit encoded colours, an image in focus is the pinhole image, clamped at white and rounded. A byte cannot
-// represent a blur of exactly zero, so a small fraction of the pre-blurred image is mixed in.
+// With 8-bit encoded colours, an image in focus equals the pinhole image, clamped at white and rounded, except for
+// a small fraction of the pre-blurred image. This fraction is mixed in because a byte cannot represent zero blur.
 TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
@@ -110,8 +110,9 @@ TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
 }
 
 // At max blur, the published method reads only the low-resolution image, at taps in a disk of 0.4 · 4 = 1.6 times the
-// blur's radius. The variance of a blurred square is then that of the taps plus that of the low-resolution image:
-// pixels 4 px wide (16/12), linear interpolation (16/6) and the Gaussian (8).
+// blur's radius. The published factor is 0.4, and the image's pixels are 4 px wide. The variance of a blurred square is
+// then the sum of the variances of the square, the taps and the low-resolution image. The latter has three terms in
+// px²: 16/12 for the pixels' width, 16/6 for linear interpolation and 8 for the Gaussian pre-blur.
 TEST_F(ScheuermannImage, asPublishedReadsTheSmallImageAtItsOwnRadius) {
     View view = bokehView(192, 144);
     const Image image = bokehOf(view, 6, "scheuermann:far-blur-depth=5,blurriness-cutoff=1");
@@ -130,8 +131,8 @@ TEST_F(ScheuermannImage, asPublishedReadsTheSmallImageAtItsOwnRadius) {
         EXPECT_NEAR(moments.variance[axis], ofTheTaps[axis] + 12 + ofTheLight, 0.03 * ofTheTaps[axis]) << axis;
 }
 
-// With four multisamples per pixel, an edge in focus has the grey levels of a resolved image: quarters of white,
-// because display-encoded values are averaged.
+// With four samples per pixel, the display-encoded pixels of an edge in focus are multiples of a quarter of white,
+// because the samples are averaged after encoding.
 TEST_F(ScheuermannImage, multisamplingSmoothsEdgesBeforeTheBlur) {
     const auto small = boards({{2, {-1, 0}, {1, 2}, {1, 1, 1, 1}}}, glm::vec3(0));
     small->view.worldFromCamera = glm::rotate(glm::dmat4(1), 0.3, glm::dvec3(0, 0, 1));
@@ -141,7 +142,9 @@ TEST_F(ScheuermannImage, multisamplingSmoothsEdgesBeforeTheBlur) {
         const Image image = postProcessed(*small, method);
         for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
             const float quarters = 4 * srgbEncode(image.pixels[i]);
-            EXPECT_NEAR(quarters, std::round(quarters), 0.1);  // tolerance: with bits=8, taps are up to 0.02 px apart
+            // The tolerance allows for bits=8, which cannot store a blur of zero: taps lie up to 0.02 px from the
+            // pixel's centre.
+            EXPECT_NEAR(quarters, std::round(quarters), 0.1);
             found.insert(static_cast<int>(std::round(quarters)));
         }
         return found;

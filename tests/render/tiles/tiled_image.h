@@ -36,7 +36,7 @@ protected:
         return image;
     }
 
-    // Returns tiles of uneven sizes that cover the image. All tiles share one rasterization cell, the full image.
+    // Returns tiles of uneven sizes that cover the image. All tiles are rasterized with the viewport of the full image.
     static std::vector<Tile> unevenTiles(const FramePlan& plan) {
         const int columns[] = {0, 37, 101, plan.view.width};
         const int rows[] = {0, 13, 64, plan.view.height};

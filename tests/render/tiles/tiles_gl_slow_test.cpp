@@ -13,7 +13,8 @@ TEST_F(Tiles, haveTheBitsOfOnePieceAtEachKindOfLevel) {
         expectTheBitsOfOnePiece(*small, planWith(*small, small->view, mode, 70), lodModeName(mode));
 }
 
-// Images drawn in tiles are exact even if a transmitting object refracts parts of the image that lie outside the tile.
+// Images drawn in tiles are bit-identical to undivided images even if a transmitting object refracts parts of the image
+// that lie outside the tile.
 TEST_F(Tiles, haveTheBitsOfOnePieceWhereGlassShowsWhatLiesElsewhere) {
     const auto small = fiveSpheres();
     const Material glass{.roughnessFactor = 0.3f, .transmissionFactor = 1, .thicknessFactor = 1};
