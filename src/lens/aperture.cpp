@@ -41,9 +41,9 @@ double sectorArea(const Blade& blade, double angle) {
 }
 
 // Returns the angle φ such that the sector from the blade's middle (angle 0) to φ covers the fraction |share| of half
-// the blade's area. φ has the sign of `share` ∈ [−1, 1]. Newton's method starts from a straight blade's angle. It
-// converges in three or four steps, because the integrand edgeRadius² varies by at most a factor of 4 (three straight
-// blades).
+// the blade's area. φ has the sign of `share` ∈ [−1, 1]. Newton's method starts from the exact solution for a straight
+// blade. It converges in three or four steps, because the integrand edgeRadius² varies by at most a factor of 4, the
+// factor for three straight blades.
 double angleOfShare(const Blade& blade, double share) {
     double angle = std::atan(share * std::tan(blade.halfAngle));
     if (blade.curvature == 0) return angle;
@@ -100,13 +100,14 @@ double valueAt(const Image& image, int x, int y) {
     return glm::dot(glm::dvec3(pixel[0], pixel[1], pixel[2]), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-// Maps a cell position to lens coordinates, y up. The image's longer side spans [−1, 1].
+// Maps a position in the grid of an aperture image's cells to lens coordinates, y up. The image's longer side spans
+// [−1, 1].
 glm::dvec2 lensPoint(const ApertureImage& image, double column, double row) {
     const double half = 0.5 * std::max(image.columns, image.rows);
     return {(column - 0.5 * image.columns) / half, (0.5 * image.rows - row) / half};
 }
 
-// Returns the transmission of each cell; 0 if the cell's centre lies outside the unit disk.
+// Returns the transmission of each cell of an aperture image; 0 if the cell's centre lies outside the unit disk.
 std::vector<double> cellValues(const Image& image, ApertureImage& cells) {
     const int longer = std::max(image.width, image.height);
     const int parts = (fewestCells + longer - 1) / longer;  // cells per pixel, along each axis
@@ -168,7 +169,7 @@ glm::dvec2 throughImage(const ApertureImage& image, const glm::dvec2& square) {
     return point / std::max(glm::length(point), 1.0);
 }
 
-// Returns the transmission of the cell that contains a lens point; 0 outside the image.
+// Returns the fraction of all light that passes through the aperture image's cell at a lens point; 0 outside the image.
 double transmissionAt(const ApertureImage& image, const glm::dvec2& point) {
     const double half = 0.5 * std::max(image.columns, image.rows);
     const double column = std::floor(point.x * half + 0.5 * image.columns);

@@ -23,7 +23,8 @@ struct ApertureImage {
     int columns = 0;
     int rows = 0;
     std::vector<double> rowEnds;  // cumulative fraction of all light at the end of each row; the last is 1
-    std::vector<float> cellEnds;  // columns · rows; cumulative fraction of the row's light at the end of each cell
+    // Cumulative fraction of the row's light at the end of each image cell; columns · rows values.
+    std::vector<float> cellEnds;
 };
 
 // Precomputed aperture of a Lens, ready for sampling. Construction is expensive only for an aperture image.
@@ -47,7 +48,8 @@ Aperture makeAperture(const Lens& lens);
 glm::dvec2 apertureSample(const Aperture& aperture, const glm::dvec2& square);
 
 // Returns the light density at a lens point, without normalisation; 0 outside the aperture. Without an aperture image,
-// the mean density over the aperture is 1. With an image, the density is the transmission of the cell at the point.
+// the mean density over the aperture is 1. With an image, the result is the fraction of all light that passes through
+// the image's cell at the point (see ApertureImage).
 double lightDensity(const Aperture& aperture, const glm::dvec2& point);
 
 // Maps (r, s) ∈ [0, 1)² to the unit disk; the map is area-preserving and continuous (Shirley and Chiu 1997).

@@ -1,5 +1,5 @@
-// Source: Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization (with the
-// opposite sign of C).
+// Source: Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization. There, the
+// circle of confusion has the opposite sign.
 
 #include "lens/circle_of_confusion.h"
 
@@ -37,12 +37,12 @@ Interval squared(const Interval& p) {
     return {near * near, far * far};
 }
 
-// Ranges of the terms of the circle of confusion C over a bounding box. circle_of_confusion.h gives the equations.
+// Ranges of the terms of the circle of confusion (CoC) over a bounding box. circle_of_confusion.h gives the equations.
 struct Parts {
     Interval radius2;  // r², squared distance from the image's centre
     Interval factor;   // surface's blur factor times the radial blur gain 1 + g·r²
-    Interval front;    // F, the blur term in front of the focus plane
-    Interval behind;   // B, the blur term behind the focus plane
+    Interval front;  // signed CoC / image width by the formula for points in front of the focus plane (F in the header)
+    Interval behind;  // signed CoC / image width by the formula for points behind the focus plane (B in the header)
 };
 
 Parts partsOver(const ClipCircleOfConfusion& coc, const CocBox& box) {
@@ -67,8 +67,8 @@ Parts partsOver(const ClipCircleOfConfusion& coc, const CocBox& box) {
     return parts;
 }
 
-// Returns the range of the circle of confusion's diameter C/w, w being the depth, as a fraction of the image's width.
-// The limits of foreground and background blur are not applied.
+// Returns the range of the signed CoC diameter over the box, as a fraction of the image's width. The limits of
+// foreground and background blur are not applied.
 Interval unlimitedBlur(const Parts& parts, const OwnBlur& own) {
     const Interval ofLens = times({std::min(0.0, parts.front.min) + std::max(0.0, parts.behind.min),
                                    std::min(0.0, parts.front.max) + std::max(0.0, parts.behind.max)},
@@ -160,9 +160,9 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     const double pixels = width / box.zNear;
     const double factor = parts.factor.max;
 
-    // C has kinks, where its slope jumps, at the ends of the focus range and at the blur limits. Linear interpolation
-    // along an edge of length L has the largest error if the kink lies in the middle of the edge: (change of
-    // slope)·L/4.
+    // The clip-space blur C (CoC · depth) has kinks, where its slope jumps, at the ends of the focus range and at the
+    // blur limits. Linear interpolation along an edge of length L has the largest error if the kink lies in the middle
+    // of the edge: (change of slope)·L/4.
     const Interval added{box.own.addedMin, box.own.addedMax};
     const double maxAdded = std::max(std::abs(added.min), std::abs(added.max));
     const double unscaled =
@@ -178,7 +178,7 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     kinkAt(coc.backgroundLimit);
     if (coc.hasFocusRange() && (strictlyInside(parts.front, 0) || strictlyInside(parts.behind, 0)))
         change = std::max(change, slope);
-    // Per-vertex blur modifiers that vary along an edge increase the interpolation error at a kink.
+    // Blur modifiers (factor and added blur) that vary along an edge increase the interpolation error at such a kink.
     const double base = std::max(std::abs(parts.front.min), std::abs(parts.behind.max));
     const double gained = 1 + coc.gain * parts.radius2.max;
     const double factors = box.own.factorMax - box.own.factorMin;
@@ -186,9 +186,10 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     deviation.kinks = change * longestEdge / 4 * pixels;
     if (change > 0) deviation.kinks += ownChange / 4 * (width + longestEdge * pixels);
 
-    // A function with second derivatives of at most H deviates from a chord of length L by at most H·L²/8. Here lengths
-    // are measured in clip space and divided by the nearest depth. The second derivatives of r²·w are then at most
-    // 2·(1 + r)², where r is the distance from the image's centre.
+    // A function with second derivatives of at most H deviates from a chord of length L by at most H·L²/8. Field
+    // curvature, radial blur gain and astigmatism add terms with r²·w to the clip-space blur, where w is the depth and
+    // r the distance from the image's centre. Lengths are measured in clip space and divided by the nearest depth. The
+    // second derivatives of r²·w are then at most 2·(1 + r)².
     const double length = longestEdge / box.zNear * (1 + 1 / std::min(tanHalf.x, tanHalf.y));
     const double reach = 1 + std::sqrt(parts.radius2.max);
     const double second = 2 * reach * reach *
@@ -196,8 +197,9 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
                            3 * box.own.factorMax * coc.gain * (base + coc.front * reach) + std::abs(coc.astigmatism));
     deviation.curved = second * length * length / 8 * width;
 
-    // A product of two linear functions deviates from its chord by a quarter of the product of their changes. Vertex
-    // blur is linear inside a triangle and multiplies other linear functions: w and the linear parts of C.
+    // A product of two linear functions deviates from linear interpolation by at most a quarter of the product of their
+    // changes along the edge. Blur modifiers at vertices are linear inside a triangle. They multiply other linear
+    // functions: the depth w and the linear parts of the clip-space blur.
     const double ofGain = 2 * coc.gain * reach * base * (1 + 1 / std::min(tanHalf.x, tanHalf.y));
     const double products = factors * (gained * unscaled + ofGain) + added.max - added.min;
     deviation.curved += products * longestEdge / 4 * pixels;

@@ -3,16 +3,18 @@
 // shaders/include/lens.glsl implements the same function. This version is used for culling, for planning frames, for
 // choosing levels of detail, and in tests.
 //
-// In clip space the image of a point moves by C·(u, k·v) for a lens point (u, v) of the unit disk. The image has W × H
-// px, and k = W/H. The thin lens has C(w) = a + b·w with a = −(A/2)/tan(θx/2) and b = −a/s. A is the aperture's
-// diameter and s the focus distance, both in m. Source: Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur
-// for Stochastic Rasterization. C has the opposite sign here: C > 0 behind the focus plane. The signed diameter is c =
-// C/w·W px. It depends on 1/w and on the image position n = (x/w, y/w) in normalised device coordinates:
-//   focus term    q = 1 + κ·r² + t·n,   r² = n.x² + (n.y/k)²      (curved focus surface, tilted focus plane)
+// In clip space the image of a point moves by C·(u, k·v) for a lens point (u, v) of the unit disk. C is the clip-space
+// blur. The image has W × H px, and k = W/H. The thin lens has C(w) = a + b·w at depth w, with a = −(A/2)/tan(θx/2) and
+// b = −a/s. A is the aperture's diameter and s the focus distance, both in m; θx is the horizontal field of view.
+// Source: Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization. C has the
+// opposite sign here: C > 0 behind the focus plane. The signed CoC diameter is c = C/w·W px. With artistic controls, it
+// also depends on the image position n = (x/w, y/w) in normalised device coordinates. κ is the field curvature, t the
+// tilt of the focus plane, and g the radial blur gain:
+//   focus term    q = 1 + κ·r² + t·n,   r² = n.x² + (n.y/k)²      (the focus surface lies at w = s/q)
 //   in front      F = a/w + b₁·q,       b₁ = −a/(s − focusRangeFront)
 //   behind        B = a₂/w + b₂·q,      a₂ = a·(1 + focusRangeBehind/s), b₂ = −a/s
-//                 refocused:            a₂ = a,                          b₂ = −a/(s + focusRangeBehind)
-//   c/W = clamp(factor·(1 + g·r²)·(min(0, F) + max(0, B)) + added, −R₁, R₂)
+//     with Lens::focusRangeRefocuses:   a₂ = a,                          b₂ = −a/(s + focusRangeBehind)
+//   diameter      c/W = clamp(factor·(1 + g·r²)·(min(0, F) + max(0, B)) + added, −R₁, R₂)
 // Everything within the focus range is sharp. C keeps the thin lens's limits at both ends of the depth range: a at w =
 // 0 and b·w for w → ∞. The focus range thus preserves strong near and far blur, and distant lights keep their disk
 // size. With Lens::focusRangeRefocuses, the blur behind the range is that of a lens focused at the range's far end,
@@ -29,27 +31,32 @@
 namespace defocus::engine {
 
 struct ClipCircleOfConfusion {
-    double a = 0;
-    double aBehind = 0;  // coefficient a₂ ≤ a of the blur B = a₂/w + b₂·q behind the focus plane
-    double front = 0;    // coefficient b₁ of the blur F = a/w + b₁·q in front of the focus plane
-    double behind = 0;   // coefficient b₂ ≤ b₁ of the blur B = a₂/w + b₂·q behind the focus plane
-    // The focus term is q = 1 + κ·r² + t·n at the image position n with the distance r = |n| from the image's centre.
-    glm::dvec2 tilt{0};    // coefficient t of the focus term q
-    double curvature = 0;  // coefficient κ of the focus term q
-    double gain = 0;       // g of the radial blur gain 1 + g·r²
+    double a = 0;        // coefficient a of 1/depth in the blur in front of the focus plane (F above); ≤ 0
+    double aBehind = 0;  // a₂, the coefficient of 1/depth in the blur behind the focus plane (B above); at most a
+    double front = 0;    // b₁, the depth-independent term of the blur in front of the focus plane (F above)
+    double behind = 0;   // b₂, the depth-independent term of the blur behind the focus plane (B above); at most b₁
+    // The terms b₁ and b₂ are multiplied by the focus term q = 1 + κ·r² + t·n, which varies over the image if the focus
+    // plane is tilted or curved. n is the image position, and r its distance from the centre (1 at the left and right
+    // edges).
+    glm::dvec2 tilt{0};    // tilt t of the focus plane: slope of the focus term q over normalised device coordinates
+    double curvature = 0;  // field curvature κ: change of the focus term q at the left and right edges of the image
+    double gain = 0;       // radial blur gain g: the blur is multiplied by 1 + g·r²
     double foregroundLimit =
-        std::numeric_limits<double>::infinity();  // max CoC R₁ in front of the focus plane / image width
+        std::numeric_limits<double>::infinity();  // R₁, max CoC in front of the focus plane / image width
     double backgroundLimit =
-        std::numeric_limits<double>::infinity();  // max CoC R₂ behind the focus plane / image width
-    double aspect = 1;                            // k, image width / height
-    double shareOfMillimetre = 0;  // fraction of the image's width per mm on the sensor; scales added vertex blur
-    double astigmatism = 0;        // coefficient A of the wavefront error W(l) in aberrations.h
-    double coma = 0;               // coefficient B of the wavefront error W(l) in aberrations.h
-    double chromatic = 0;          // max change of b₁ and b₂ over all wavelengths
+        std::numeric_limits<double>::infinity();  // R₂, max CoC behind the focus plane / image width
+    double aspect = 1;                            // aspect ratio k: image width / height
+    // Fraction of the image's width per mm on the sensor, times Lens::blurScale. Converts the blur that vertices add.
+    double shareOfMillimetre = 0;
+    double astigmatism = 0;  // coefficient A of astigmatism in aberrations.h
+    double coma = 0;         // coefficient B of coma in aberrations.h
+    double chromatic = 0;    // max change of `front` and `behind` by axial chromatic aberration, over all wavelengths
 
-    // Returns true if the lens has a range of sharp depths, so that the terms F in front and B behind differ.
+    // Returns true if the lens has a range of sharp depths. The formulas for the blur in front of the range and behind
+    // it (F and B above) then have different coefficients.
     [[nodiscard]] bool hasFocusRange() const { return front != behind || a != aBehind; }
-    // Returns true without artistic controls and aberrations. The blur at depth w is then C(w) = a + front·w.
+    // Returns true if the lens has neither artistic controls nor aberrations, except axial chromatic aberration. The
+    // clip-space blur (CoC · depth) at depth w is then a + front·w, a linear function of depth.
     [[nodiscard]] bool thinLens() const;
     // Returns true if the blur of a point depends on its position in the image, not only on its depth.
     [[nodiscard]] bool varies() const;
@@ -110,10 +117,14 @@ ClipCircleOfConfusion refocused(const ClipCircleOfConfusion& coc, double focusDi
 // Returns the largest |CoC| in px at infinite depth, over all positions in the image.
 double largestCocAtInfinity(const ClipCircleOfConfusion& coc, int width);
 
-// Upper bounds, in px, on the CoC error if C is interpolated linearly inside a triangle.
+// Upper bounds, in px, on the CoC error if the clip-space blur, CoC · depth, is interpolated linearly inside a
+// triangle.
 struct CocDeviation {
-    double kinks = 0;   // error at kinks, where the slope of C jumps; splitting triangles there removes the error
-    double curved = 0;  // error where C curves, also by per-vertex blur; only smaller triangles reduce this error
+    // Error at kinks, where the slope of the clip-space blur jumps. Splitting triangles there removes the error.
+    double kinks = 0;
+    // Error where the clip-space blur is curved, also due to blur modifiers that vary between vertices. Only smaller
+    // triangles reduce the error.
+    double curved = 0;
 };
 
 CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, double longestEdge,

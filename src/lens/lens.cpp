@@ -1,5 +1,5 @@
 // Sources: Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field Rendering; Munkberg, Toth and Akenine-Möller 2012,
-// Per-Vertex Defocus Blur for Stochastic Rasterization (with the opposite sign of C).
+// Per-Vertex Defocus Blur for Stochastic Rasterization. In the latter, the circle of confusion has the opposite sign.
 
 #include "lens/lens.h"
 

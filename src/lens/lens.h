@@ -47,9 +47,10 @@ struct Lens {
     double focusRangeBehind = 0;       // extent in m of the sharp range behind the focus plane, ≥ 0
     bool focusRangeRefocuses = false;  // true: behind the sharp range, blur as if focused at the range's far end
     double focusTilt = 0;              // radians about the horizontal axis; > 0: the focus plane's top comes nearer
-    double focusSwing = 0;      // radians about the vertical axis; > 0: the focus plane's right side comes nearer
-    double fieldCurvature = 0;  // κ of the curved focus surface w = s/(1 + κ·r²); r is 1 at the left and right edges
-    double radialBlurGain = 0;  // g of the blur factor 1 + g·r²; r is 1 at the left and right edges
+    double focusSwing = 0;  // radians about the vertical axis; > 0: the focus plane's right side comes nearer
+    // Curvature κ of the focus surface, whose depth is focusDistance/(1 + κ·r²). r is 1 at the left and right edges.
+    double fieldCurvature = 0;
+    double radialBlurGain = 0;  // gain g: the blur is multiplied by 1 + g·r²; r is 1 at the left and right edges
 };
 
 // Throws Error, with the name of the invalid value in its message, if the lens is impossible. Examples: NaN, fStop ≤ 0,

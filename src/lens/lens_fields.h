@@ -18,12 +18,12 @@ namespace defocus::engine {
 
 // Kind of effect that a lens value has. Values whose effect a frame does not show are reported as unused.
 enum class LensFeature {
-    camera,     // field of view, focus breathing
-    exposure,   // only the brightness of PNG, JPEG and video
-    fStop,      // size of the blur, and exposure
-    blur,       // the size of the blur
-    shape,      // the shape of the aperture
-    lensPoint,  // blur that depends on the colour or on the position in the image
+    camera,     // changes the field of view, or turns depth of field off
+    exposure,   // changes only the brightness of PNG, JPEG and video
+    fStop,      // changes the size of the blur, and the exposure
+    blur,       // changes the size of the blur
+    shape,      // changes the shape of the aperture
+    lensPoint,  // makes the blur depend on the colour or on the position in the image
 };
 
 // Section of control panels and help texts in which a lens value is listed.
@@ -38,9 +38,11 @@ struct LensField {
     double min = 0;  // range of the value, in `unit`
     double max = 0;
     std::variant<double Lens::*, int Lens::*, bool Lens::*> member;
+    // Member with the value in a request, in `unit`; monostate: the request has no such member, and Request::focus sets
+    // the value.
     std::variant<std::monostate, std::optional<double> LensSettings::*, std::optional<int> LensSettings::*,
                  std::optional<bool> LensSettings::*>
-        given;                // value in a request, in `unit`; monostate: Request::focus sets the value
+        given;
     const char* description;  // help text of the option
     const char* example;      // typical value as text
     LensFeature feature = LensFeature::blur;

@@ -140,8 +140,8 @@ void chooseLevels(ObjectPlan& object, const Pyramid& pyramid, const FramePlan& p
     object.fine = draw(split.level, split.coarseCount, sampleCount - split.coarseCount);
 }
 
-// Chooses how the triangles of the drawn levels are divided, so that the circle of confusion is linear inside each
-// triangle.
+// Chooses how the triangles of the drawn levels are divided. Inside each part, linear interpolation of the clip-space
+// blur (CoC · depth) then has an error of at most RenderSettings::cocTolerance.
 void chooseRefinement(ObjectPlan& object, const World& world, const FramePlan& plan) {
     if (!plan.usesCocControls) return;
     if (object.nearestDepth <= plan.view.nearPlane) {
@@ -166,10 +166,10 @@ void chooseRefinement(ObjectPlan& object, const World& world, const FramePlan& p
 // Approximate max number of small triangles that all objects together are divided into, per lens sample.
 constexpr double maxSmallTriangles = 4e6;
 
-// Returns the approximate number of small triangles of the object's drawn levels with at most `maxParts` parts per
-// edge. The number of parts of an edge is proportional to its length; most triangles have edges of the mean length.
-// Objects that reach the near plane have no bound on the curvature; 8 parts per edge are assumed, because few of their
-// triangles are near.
+// Returns the approximate number of small triangles into which the triangles of the object's drawn levels are divided,
+// with at most `maxParts` parts per edge. The number of parts of an edge is proportional to its length; most triangles
+// have edges of the mean length. For objects that reach the near plane, the interpolation error of the blur has no
+// bound; 8 parts per edge are assumed, because few of their triangles are near.
 double smallTriangles(const ObjectPlan& object, const World& world, const FramePlan& plan, double maxParts) {
     constexpr double partsNearby = 8;
     const bool bounded = std::isfinite(object.cocDeviation.curved);
@@ -186,8 +186,8 @@ double smallTriangles(const ObjectPlan& object, const World& world, const FrameP
     return count;
 }
 
-// Limits the subdivision of objects whose circle of confusion C is curved, so that a lens sample has at most
-// maxSmallTriangles small triangles.
+// Limits the subdivision of objects whose blur varies nonlinearly inside triangles (Refinement::subdivide), so that a
+// lens sample has at most maxSmallTriangles small triangles.
 void boundDivisions(FramePlan& plan, const World& world) {
     const auto fits = [&](std::uint32_t parts) {
         double count = 0;

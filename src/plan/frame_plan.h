@@ -40,19 +40,24 @@ struct VisibleLevel {
     std::uint32_t outside = 0;                        // triangles culled because they lie outside the image
 };
 
-// How an object's triangles are divided so that C is linear inside each of them, up to an error of
-// RenderSettings::cocTolerance. C is the circle of confusion in clip space (circle_of_confusion.h).
+// How an object's triangles are divided. Inside each part, linear interpolation of the clip-space blur (CoC · depth,
+// see circle_of_confusion.h) then has an error of at most RenderSettings::cocTolerance.
 enum class Refinement {
-    none,       // triangles are drawn undivided
-    split,      // triangles are cut where the slope of the CoC jumps, and at the near plane before the lens shear
-    subdivide,  // triangles are divided into small ones because C is curved, then cut as by `split` if ObjectPlan::cuts
+    none,  // triangles are drawn undivided
+    // Triangles are cut where the slope of the clip-space blur jumps and, before the lens shifts vertices, at the near
+    // plane.
+    split,
+    // Triangles are divided into small ones because the clip-space blur is curved inside them. They are then cut as by
+    // `split` if ObjectPlan::cuts is set.
+    subdivide,
 };
 
 inline constexpr std::uint32_t maxEdgeParts = 64;  // max parts per edge; OpenGL's tessellator supports at least 64
 
 // Vertex transforms and morph weights of an object at one instant.
 struct ObjectPose {
-    // Matrices relative to the camera, computed in double precision. An object without a skin has one matrix.
+    // Transforms to view space, one per joint of the skin, computed in double precision. An object without a skin has
+    // one transform, from object space.
     std::vector<glm::dmat4> viewFromJoint;
     std::vector<double> morphWeights;  // one weight per morph target of the mesh
     bool operator==(const ObjectPose&) const = default;
@@ -62,7 +67,7 @@ struct ObjectPlan {
     int object = -1;  // index into World::pose.objects
     int mesh = -1;
     std::string name;
-    glm::dmat4 viewFromObject{1.0};  // matrix relative to the camera, computed in double precision
+    glm::dmat4 viewFromObject{1.0};  // transform from object space to view space, computed in double precision
     ObjectPose pose;                 // pose in the middle of the exposure
     // Poses at the shutter times (see Shutter in plan/view.h); empty if the object doesn't move relative to the camera.
     std::vector<ObjectPose> motion;
@@ -75,10 +80,13 @@ struct ObjectPlan {
     CocDeviation cocDeviation;  // bounds in px of the error of interpolating the CoC inside the drawn triangles
     double projectedEdge = 0;   // projected mean edge length of level 0 at the nearest depth, px
     double lambda = 0;          // fractional level of detail λ
-    LevelDraw coarse;           // samples [0, n) draw level ⌊λ⌋ + 1; no samples if λ is an integer
-    LevelDraw fine;             // samples [n, N) draw level ⌊λ⌋
-    // With LodMode::continuous, both levels share one sample, and this fraction of its pixels draws `coarse`. 0 if no
-    // sample is shared.
+    // The coarser of the two levels next to λ, ⌊λ⌋ + 1, with the first samples. No samples if λ is an integer, or with
+    // LodMode::nearest.
+    LevelDraw coarse;
+    // The finer level, ⌊λ⌋, with the remaining samples. With LodMode::nearest, level round(λ) with all samples.
+    LevelDraw fine;
+    // With LodMode::continuous, the last sample of `coarse` is also the first sample of `fine`. In this shared sample,
+    // `coarse` is drawn in this fraction of the pixels, and `fine` in the others. 0 if no sample is shared.
     double boundaryShare = 0;
     std::vector<VisibleLevel> visible;  // levels of which some clusters are culled; other levels are drawn completely
     double cocScale = 1;                // factor on the blur of the entire object, ≥ 0
@@ -116,10 +124,11 @@ struct ShadowMap {
 
 // Shadow maps of the lights that cast shadows, and the objects that cast them; see shadows.h.
 struct ShadowPlan {
-    std::vector<ShadowMap> maps;      // maps of the same light are adjacent; empty: no shadows
-    int size = 0;                     // width and height of each map, px
-    std::uint32_t points = 1;         // sample points on each light per lens sample
-    std::vector<ObjectPlan> casters;  // each caster draws one level, ObjectPlan::fine, in all samples
+    std::vector<ShadowMap> maps;  // maps of the same light are adjacent; empty: no shadows
+    int size = 0;                 // width and height of each map, px
+    std::uint32_t points = 1;     // sample points on each light per lens sample
+    // Objects that cast shadows. Each is drawn with one level, ObjectPlan::fine, in all samples
+    std::vector<ObjectPlan> casters;
     // Corners of boxes that contain all casters (relative to the camera, in m, world axes).
     std::vector<glm::dvec3> corners;
     // Corners of the volume that contains all that any lens sample sees, in the coordinates of `corners`. Shadow maps
@@ -160,8 +169,9 @@ struct FramePlan {
     std::vector<LeftOut> leftOut;
     std::vector<std::vector<bool>> levelsUsed;  // [mesh][level]: true if any object draws the level
     bool usesLens = true;                       // false: no blur reaches half a pixel, so samples only antialias edges
-    bool usesCocControls = false;               // true: some object's circle of confusion isn't a + b·w at depth w
-    bool usesOwnBlur = false;                   // true: an object or a vertex modifies the lens's blur
+    // true: the blur of some object differs from a thin lens's blur, because the lens or the object has blur controls
+    bool usesCocControls = false;
+    bool usesOwnBlur = false;  // true: an object or a vertex modifies the lens's blur
     bool usesTextures = false;
     bool usesBlending = false;   // true: some object is alpha-blended
     bool sortsBlending = false;  // true: some primitive is blended in order from back to front

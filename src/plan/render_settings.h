@@ -16,13 +16,13 @@ namespace defocus::engine {
 enum class LodCause {
     blurAndSize,
     size,  // projected size of the object only, as with a pinhole
-    blur,  // blur of the lens only, as with infinitely many pixels
+    blur,  // blur of the lens only, as if pixels were infinitely small
 };
 
 struct RenderSettings {
     std::uint32_t sampleCount = 64;  // lens samples, 1 … maxSamples
-    // Number of positions in a pixel that each lens sample renders: 1, or 4 in a 2 × 2 grid. The layer textures have
-    // one texel per position.
+    // Number of subpixel positions at which each lens sample draws the scene: 1, or 4 in a 2 × 2 grid. The layer
+    // textures have one texel per position.
     std::uint32_t positions = 1;
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;         // selects one of many sets of sample points
@@ -36,7 +36,8 @@ struct RenderSettings {
     Shadows shadows = Shadows::automatic;
     bool multipleScattering = false;  // compensates for the energy that rough specular reflection loses
     double cocTolerance = 0.5;        // max error in px of the CoC interpolated inside a triangle, > 0
-    bool keepAll = false;             // disables culling, and keeps the lens even if nothing is visibly blurred
+    // Disables culling, and draws with the lens instead of a pinhole even if nothing is visibly blurred.
+    bool keepAll = false;
     // Range of focus distances to which the image can be refocused after rendering. Each object's levels suit the
     // smallest blur over this range, and the lens samples are kept even if nothing is blurred at the frame's own focus
     // distance. Needs a lens whose circle of confusion at depth w is C(w) = a + b·w (circle_of_confusion.h).
@@ -47,8 +48,8 @@ struct RenderSettings {
 // Returns the number of positions in a pixel along each axis: 1 or 2.
 int positionsPerAxis(const RenderSettings& settings);
 
-// Returns the total number of positions in a pixel that all samples render. This number determines the antialiasing of
-// edges in focus.
+// Returns the number of subpixel positions at which the scene is drawn, summed over all samples. This number determines
+// the antialiasing of edges in focus.
 std::uint32_t positionCount(const RenderSettings& settings);
 
 // Multiplies the thresholds by `factor`; unset thresholds first get the defaults for frames of `sampleCount` samples.

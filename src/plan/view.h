@@ -32,7 +32,7 @@ View withMargin(View view, int margin);
 
 // Poses of the scene at the shutter times: the times within the exposure at which motion is sampled.
 struct Shutter {
-    std::vector<Pose> poses;  // one pose of World::pose's objects per shutter time; empty if the scene doesn't move
+    std::vector<Pose> poses;  // for each shutter time, one pose of the scene; empty if the scene doesn't move
     // false: shutter times are evenly spaced from opening to closing, and vertices move linearly between them.
     // Munkberg, Toth and Akenine-Möller 2012 use one such linear segment. true: each lens sample has its own shutter
     // time, LensSample::time.

@@ -59,8 +59,9 @@ protected:
     std::uint64_t triangles_ = 0;  // triangles drawn for the last image
 };
 
-// With fractional levels of detail, the error of box means is at most three times the error at full detail, both with
-// 64 samples. The focus distance is first automatic and then four times as large, which blurs the whole model.
+// With fractional levels of detail, the error of the mean radiance of boxes of 32 × 32 px is at most three times the
+// error at full detail, both with 64 samples. The focus distance is first automatic and then four times as large, which
+// blurs the whole model.
 TEST_P(BlurredLevels, errAfterBoxesByNoMoreThanThreeTimesTheSamples) {
     const double focus = frame_.view.lens.focusDistance;
     bool drawsLevels = false;

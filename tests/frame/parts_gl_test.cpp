@@ -46,8 +46,8 @@ TEST_F(Partial, mergedBlocksAreTheSingleRun) {
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous}) {
         const Image expected = drawn(*small, mode, {}).image();
 
-        // Each range of samples is rendered by a separate driver and saved. The drivers draw different numbers of
-        // samples together.
+        // Each range of samples is rendered by a separate driver and saved. The drivers have different limits on the
+        // number of samples that are drawn at once (in a wave).
         std::vector<fs::path> paths;
         std::uint32_t wave = 3;
         for (const SampleRange& range : {SampleRange{0, 64}, SampleRange{64, 150}}) {
@@ -60,8 +60,8 @@ TEST_F(Partial, mergedBlocksAreTheSingleRun) {
     }
 }
 
-// The file of a part of a frame's samples contains only finished blocks of samples: for each block the number and the
-// sum of its samples.
+// The partial sums over a range of a frame's samples are stored by block of at most 64 samples: for each block, the
+// number and the sum of its samples.
 TEST_F(Partial, blocksHoldTheSumOfTheirSamples) {
     const auto small = fiveSpheres();
     FrameDriver driver = drawn(*small, LodMode::fractional, SampleRange{64, 150});

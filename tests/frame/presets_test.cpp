@@ -33,7 +33,8 @@ TEST(Presets, setWhatTheyList) {
             ASSERT_NE(setting, nullptr) << value.setting;
             EXPECT_EQ(setting->text(request), value.text) << value.setting;
         }
-        // After clearing, no setting is changed, so the preset sets only the settings that it lists.
+        // clearPreset() resets only the settings that the preset lists. If all settings are then at their defaults,
+        // applyPreset() has set no others.
         clearPreset(preset, request);
         for (const Setting& setting : settings()) EXPECT_FALSE(changedText(setting, request)) << setting.name;
     }
@@ -58,8 +59,10 @@ TEST(Presets, comeBeforeWhatTheySet) {
             EXPECT_LT(settingNamed("preset"), settingNamed(value.setting)) << preset.name << " " << value.setting;
 }
 
-// For each object, the plan draws the level whose edge length is nearest, on a logarithmic scale, to the object's score
-// times the edge length of level 0. The test computes the score from the plan's bounding boxes and blur.
+// For each object, the plan draws the level whose edge length is nearest, on a logarithmic scale, to a target. The
+// target is the edge length of level 0 times 0.25 (the preset's blur threshold) times the object's score. The score is
+// the blur over the projected edge length of level 0 (Tzeng et al. 2012). The test computes it from the plan's bounding
+// boxes and blur.
 TEST(TzengPlan, drawsTheLevelNearestToTheScore) {
     Request request;
     request.fishCount = 5;
@@ -76,7 +79,7 @@ TEST(TzengPlan, drawsTheLevelNearestToTheScore) {
         const double depth = -0.5 * (object.viewBox.minimum.z + object.viewBox.maximum.z);
         const double edge = pyramid.levels[0].meanEdge * largestScale(object.pose) * plan.view.width /
                             (2 * plan.tanHalfHorizontal * depth);
-        // a quarter of the blur over the edge length, both in px
+        // The blur threshold times the object's score; blur and edge length are in px.
         const double growth = 0.25 * object.coc.smallest / edge;
         std::size_t expected = 0;
         for (std::size_t l = 1; l < 3; ++l) {

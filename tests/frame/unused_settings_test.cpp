@@ -30,7 +30,7 @@ TEST(UnusedSettings, eachIsNamedWithItsReason) {
         {{{"method", "circular"}, {"seed", "2"}}, "--seed has no effect: method circular has no lens samples"},
         {{{"method", "circular"}, {"lod", "off"}, {"samples", "8"}, {"positions", "4"}},
          "--samples, --positions have no effect: method circular has no lens samples"},
-        // Without --lod off, the number of samples is used: it determines the levels of detail.
+        // Unless --lod is off, the number of samples is used, because it determines the levels of detail.
         {{{"method", "circular"}, {"samples", "8"}, {"positions", "4"}},
          "--positions has no effect: method circular has no lens samples"},
         {{{"method", "line"}, {"positions", "4"}},

@@ -28,14 +28,15 @@ std::vector<glm::dvec2> mapped(const Lens& lens) {
     return points;
 }
 
-constexpr int cellCount = 24;  // cells per side of [−1, 1]²
+constexpr int cellCount = 24;  // number of grid cells per side of the square [−1, 1]², which contains the lens
 
 std::size_t cellOf(const glm::dvec2& p) {
     const auto index = [](double c) { return std::clamp(static_cast<int>((c + 1) / 2 * cellCount), 0, cellCount - 1); };
     return static_cast<std::size_t>(index(p.y) * cellCount + index(p.x));
 }
 
-// Returns each cell's fraction of the total light. `light` is evaluated at 40 × 40 points per cell.
+// Returns the fraction of the total light in each cell of the grid over the lens. `light` is evaluated at 40 × 40
+// points per cell.
 template <typename Light>
 std::vector<double> expectedShares(const Light& light) {
     constexpr int fine = 40 * cellCount;
@@ -58,8 +59,8 @@ std::vector<double> sharesOf(const std::vector<glm::dvec2>& points) {
     return shares;
 }
 
-// Returns the fraction of the light that lies in the wrong cell: half the sum over all cells of the absolute difference
-// between a and b.
+// Returns the fraction of the light that lies in the wrong cell of the grid over the lens: half the sum of |a − b| over
+// all cells. a and b hold the fraction of the light in each cell.
 double misplaced(const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]) / 2;
@@ -73,7 +74,8 @@ TEST_P(ApertureOf, hasTheDensityOfItsDefinition) {
     const std::vector<glm::dvec2> points = mapped(lens);
     const std::vector<double> wanted = expectedShares([&](const glm::dvec2& p) { return lightDensity(lens, p); });
     EXPECT_LT(misplaced(sharesOf(points), wanted), 0.006);
-    // The bound detects wrong shapes: a slightly different aperture has more than twice as much misplaced light.
+    // The bound of 0.006 is small enough to detect wrong shapes: for a slightly different aperture, more than twice
+    // this fraction of the light lies in the wrong cells.
     Lens other = lens;
     other.bladeRotation += 0.1;
     other.bladeCurvature = std::abs(other.bladeCurvature - 0.3);

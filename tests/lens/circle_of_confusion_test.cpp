@@ -63,8 +63,8 @@ TEST(CircleOfConfusion, backgroundLimitHasItsKinkBehindTheFocus) {
     EXPECT_EQ(circleOfConfusion(limited, 1, 1000), circleOfConfusion(free, 1, 1000));
 }
 
-// The blur is zero in the entire focus range. Close to the lens and at infinity, the range leaves the blur unchanged. A
-// range that refocuses changes the blur at infinity (Munkberg et al. 2012).
+// The blur is zero in the entire focus range. Close to the lens and at infinity, it is the same as without a focus
+// range. With Lens::focusRangeRefocuses, in contrast, the blur at infinity changes (Munkberg et al. 2012).
 TEST(CircleOfConfusion, focusRangeIsSharpAndPreservesNearAndFarBlur) {
     Lens lens = lensAt(2);
     const ClipCircleOfConfusion plain = clipCircleOfConfusion(lens, 1000, 750);
@@ -82,13 +82,13 @@ TEST(CircleOfConfusion, focusRangeIsSharpAndPreservesNearAndFarBlur) {
         EXPECT_GT(circleOfConfusion(range, 5.5, 1000), 1);
         // Close to the lens, the focus range leaves the circle of confusion unchanged.
         EXPECT_NEAR(circleOfConfusion(range, 1e-6, 1000) / circleOfConfusion(plain, 1e-6, 1000), 1, 1e-5);
-        // At infinity, the focus range leaves the circle of confusion unchanged. A range that refocuses gives the
-        // circle of confusion of a lens focused at 5 m.
+        // At infinity, the focus range leaves the circle of confusion unchanged. With focusRangeRefocuses, it becomes
+        // that of a lens focused at 5 m, the far end of the range.
         const double far = circleOfConfusion(range, infinity, 1000) / circleOfConfusion(plain, infinity, 1000);
         EXPECT_NEAR(far, refocuses ? 2.0 / 5 : 1, 1e-12);
-        // At depth z = 8 m, the circle of confusion is A·W/(2·tan(θx/2)) times (1/s)·(1 − 5/z), or times (1/5 − 1/z) if
-        // the range refocuses. A is the aperture diameter, W the image width in px, θx the horizontal field of view and
-        // s the focus distance.
+        // The focus range ends at 5 m. At depth z = 8 m, the circle of confusion is A·W/(2·tan(θx/2)) times
+        // (1/s)·(1 − 5/z), or times (1/5 − 1/z) with focusRangeRefocuses. A is the aperture diameter, W the image width
+        // in px, θx the horizontal field of view and s the focus distance.
         const double atInfinity = circleOfConfusion(plain, infinity, 1000);
         EXPECT_NEAR(circleOfConfusion(range, 8, 1000),
                     refocuses ? atInfinity * 2 * (1.0 / 5 - 1.0 / 8) : atInfinity * (1 - 5.0 / 8), 1e-9);

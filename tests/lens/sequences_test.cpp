@@ -201,8 +201,8 @@ TEST(Sequences, alignedBlocksOfSobolAreNets) {
         }
 }
 
-// The pixel coordinates of Sobol points are Joe and Kuo's dimensions 3 and 4, with a quality parameter t of at most 2,
-// or 1 from 32 points on. Of n points, 2ᵗ lie in each cell with the area 2ᵗ/n.
+// The pixel coordinates of Sobol points are Joe and Kuo's dimensions 3 and 4. Their quality parameter t is at most 2,
+// and at most 1 for 32 or more points. Of n points, 2ᵗ lie in each cell with the area 2ᵗ/n.
 TEST(Sequences, pixelOfSobolIsNearlyANet) {
     for (const std::uint32_t seed : {0u, 7u})
         for (const std::uint32_t bits : {5u, 6u, 8u, 10u}) {

@@ -186,8 +186,8 @@ std::vector<DollyStep> dolly(const RenderSettings& settings, double ratio) {
 // below a bound. An edge at distance n projects to a length proportional to 1/n. At λ, an object's edge length is
 // interpolated logarithmically between levels and projects to τ = max(kBlur·c, kSize), with the blur c in px and the
 // thresholds kBlur and kSize. Edges grow at least by the factor `growth` per level, so |Δλ| ≤ |Δ ln(n·τ)| / ln growth.
-// Only c = K·|1/s − 1/n|, with the focus distance s, changes τ, by at most kBlur·K·(1/n − 1/n'), and τ is at least
-// kSize.
+// Between n and n', τ changes only by the blur c = K·|1/s − 1/n|, with the focus distance s and a constant K of the
+// lens. The change of τ is at most kBlur·K·(1/n − 1/n'), and τ is at least kSize.
 TEST(FramePlan, lambdaIsContinuousAlongADolly) {
     const RenderSettings settings = settingsFor(64);
     const auto small = fiveSpheres();
@@ -196,9 +196,10 @@ TEST(FramePlan, lambdaIsContinuousAlongADolly) {
     for (std::size_t l = 1; l < levels.size(); ++l)
         growth = std::min(growth, levels[l].meanEdge / levels[l - 1].meanEdge);
     const Lens& lens = small->view.lens;
-    const double blur = lens.focalLength / (1000 * lens.fStop) * small->view.width * lens.focalLength /
-                        lens.horizontalAperture;  // K in c = K·|1/s − 1/n|, px·m
-    const double reach = 1.03 * dollyRadius;      // radius of the sphere including its ripples, m
+    // K in the formula for the blur in px, c = K·|1/s − 1/n|, with the focus distance s and the distance n in m.
+    const double blur =
+        lens.focalLength / (1000 * lens.fStop) * small->view.width * lens.focalLength / lens.horizontalAperture;
+    const double reach = 1.03 * dollyRadius;  // radius of the sphere including its ripples, m
     const std::vector<DollyStep> steps = dolly(settings, 1.001);
     for (std::size_t i = 1; i < steps.size(); ++i) {
         const double before = steps[i - 1].distance - reach;
@@ -218,7 +219,8 @@ TEST(FramePlan, measuredLevelsAreContinuousAlongADollyAndGrowWithBlur) {
         return largest;
     };
     const std::vector<DollyStep> steps = dolly(settings, 1.002);
-    // Halving the steps in distance halves the largest change of a continuous λ, but not a jump of λ.
+    // Halving the distance steps halves the largest change of the level of detail λ if λ is continuous, but not if λ
+    // jumps.
     EXPECT_LT(largestChange(dolly(settings, 1.001)), 0.6 * largestChange(steps));
     const auto [finest, coarsest] = std::ranges::minmax(steps, {}, &DollyStep::lambda);
     EXPECT_GT(coarsest.lambda, finest.lambda + 1) << "levels coarsen from focus to blur";

@@ -59,7 +59,7 @@ private:
     FrameRun run_;
 };
 
-// Base of the ways that plan the complete frame themselves and draw parts of it.
+// Base class of Tiled, Summed and Separate, which draw a frame in parts. Plans the complete frame in its constructor.
 class FrameDriver::Planned : public Drawing {
 public:
     [[nodiscard]] std::uint32_t sampleTotal() const override {
@@ -71,7 +71,7 @@ public:
     [[nodiscard]] Image image() override { return renderer_.image(); }
 
 protected:
-    // `automatic`: quality of an automatic number of samples; nullopt: the number in the order's settings.
+    // `automatic`: quality from which the number of samples is chosen; nullopt: the number is in `order.settings`.
     Planned(const World& world, Renderer& renderer, const FrameOrder& order, std::optional<Quality> automatic = {})
         : renderer_(renderer) {
         const Clock::time_point begin = Clock::now();
@@ -311,8 +311,9 @@ void FrameDriver::fitTiles(const FrameOrder& order, const FramePlan& plan, const
 
 namespace {
 
-// Throws UsageError if RenderSettings::layers contains data layers that the method or the order cannot draw. Otherwise
-// forbids tiles if there are layers.
+// Throws UsageError if RenderSettings::layers contains data layers that the method does not support, or that cannot be
+// written for this frame. Examples of such frames are partial sums, a part of the rows, and images of single lens
+// samples. If any layers are requested, forbids tiles. `perSample`: Shutter::perSample.
 void checkLayers(FrameOrder& order, const Method& method, bool perSample) {
     if (order.settings.layers.empty()) return;
     if (!method.drawsLayers)

@@ -86,10 +86,11 @@ public:
     [[nodiscard]] Image image();
     // Returns the images of the layers in RenderSettings::layers; nullopt if there are none.
     [[nodiscard]] std::optional<LayerImages> layerImages();
-    // Returns the partial sums over FrameOrder::samples once they are complete, without settings and metadata.
+    // Returns the partial sums over FrameOrder::samples; FramePart::settings and ::metadata stay empty. All these
+    // samples must have been drawn.
     [[nodiscard]] FramePart sums();
-    // Returns whether memory is too short for the images counted in DriverOptions::keptPixelBytes. The caller should
-    // then write each image before it starts the next frame.
+    // Returns whether there is too little memory for the images counted in DriverOptions::keptPixelBytes. If so, the
+    // caller should write each image before it starts the next frame.
     [[nodiscard]] bool crowded() const { return crowded_; }
     [[nodiscard]] std::uint64_t memoryLimit() const { return limit_; }
     // Returns the method that draws the frame. For method "auto", returns the method that it chose.

@@ -41,8 +41,9 @@ public:
     void start(const Progress& progress = {});
     // Draws a batch (wave) of lens samples and writes the finished rows. Returns false once the frame is complete.
     bool advance();
-    // Writes the partial sums, completes the file of FrameFiles::share, or joins the tiles into the output files.
-    // Returns an untiled frame's image; the caller must write that image.
+    // Completes the output files. Writes the partial sums if FrameFiles::samples is set; finishes the file of a part of
+    // the rows if FrameFiles::share is set; joins the tiles of a frame that was drawn in tiles. Returns the image of an
+    // untiled frame, which the caller must write; otherwise nullopt.
     std::optional<Image> finish();
 
     [[nodiscard]] double share() const;  // finished fraction of the work, 0 … 1, including rows of an earlier run
@@ -66,10 +67,10 @@ private:
     FrameFiles files_;
     FrameParts parts_;
     std::string settings_;  // SceneDriver::settingsHash; empty until a file needs it
-    RowRange wanted_;       // rows to draw: all rows of the frame, or FrameFiles::share
+    RowRange wanted_;       // rows to draw: all rows of the frame, or the part that FrameFiles::share selects
     int rowsKept_ = 0;
     int rowsDone_ = 0;                      // rows that this run has written to files
-    std::optional<ImageRowWriter> writer_;  // writes the file of FrameFiles::share
+    std::optional<ImageRowWriter> writer_;  // writes the rows that FrameFiles::share selects
 };
 
 }  // namespace defocus::engine

@@ -52,15 +52,15 @@ ReferenceImage renderedReference(const World& world, const View& view, const Ref
 // Computes ReferenceImage::hash without rendering the image. Needs no mesh pyramids.
 std::uint64_t referenceHash(const World& world, const View& view, const ReferenceOptions& options);
 
-// Returns whether the folder holds a reference, or the first half of one, with another hash. referenceImage() would
-// replace that file.
-// Files that cannot be read as images are ignored.
+// Returns whether the folder holds a file of another reference: a complete image, or an image of the first half of its
+// samples, whose hash is not `hash`. referenceImage() would replace that file. Files that cannot be read as images are
+// ignored.
 bool holdsOtherReference(const std::filesystem::path& folder, std::uint64_t hash);
 
-// Returns the image in `folder`/reference.exr if that file is complete and its hash matches. Otherwise renders the
-// image and writes that file. Continues from reference-half.exr, the file of the first half, if a killed run left one.
-// Rendering needs a current GL context. Throws Error if the number of samples is outside 2 … maxSamples or if the files
-// cannot be written.
+// Returns the image in `folder`/reference.exr if that file is complete and its hash equals referenceHash(). Otherwise
+// renders the image and writes that file. Continues from reference-half.exr, the image of the first half of the
+// samples, if a killed run left that file. Rendering needs a current GL context. Throws Error if the number of samples
+// is outside 2 … maxSamples or if the files cannot be written.
 ReferenceImage referenceImage(const World& world, const View& view, const ReferenceOptions& options,
                               const std::filesystem::path& folder, const Progress& progress = {});
 

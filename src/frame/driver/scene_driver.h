@@ -60,7 +60,8 @@ public:
     [[nodiscard]] const GlContext& context() const { return *context_; }
 
     [[nodiscard]] bool started() const { return driver_.has_value(); }
-    // Returns times and counts of the frame that was started last; before the first frame, only the loading times.
+    // Returns the timings, and the sample and triangle counts, of the frame that was started last. Before the first
+    // frame, returns only the loading times.
     [[nodiscard]] RenderStatistics statistics() const;
 
     // Returns warnings for the user: about the scene, the request and, after start(), the frame.
@@ -91,7 +92,9 @@ private:
         explicit InContext(GlContext& context) { context.makeCurrent(); }
         CurrentContextKeeper callers;
     };
-    static constexpr std::size_t pyramidKinds = 4;  // kind 0: full detail only; kind 1 + n: LevelVertices n
+    // Number of kinds of pyramids. Kind 0 has full detail only; kind 1 + n has levels built with the LevelVertices
+    // enumerator of value n.
+    static constexpr std::size_t pyramidKinds = 4;
 
     [[nodiscard]] std::shared_ptr<Scene> scaledScene(const Request& request) const;
     void handOnPyramids(PreparedFrame& next, std::size_t kind);

@@ -1,5 +1,5 @@
 #pragma once
-// Converts numbers to JSON, which supports neither NaN nor infinity, and JSON to text.
+// Converts numbers to JSON (null for NaN and infinity, which JSON does not support), and JSON to text.
 
 #include <cmath>
 #include <nlohmann/json.hpp>

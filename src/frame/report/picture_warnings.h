@@ -9,8 +9,8 @@
 namespace defocus::engine {
 
 // Returns a warning with a suggested exposure if `image` (linear), converted to 8 bits, would be mostly white or black:
-// over 50 % of the covered pixels white, or over 95 % black although a longer exposure helps. Pixels with alpha 0 are
-// ignored.
+// over 50 % of the covered pixels white, or over 95 % black. A mostly black image gets a warning only if the suggested
+// exposure exceeds the current one. Pixels with alpha 0 are ignored.
 std::vector<std::string> clippingWarnings(const ImageView& image, const WriteOptions& write);
 
 }  // namespace defocus::engine

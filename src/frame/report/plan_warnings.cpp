@@ -45,17 +45,17 @@ std::string nothingBlurred(const FramePlan& plan) {
         plan.largestBlur, nearest, plan.view.lens.focusDistance, plan.view.lens.fStop, help);
 }
 
-// Distance in px between the images of a point in neighbouring lens samples. With lens cells (each sample is blurred to
-// fill the gaps), `size` is the σ of a cell's blur in px instead.
+// Distance in px between the images of a blurred point in neighbouring lens samples. With lens cells, each sample's
+// image is blurred by a Gaussian to fill these gaps; `size` is then the standard deviation of the Gaussian in px.
 struct Gaps {
     double size = 0;
-    double max = 16;  // largest distance without a warning, px
-    double good = 8;  // distance that the warning's advice aims for, px
+    double max = 16;  // largest `size` that causes no warning, px
+    double good = 8;  // `size` that the settings advised in the warning should achieve, px
 };
 
 Gaps gapsOf(const FramePlan& plan, const MethodUse& use, double blur, std::uint64_t samples) {
     if (const LensCells cells = use.method->blursCells ? lensCells(plan) : LensCells{}; cells.blur > 0) {
-        const double widest = std::sqrt(cellClassVariance(maxCellClasses - 1));  // σ of the most blurred lens cell, px
+        const double widest = std::sqrt(cellClassVariance(maxCellClasses - 1));  // max σ of the blur by lens cells, px
         return {cells.blur * blur, widest, 0.7 * widest};
     }
     return {blur * std::sqrt(std::numbers::pi / (4.0 * static_cast<double>(samples)))};

@@ -16,8 +16,9 @@ namespace defocus::engine {
 // - The frame has transmitting materials, but the method draws them opaque.
 // - The frame has shadows, but the method draws none.
 // - The method draws one image per lens sample, and the blur is so large that these images show as separate copies. N
-//   lens samples shift a point by about c·√(π/(4N)) px from copy to copy in a blur disk of diameter c px. Lens cells
-//   (plan/lens_cells/lens_cells.h) blur each sample to fill such gaps up to a largest size.
+//   lens samples shift a point by about c·√(π/(4N)) px from copy to copy in a blur disk of diameter c px. With lens
+//   cells (plan/lens_cells/lens_cells.h), the image of each sample is blurred to fill these gaps. The warning then
+//   appears if the required blur exceeds the maximum of lens cells.
 // `samples`: number of lens samples of the complete frame if `plan` covers only its last block; 0: the number in the
 // plan.
 std::vector<std::string> planWarnings(const FramePlan& plan, const MethodUse& use, std::uint64_t samples = 0);

@@ -11,12 +11,22 @@ namespace defocus::engine {
 
 using Condition = std::string (*)(const SettingContext&);
 
-// A comment beside a function states when it returns a reason; functions without a comment have names that say so.
-std::string methodWithoutSamples(const SettingContext& context);     // if the method draws no lens samples
-std::string methodWithoutPositions(const SettingContext& context);   // if a sample has at most one pixel position
-std::string methodWithoutShapes(const SettingContext& context);      // if only round and oval apertures are supported
-std::string methodWithoutLensPoints(const SettingContext& context);  // if the lens can't vary by pixel or by colour
-std::string methodWithoutThreads(const SettingContext& context);     // if the method draws in one thread
+// Each function returns the reason why a setting has no effect if its condition applies, else an empty string. The
+// names of functions without a comment state their condition.
+
+// Returns why a setting has no effect with a method that draws no lens samples; empty for other methods.
+std::string methodWithoutSamples(const SettingContext& context);
+// Returns why a setting has no effect with a method that draws no lens samples, or only one pixel position for each
+// sample; empty for other methods.
+std::string methodWithoutPositions(const SettingContext& context);
+// Returns why a setting has no effect with a method that supports only round and oval apertures; empty for other
+// methods.
+std::string methodWithoutShapes(const SettingContext& context);
+// Returns why a setting has no effect with a method that cannot vary the lens across the image or by colour; empty for
+// other methods.
+std::string methodWithoutLensPoints(const SettingContext& context);
+// Returns why a setting has no effect with a method that draws in one thread; empty for other methods.
+std::string methodWithoutThreads(const SettingContext& context);
 std::string methodWithoutMotion(const SettingContext& context);
 std::string withoutLayers(const SettingContext& context);
 std::string withoutShutter(const SettingContext& context);
@@ -26,7 +36,8 @@ std::string withoutVariant(const SettingContext& context);
 std::string withoutShadows(const SettingContext& context);
 std::string withoutBlur(const SettingContext& context);
 std::string withoutBlurOrExposure(const SettingContext& context);
-std::string withFixedSamples(const SettingContext& context);  // if the request gives the number of samples
+// Returns why a setting has no effect if the request gives the number of samples; empty if it does not.
+std::string withFixedSamples(const SettingContext& context);
 std::string withoutLevels(const SettingContext& context);
 std::string withMeasuredLevels(const SettingContext& context);
 

@@ -57,7 +57,8 @@ public:
     }
     Row&& unused(Setting::Unused reason) && { return with(&Setting::unused, std::move(reason)); }
 
-    // Sets how the value is parsed and formatted. With choices, a number's error message also lists the allowed words.
+    // Sets the functions that parse and format the value. If a numeric setting also accepts words (its `choices`), the
+    // error message for an invalid number lists these words.
     template <typename Set, typename Text>
     Row&& values(Set set, Text text) && {
         setting_.set = set;
@@ -193,7 +194,8 @@ Row choice(std::string name, std::string option, std::vector<std::pair<std::stri
                 });
 }
 
-// Returns a row for a text or, with SettingKind::path, a file or folder name. An empty text means unset.
+// Returns a row for a string setting or, with SettingKind::path, for the name of a file or folder. An empty string
+// means that the setting is unset.
 template <typename Member>
 Row words(SettingKind kind, std::string name, std::string option, std::string metavar, Member member,
           std::string help) {

@@ -95,7 +95,8 @@ Rows sampleRows() {
     return {
         presetRow().inShot("/preset"),
         samplesRow().everyday().example("64").inShot("/samples").unused([](const SettingContext& context) {
-            // Levels of detail depend on the number of samples in all methods.
+            // With levels of detail, the number of samples has an effect in every method, because it determines the
+            // levels.
             return context.request.lod == LodMode::off ? methodWithoutSamples(context) : std::string();
         }),
         positionsRow().inShot("/positions").unused(methodWithoutPositions),

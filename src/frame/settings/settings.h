@@ -23,9 +23,9 @@ enum class SettingGroup { scene, camera, lens, samples, method, display, develop
 
 // Results that depend on a setting.
 enum class SettingEffect {
-    pixels,   // the linear image
-    display,  // only the 8-bit output: PNG, JPEG and video
-    run,      // only how the image is computed: time, memory, caches
+    pixels,   // the setting changes the linear image
+    display,  // the setting changes only 8-bit output: PNG, JPEG and video
+    run,      // the setting changes only how the image is computed: time, memory, caches
 };
 
 // Inputs for deciding whether a setting has an effect.
@@ -46,7 +46,7 @@ struct Setting {
     SettingKind kind = SettingKind::text;
     std::string metavar;  // placeholder for the value in --help: "N", "PX", "X,Y,Z", "a|b|c"
     std::string unit;     // "mm", "m", "s", "px", "degrees" …; empty: none
-    double min = 0;       // allowed range of numbers and integers
+    double min = 0;       // allowed range, for SettingKind::number and ::integer
     double max = 0;
     std::vector<std::string> choices;  // allowed words; a number setting also accepts numbers
     std::string help;
@@ -69,7 +69,7 @@ struct Setting {
     std::function<std::optional<std::string>(const Request&)> text;
     // Restores the default value.
     std::function<void(Request&)> clear;
-    // Returns the texts of all values of a repeated setting.
+    // Returns all values of a repeated setting, each in the format of text().
     std::function<std::vector<std::string>(const Request&)> texts;
 };
 

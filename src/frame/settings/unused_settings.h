@@ -10,8 +10,8 @@
 
 namespace defocus::engine {
 
-// Returns a line for each reason, with the options that have no effect for that reason. `lens`: lens with the values of
-// the request and of its camera.
+// Returns a line for each reason, with the options that have no effect for that reason. `lens`: the lens after the
+// values of the scene's camera and of the request have been applied.
 std::vector<std::string> unusedSettings(const Request& request, const Scene& scene, const Lens& lens);
 
 }  // namespace defocus::engine

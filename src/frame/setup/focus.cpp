@@ -50,7 +50,7 @@ void planeThrough(std::span<const glm::dvec3, 3> points, Lens& lens, const std::
         fail(
             "{}: the plane through the three points crosses the view axis at or behind the camera; choose other points",
             what);
-    // Plane equation normal·(X, Y, −w) = normal·point, divided by −normal.z.
+    // The plane equation normal·(X, Y, −w) = normal·points[0], divided by −normal.z, gives mx, my and s (see above).
     lens.focusSwing = std::atan(-normal.x / normal.z);
     lens.focusTilt = std::atan(-normal.y / normal.z);
     lens.focusDistance = distance;
@@ -60,7 +60,7 @@ void planeThrough(std::span<const glm::dvec3, 3> points, Lens& lens, const std::
 // κ/s·r², with s, mx and my as in planeThrough. r is the distance from the image's centre in units of half the image
 // width, κ the field curvature. A small term on the diagonal of the normal equations sets undetermined unknowns to 0.
 void surfaceNear(std::span<const glm::dvec3> points, Lens& lens, const std::string& what) {
-    constexpr double raised = 1e-12;  // added to the diagonal of the normal equations for each point
+    constexpr double raised = 1e-12;  // regularization: added to the diagonal of the normal equations, once per point
     const double tanX = tanHalfHorizontalFov(lens);
     glm::dmat4 matrix(raised * static_cast<double>(points.size()));
     glm::dvec4 right(0);

@@ -22,12 +22,12 @@ struct PreparedFrame {
     std::string sceneName;                 // file name, "fish school", or the name of a scene without a file
     std::optional<std::string> scaleNote;  // names the guessed unit of the scene; nullopt: no guess
     std::string cameraName;
-    Lens cameraLens;                             // lens of the scene's camera, without the request's values
+    Lens cameraLens;  // lens of the scene's camera, before the request's lens settings are applied
     std::vector<std::string> refusedLensValues;  // messages about invalid values in the camera's extras
     double loadMilliseconds = 0;
     double pyramidMilliseconds = 0;
     std::filesystem::path cacheFolder;  // cache of the pyramids; empty: no cache
-    std::uint64_t memoryLimit = 0;      // max bytes of the process while pyramids are built; 0: no limit
+    std::uint64_t memoryLimit = 0;      // memory limit of the process, in bytes, while pyramids are built; 0: no limit
     std::size_t pyramidsLoaded = 0;     // number of pyramids read from the cache
     std::string cacheFailure;           // why a pyramid couldn't be stored; empty: no failure
 };
@@ -36,12 +36,13 @@ struct PreparedFrame {
 // or if Request::strict is set and damageWarnings isn't empty.
 Scene loadScene(const Request& request, const Progress& progress = {});
 
-// Loads the scene and places camera, lens and lights. The world has no pyramids yet. Throws Error if the request names
-// an object, camera or animation that the scene doesn't have.
+// Loads the scene and places camera, lens and lights. The levels of detail (World::pyramids) are not yet built. Throws
+// Error if the request names an object, camera or animation that the scene doesn't have.
 PreparedFrame placeFrame(const Request& request, const Progress& progress = {});
 
-// Places camera, lens and lights in a loaded scene. Leaves the scene unchanged, including the blur of its nodes and its
-// units. `environment`: environment map to reuse; null: load the request's map.
+// Places camera, lens and lights for a scene that is already loaded. Does not change the scene: its units, the blur of
+// its nodes, its strokes and its ground must already be set. `environment`: environment map to reuse; null: load the
+// request's map.
 PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& request,
                          const Environment* environment = nullptr);
 
@@ -55,7 +56,7 @@ void setCameraTrack(const Request& request, Scene& scene);
 // Returns whether the request names the scene's camera track.
 bool hasCameraTrack(const Request& request, const Scene& scene);
 
-// Draws the scene's points and lines as triangles, one pixel wide in the request's view; see scene/strokes.h. The
+// Replaces the scene's points and lines by triangles, one pixel wide in the request's view; see scene/strokes.h. The
 // scene's units must already be set.
 void setStrokes(const Request& request, Scene& scene);
 
@@ -63,10 +64,10 @@ void setStrokes(const Request& request, Scene& scene);
 // the start of the animation, so that all frames of a shot share it. The scene's units must already be set.
 void setGround(const Request& request, Scene& scene);
 
-// Returns the lights `own`, moved with the scene to `pose`, and with the light sizes that the request gives.
+// Returns the scene's own lights `own`, moved to the scene pose `pose` and with the light sizes that the request sets.
 std::vector<PlacedLight> sizedLights(const Request& request, const std::vector<PlacedLight>& own, const Pose& pose);
 
-// Sets camera and lens of a placed frame for a request with another camera. The lights stay unchanged.
+// Sets camera and lens of a frame from placeFrame() for a request that differs in its camera. Lights stay unchanged.
 void placeCamera(PreparedFrame& frame, const Request& request);
 
 // Returns the request's environment. A default sky is scaled to the brightness of the scene's own lights. Throws Error

@@ -25,7 +25,8 @@ double smallestCoc(const FramePlan& plan, const CocBox& box);
 // Returns the projected length in px of one unit of object space, at the depth of the bounding box's centre.
 double pixelsPerUnitAtCentre(const ObjectPlan& object, const FramePlan& plan);
 
-// Returns the min CoC diameter in px that the object's surfaces can have at the centre of the object's view-space box.
+// Returns the smallest |CoC| in px at the centre of the object's view-space box. The minimum is over the blur modifiers
+// of the object's surfaces, all wavelengths and, if set, RenderSettings::refocus.
 double cocAtCentre(const ObjectPlan& object, const FramePlan& plan);
 
 }  // namespace defocus::engine

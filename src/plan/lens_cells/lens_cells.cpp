@@ -20,7 +20,8 @@ namespace {
 // With N samples, a lens cell's blur has σ = cellWidth/√N times the CoC diameter. A disk-shaped cell has σ = 1/4 of its
 // diameter; the value here is 40 % larger to close the gaps between cells.
 constexpr double cellWidth = 0.35;
-constexpr std::uint32_t fewestSamples = 4;  // with fewer samples, the image of each sample stays unblurred
+// Min number of samples for lens cells. With fewer samples, the images of the samples are not blurred.
+constexpr std::uint32_t fewestSamples = 4;
 constexpr std::uint32_t maxPointsOfCell = 16;
 constexpr std::uint32_t maxPoints = 1u << 14;  // max number of lens points, summed over all cells
 // Min number of cells into which the lens is divided for all blocks of samples but the first.
@@ -46,7 +47,7 @@ LensSpread spreadOf(const std::vector<LensSample>& samples) {
 }
 
 // Returns the effective open area of an aperture image as a fraction of the unit disk: (Σ w)² / Σ w² over the
-// transmittances w of its pixels, divided by the number of pixels in the disk.
+// transmittances w of the image's cells (see ApertureImage), divided by the number of these cells in the disk.
 double filledArea(const ApertureImage& image) {
     double squares = 0;
     double rowsBefore = 0;
@@ -82,9 +83,9 @@ void rotate(std::vector<LensSample>& samples, double angle) {
     for (LensSample& sample : samples) sample.lens = rotation * sample.lens;
 }
 
-// Moves each of `samples`, which begin at index 0 of the sequence, to the mean point of its lens cell, the region of
-// the lens that the sample represents. A cell consists of further points of the sequence, which are divided evenly
-// among nearby samples. The division runs along two axes, so the mean points form rows and columns. The axes are
+// Moves each of `samples`, the first points of the sample sequence, to the mean point of its lens cell, the region of
+// the lens that the sample represents. A cell consists of several points of the same sequence. All points are divided
+// evenly among nearby samples. The division runs along two axes, so the mean points form rows and columns. The axes are
 // rotated, so that adjacent columns interleave across a blurred vertical or horizontal edge.
 void moveToMeans(std::vector<LensSample>& samples, const FramePlan& plan) {
     const auto count = static_cast<std::uint32_t>(samples.size());
@@ -168,8 +169,9 @@ LensCells lensCells(const FramePlan& plan) {
     cells.behind = classesFor(blur, behind);
     cells.blur = blur;
     cells.firstSample = plan.frameFirst;
-    // All later blocks share one division of the lens. If each block had its own division, the cells of different
-    // blocks would have nearly the same centres, and many blocks would show a light as the same few dots.
+    // All blocks of samples after the first take their cells from a common division of the lens, which is refined only
+    // beyond 1,024 samples. If each block had its own division, the cells of different blocks would have nearly the
+    // same centres, and many blocks would show a light as the same few dots.
     const std::uint32_t count =
         plan.frameFirst == 0 ? plan.frameSamples : std::max(cellsOfBlocks, std::bit_ceil(plan.frameSamples));
     std::vector<LensSample> samples = lensSamples(plan.view.lens, plan.settings.sequence, 0, count, plan.settings.seed);
@@ -178,8 +180,8 @@ LensCells lensCells(const FramePlan& plan) {
     samples.erase(samples.begin(), samples.begin() + plan.frameFirst);
     for (const LensSample& sample : samples)
         cells.pixelShift -= glm::dvec2(sample.pixel) / static_cast<double>(samples.size());
-    // For a CoC of c px, the lens point (1, 0) moves the image by c/2 px. A blur with σ = blur·c px in the image
-    // therefore corresponds to σ = 2·blur on the lens.
+    // For a CoC of c px, the lens point (1, 0) moves the image by c/2 px. A blur with a standard deviation of blur·c px
+    // in the image therefore corresponds to a standard deviation of 2·blur on the lens, in lens radii.
     cells.middles = matched(samples, lens, 4 * blur * blur);
     return cells;
 }

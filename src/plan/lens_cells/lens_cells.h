@@ -4,12 +4,14 @@
 // N samples divide the lens into N cells that pass equal amounts of light. A cell's image is approximately the image
 // from the cell's centre, blurred slightly. The blur kernel is the lens's shape, √N times smaller. A sum of pinhole
 // images without this blur shows ghost copies of a point instead of a disk. Therefore each image is rendered from a
-// cell's centre and blurred by a Gaussian of σ = blur·|c| px. c is the circle of confusion of the surface at the pixel.
-// The image resolution follows the blur (Soler, Subr, Durand, Holzschuch and Sillion 2009, Fourier Depth of Field).
+// cell's centre and blurred by a Gaussian with a standard deviation σ of LensCells::blur·|c| px. c is the circle of
+// confusion of the surface at the pixel. The image resolution follows the blur (Soler, Subr, Durand, Holzschuch and
+// Sillion 2009, Fourier Depth of Field).
 //
-// Variances of convolved kernels add. The centres therefore have the lens's mean, and the lens's covariance minus the
-// covariance of the blur. Blurred points keep their position and size for any N; plain sequence points would shift them
-// by their mean. σ falls as 1/√N, so the result converges to that of plain accumulation.
+// Variances of convolved kernels add. The cells' centres are therefore placed such that their mean is the mean of the
+// lens, and their covariance is the lens's covariance minus the covariance of the blur. Blurred points then keep their
+// position and size for any N. Unmodified points of the sample sequence would shift blurred points by the mean of the
+// sequence points. σ falls as 1/√N, so the result converges to that of plain accumulation.
 //
 // Blurring is linear. Pixels are therefore sorted by σ into a few classes and summed over a block of samples; each
 // class is then blurred once per block (render/accumulation/cell_sums.h). A pixel contributes to the two classes with
@@ -27,18 +29,20 @@ namespace defocus::engine {
 struct FramePlan;
 
 inline constexpr int maxCellClasses = 5;  // max number of classes of similar blur on each side of the focus plane
-// Returns the blur variance of class k ≥ 0, a group of pixels with similar blur, along an axis in px²: 4^k/3 + 1/6. The
-// image of a class consists of tent-weighted means over squares of 2^k px, interpolated linearly between their centres.
+// Returns the variance in px², along one axis, of the blur of class k ≥ 0: 4^k/3 + 1/6. A class is a group of pixels
+// with similar blur. The image of a class consists of tent-weighted means over squares of 2^k px, interpolated linearly
+// between their centres.
 double cellClassVariance(int k);
 inline constexpr double minCellVariance = 0.01;  // px², subtracted from each blur's variance; too small to be visible
 
 struct LensCells {
-    double blur = 0;                 // σ of the blur as a fraction of the CoC diameter; 0: images are not blurred
-    std::uint32_t firstSample = 0;   // LensSample::index of the first cell's lens sample
+    double blur = 0;                // standard deviation of a cell's blur as a fraction of the CoC diameter; 0: no blur
+    std::uint32_t firstSample = 0;  // LensSample::index of the first cell's lens sample
     std::vector<glm::vec2> middles;  // centre of each cell, in the coordinates of LensSample::lens
-    glm::dvec2 pixelShift{0};        // shift in px, added to LensSample::pixel so that the mean offset is 0
-    // Number of classes of similar blur in front of and behind the focus plane. Both are 0 if the samples leave no
-    // visible gaps. Samples move to the cells' centres even then, to avoid popping.
+    // Shift in px that is added to LensSample::pixel, so that the mean position of the samples is the pixel's centre.
+    glm::dvec2 pixelShift{0};
+    // Numbers of classes of pixels with similar blur, in front of and behind the focus plane. Both are 0 if the samples
+    // are so dense that they need no blur. Samples move to the cells' centres even then, to avoid popping.
     int inFront = 0;
     int behind = 0;
     std::string reason;  // why images are not blurred; empty if images are blurred
@@ -49,8 +53,8 @@ struct LensCells {
 std::string reasonForNoCells(const FramePlan& plan);
 
 // Returns the lens cells of the plan's samples. A frame may consist of several blocks of samples, each with a plan. The
-// first block divides the lens into as many cells as the block has samples. All later blocks take their cells from one
-// finer division of the lens. The blur of a later block follows from the number of all samples up to its end.
+// first block divides the lens into as many cells as the block has samples. Later blocks take their cells from a
+// common, finer division of the lens. The blur of a later block follows from the number of all samples up to its end.
 LensCells lensCells(const FramePlan& plan);
 
 // Moves each sample of the plan to the centre of its lens cell, and shifts its position in the pixel by
@@ -58,7 +62,8 @@ LensCells lensCells(const FramePlan& plan);
 void moveToCells(FramePlan& plan, const LensCells& cells);
 
 // Returns the image resolution that a lens sample needs along each axis at a CoC of `coc` px, as a fraction of full
-// resolution. The fraction is 2^−k for a blur with the variance cellClassVariance(k), and 1 if images are not blurred.
+// resolution. The fraction is 2^−k for a blur with the variance cellClassVariance(k). It is 1 for less blur, and if the
+// images of the samples are not blurred (LensCells::blur is 0).
 double pixelRate(const LensCells& cells, double coc);
 
 }  // namespace defocus::engine

@@ -29,7 +29,7 @@ struct Candidate {
 struct BlendNode {
     std::size_t candidate = 0;
     BlendRun run;
-    BlendPart part;  // unused for entire primitives that transmit or are drawn by stochastic transparency
+    BlendPart part;  // unset for entire primitives that are transmissive or drawn by stochastic transparency
 };
 
 // Draw-order constraints between a node and the nodes before it in BlendSorter::nodes_, as indices of these nodes.
@@ -132,7 +132,8 @@ Relations BlendSorter::relationsOf(std::size_t node) const {
     for (std::size_t i = 0; i < node; ++i) {
         const BlendNode& a = nodes_[i];
         if (transmits(i) || transmits(node)) {
-            if (a.candidate != b.candidate) relations.after.push_back(i);  // the object of `a` is nearer
+            // Candidates are sorted front to back, so `a`, the earlier one, is drawn after `b`.
+            if (a.candidate != b.candidate) relations.after.push_back(i);
             continue;
         }
         if (a.run.stochastic || b.run.stochastic || !overlap(a.part, b.part)) continue;

@@ -18,11 +18,11 @@
 namespace defocus::engine {
 
 // Returns whether the triangles are part of the surface of a convex body whose front faces point outwards, such as a
-// flat pane. From any viewpoint, back faces lie behind front faces, and faces of the same orientation never overlap.
-// More than 1,000 triangles are not tested and count as not convex.
+// flat pane. From any viewpoint, back faces lie behind front faces, and faces of the same orientation never overlap. A
+// primitive with more than 1,000 triangles is not tested and counts as not convex.
 bool isConvex(const std::vector<glm::vec3>& positions, std::span<const std::uint32_t> indices);
 
-// Sets FramePlan::blendOrder and ObjectPlan::blended. The levels of the objects must be chosen.
+// Sets FramePlan::blendOrder and ObjectPlan::blended. The levels of the objects must already be chosen.
 void chooseBlending(FramePlan& plan, const World& world);
 
 }  // namespace defocus::engine

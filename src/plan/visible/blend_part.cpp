@@ -36,16 +36,16 @@ PosedPart posedPart(const glm::dmat4& viewFromObject, const std::vector<glm::vec
     return part;
 }
 
-// Returns whether no corner of the part lies behind the plane (`sign` 1) or in front of the plane (−1), within
-// `rounding`.
+// Returns whether no corner of the part lies behind `plane` (`sign` 1) or in front of `plane` (−1). Allows an error of
+// `rounding` (m).
 bool isOn(const Plane& plane, const PosedPart& part, double sign, double rounding) {
     return std::ranges::all_of(part.corners, [&](const glm::dvec3& corner) {
         return sign * (glm::dot(plane.normal, corner) - plane.distance) >= -rounding;
     });
 }
 
-// Returns whether the lens, a disk around the origin in the plane z = 0, lies in front of the plane (`sign` 1) or
-// behind it (−1).
+// Returns whether the lens lies in front of `plane` (`sign` 1) or behind it (−1). The lens is a disk of radius
+// `lensRadius` around the view-space origin, perpendicular to the z axis.
 bool lensIsOn(const Plane& plane, double lensRadius, double sign) {
     return -sign * plane.distance - lensRadius * glm::length(glm::dvec2(plane.normal)) >= 0;
 }
@@ -100,7 +100,7 @@ bool mayHide(const BlendPart& front, const BlendPart& behind, const FramePlan& p
         const PosedPart& p = front.poses[std::min(i, front.poses.size() - 1)];
         const PosedPart& q = behind.poses[std::min(i, behind.poses.size() - 1)];
         if (p.nearest + p.rounding >= q.farthest) continue;
-        // If the circle of confusion C(w) isn't a + b·w, the lens shear doesn't preserve planes, so only the depths are
+        // If the blur differs from a thin lens's blur, the lens shifts do not preserve planes, so only the depths are
         // compared.
         if (plan.usesCocControls || mayHide(p, front.flat, q, behind.flat, 0.5 * plan.apertureDiameter)) return true;
     }

@@ -55,8 +55,8 @@ double importance(int row, bool onGround) {
     return onGround ? 0.25 + 0.75 * std::max(0.0, std::cos(std::numbers::pi * (row + 0.5) / gridRows)) : 1;
 }
 
-// Inverts a cumulative distribution. Returns the index of the interval of `sums` that contains `place`, a fraction of
-// the last sum, and the position in [0, 1] inside the interval.
+// Inverts a cumulative distribution. Returns the index of the interval of the cumulative `sums` that contains the value
+// `place` · sums.back(), and the position inside this interval, from 0 to 1. `place` is in [0, 1).
 std::pair<std::size_t, double> inverted(std::span<const double> sums, double place) {
     const double target = place * sums.back();
     const auto found = std::ranges::upper_bound(sums, target);

@@ -10,13 +10,13 @@
 namespace defocus::engine {
 
 // Importance sampling of directions to the environment. Cells of an equirectangular grid are chosen in proportion to
-// luminance × solid angle × importance.
+// luminance × solid angle × importance. The importance is a weight that may favour light from above.
 class EnvironmentDirections {
 public:
     EnvironmentDirections() = default;
-    // With `onGround`, shadows are assumed to fall mostly on horizontal ground. Importance is then 0.25 + 0.75·max(0,
-    // cos θ), where θ is the angle to the zenith; otherwise it is 1. The constant term is for surfaces of other
-    // orientations.
+    // With `onGround`, shadows are assumed to fall mostly on horizontal ground. The importance of a direction is then
+    // 0.25 + 0.75·max(0, cos θ), where θ is the angle to the zenith; otherwise it is 1. The constant term is for
+    // surfaces of other orientations.
     explicit EnvironmentDirections(const Environment& environment, bool onGround = false);
 
     struct Choice {
@@ -34,7 +34,8 @@ private:
     bool onGround_ = false;
     std::vector<glm::dvec3> radiances_;
     double meanIlluminance_ = 0;
-    // Importance times luminance times solid angle, cumulative from the top row down and within each row.
+    // Cumulative sums of luminance × solid angle × importance: over all rows from the top down, and over the cells
+    // inside each row.
     std::vector<double> rowSums_;
     std::vector<double> cellSums_;
 };

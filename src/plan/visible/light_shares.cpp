@@ -29,7 +29,7 @@ double illuminance(const PlacedLight& placed, const glm::dvec3& camera, const Se
     return brightness / (bounded * bounded);
 }
 
-// Returns the illuminance from each light, then from the environment, each summed over the points.
+// Returns the illuminance from each light, then from the environment, each summed over the visible points `seen`.
 std::vector<double> illuminances(const World& world, const FramePlan& plan, double byEnvironment,
                                  const std::vector<SeenPoint>& seen) {
     const glm::dvec3 camera(plan.view.worldFromCamera[3]);

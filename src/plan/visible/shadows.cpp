@@ -19,12 +19,15 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr int minMapSize = 128;               // min width and height of a shadow map, px
-constexpr int maxImageMapSize = 2048;         // max map size in px that is chosen to match the image's size
-constexpr double resolvedShare = 0.95;        // fraction of visible points whose texels are at most texelPixels wide
-constexpr double texelPixels = 2;             // texel width in px; can exceed 1, because samples shift the texels
-constexpr double minTexelLimit = 1 << 20;     // max texels of a map, unless twice the image's pixel count is more
-constexpr double maxSampleTexels = 64 << 20;  // max texels of all maps of a lens sample: 256 MiB
+constexpr int minMapSize = 128;         // min width and height of a shadow map, px
+constexpr int maxImageMapSize = 2048;   // up to this limit in px, a shadow map is at least as large as the image
+constexpr double resolvedShare = 0.95;  // fraction of visible points where a texel must be at most texelPixels wide
+// Max texel width in px. It exceeds 1, because each lens sample shifts the texels, and the mean over the samples
+// smooths the shadows' edges.
+constexpr double texelPixels = 2;
+// Max number of texels of a map. If twice the image's pixel count is larger, that count is the limit.
+constexpr double minTexelLimit = 1 << 20;
+constexpr double maxSampleTexels = 64 << 20;  // max number of texels in all maps of a lens sample (256 MiB of depths)
 constexpr double minShare = 0.01;             // lights below this fraction of the visible illuminance cast no shadow
 constexpr double widestTangent = 3;           // max tan of half a map's field of view
 constexpr double levelErrorTexels = 0.5;      // max simplification error of a caster, texels
@@ -295,8 +298,9 @@ ShadowProjection mapProjection(const World& world, const glm::dvec3& camera, con
 
 // ---- size of the shadow maps ----------------------------------------------------------------------------------------
 
-// Returns the number of texels across the map that makes a texel at `seen` twice as wide as the smallest visible
-// detail, which is a pixel or half the blur. Returns 0 if the point is outside the map.
+// Returns the number of texels across the map that makes a texel at `seen` texelPixels times as wide as the smallest
+// visible detail. This detail is one pixel, or half the blur's diameter if that is larger. Returns 0 if the point is
+// outside the map.
 double texelsNeeded(const FramePlan& plan, const ShadowProjection& projection, int size, const SeenPoint& seen) {
     const glm::vec4 place(glm::vec3(seen.place), 1);
     const double w = glm::dot(projection.clipRows[3], place);

@@ -25,11 +25,12 @@ inline constexpr std::size_t maxShadowMaps = 8;
 
 // Projection of a shadow map. Positions are relative to the camera, in m, in world axes.
 struct ShadowProjection {
-    std::array<glm::vec4, 4>
-        clipRows{};            // matrix rows to clip space, reversed depth; w is 1 for parallel light, else depth in m
-    glm::vec3 toLight{0.0f};   // unit vector to the light, for directional lights
+    // Rows of the matrix from camera-relative positions (see above) to clip space, with reversed depth. Clip-space w is
+    // 1 for parallel light, else the depth in m.
+    std::array<glm::vec4, 4> clipRows{};
+    glm::vec3 toLight{0.0f};   // unit vector to a directional light or the environment
     float texel = 0;           // texel width in m at w = 1
-    glm::vec3 radiance{0.0f};  // EnvironmentDirections::Choice::radiance divided by π, for the environment
+    glm::vec3 radiance{0.0f};  // for the environment, EnvironmentDirections::Choice::radiance divided by π
 };
 
 // Returns the max number of points on each light for which a sample needs at most maxShadowMaps maps. `maps` is the

@@ -19,7 +19,7 @@ int cellSide(int pixels) {
     return (pixels + cells - 1) / cells;
 }
 
-// Keeps only the objects for which `isKept` returns true, also in the blend order.
+// Removes the objects for which `isKept` returns false from the plan's objects and from its blend order.
 void keepObjects(FramePlan& plan, const auto& isKept) {
     std::vector<std::optional<std::uint32_t>> newIndex(plan.objects.size());
     std::vector<ObjectPlan> kept;

@@ -24,7 +24,9 @@ struct PixelRectangle {
 
 struct Tile {
     PixelRectangle area;
-    PixelRectangle cell;  // cell of the image whose window coordinates the tile uses; the cell contains `area`
+    // Part of the image with its own window coordinates, at most maxCellPixels wide and high. Contains `area`, which is
+    // drawn in these coordinates.
+    PixelRectangle cell;
     bool operator==(const Tile&) const = default;
 };
 

@@ -17,21 +17,26 @@ namespace defocus::engine {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double snapping = 1.0 / 128;      // max change in px of a triangle's altitude by rounding to 8 subpixel bits
-constexpr double transformation = 0x1p-21;  // max error of a single-precision position, relative to the summed terms
-constexpr double storage = 1e-6;            // relative error of a cluster's stored values
-constexpr double guardBand = 1.8;           // |NDC| beyond which triangles may be clipped
-constexpr int shutterParts = 4;         // number of intervals between two shutter times, each with its own motion bound
-constexpr std::size_t maxMoments = 64;  // max shutter times for culling; with more, all clusters are drawn
-constexpr double minSaving = 1.0 / 8;   // min culled fraction of a level's triangles; otherwise all are drawn
-constexpr std::uint32_t minGap = 128;   // min culled triangles between two ranges; fewer are drawn, not skipped
+// Max change of a triangle's altitude, in px, if its vertices are rounded to 8 subpixel bits.
+constexpr double snapping = 1.0 / 128;
+// Max rounding error of a float position, relative to the sum of the magnitudes of its added terms.
+constexpr double transformation = 0x1p-21;
+constexpr double storage = 1e-6;   // relative error of a cluster's stored values
+constexpr double guardBand = 1.8;  // |NDC| beyond which triangles may be clipped
+constexpr int shutterParts = 4;    // number of intervals between two shutter times, each with its own motion bound
+// Max number of shutter times (times at which motion is sampled) for culling. With more, all clusters are drawn.
+constexpr std::size_t maxMoments = 64;
+constexpr double minSaving = 1.0 / 8;  // min culled fraction of a level's triangles; if fewer are culled, all are drawn
+// Min number of culled triangles between two drawn ranges. A shorter gap is drawn, too, which joins the ranges.
+constexpr std::uint32_t minGap = 128;
 
 // Bounds of the lens in object space during a part of the exposure.
 struct LensRange {
-    glm::dvec3 eye{0};             // centre of the lens in the middle of the time range
+    glm::dvec3 eye{0};             // centre of the lens in the middle of this part of the exposure
     glm::dmat3 viewFromNormal{1};  // inverse transpose of the object's matrix
     double inverseSize = 0;        // Frobenius norm of the object's inverse matrix
-    double motion = 0;             // max distance of a lens point from its position in the middle of the time range
+    // Max distance of a lens point from its position in the middle of this part of the exposure.
+    double motion = 0;
 };
 
 // An object as seen by all samples of the frame.
@@ -39,11 +44,13 @@ struct ObjectViews {
     std::vector<glm::dmat4> viewFromObject;  // matrix in the middle of the exposure, then at each shutter time
     std::vector<LensRange> lenses;           // lens bounds for parts of the exposure; empty: no culling of back faces
     double lensRadius = 0;                   // radius in m of the disk that bounds the lens
-    double shapeLoss = 1;                    // max factor by which a tilted focus plane shrinks a triangle's altitude
-    double minVolume = 0;                    // min volume in m³ of a cube with sides of one object unit
-    double largestSize = 0;                  // upper bound of the norms of viewFromObject
-    double largestOffset = 0;                // max distance in m of the object's origin from the camera
-    OwnBlur own;                             // bounds of the blur modifiers of the object's surfaces
+    // Max factor by which the lens shift shrinks a triangle's altitude in the image if the focus plane is tilted.
+    double shapeLoss = 1;
+    // Volume in m³ of a cube with sides of one object unit; min over the exposure.
+    double minVolume = 0;
+    double largestSize = 0;    // upper bound of the norms of viewFromObject
+    double largestOffset = 0;  // max distance in m of the object's origin from the camera
+    OwnBlur own;               // bounds of the blur modifiers of the object's surfaces
 };
 
 double frobeniusNorm(const glm::dmat3& m) {
@@ -143,7 +150,9 @@ Bounds viewBoxOf(const Cluster& cluster, const ObjectViews& views) {
 //
 // A triangle of altitude α and longest edge L has the area f²·α·L·h·|det A|/(2 w₀w₁w₂) in px². A is the matrix from
 // object to view space, and wᵢ are the depths of the corners. f is the number of px per unit at distance 1, and h the
-// lens's distance from the triangle's plane. The triangle's edges are at most f·L·‖A‖·distance/w² px long.
+// lens's distance from the triangle's plane. The triangle's edges are at most f·L·‖A‖·d/w² px long, where d is the max
+// distance of a corner from the lens, and w the min depth. Its altitude in px is twice the area over the edge length.
+// The result is the h at which this altitude equals the max loss by rounding.
 double minPlaneDistance(const Cluster& cluster, const Bounds& box, const ObjectViews& views, const FramePlan& plan) {
     const double min = -box.maximum.z;
     const double max = -box.minimum.z;
@@ -181,7 +190,7 @@ bool staysWhole(const CocBox& coc, const FramePlan& plan) {
     return std::max({-coc.ndcMin.x, coc.ndcMax.x, -coc.ndcMin.y, coc.ndcMax.y}) < reach;
 }
 
-// Returns true if the circle of confusion C is a single linear function of the position over the box.
+// Returns true if the clip-space blur (CoC · depth) is a single linear function of the position over the box.
 bool isOneLinearPiece(const CocBox& coc, const FramePlan& plan) {
     const glm::dvec2 tanHalf = plan.tanHalfHorizontal * glm::dvec2(1, 1 / plan.coc.aspect);
     const CocDeviation deviation = cocDeviation(plan.coc, coc, 1, tanHalf, plan.view.width);
@@ -219,7 +228,8 @@ public:
     explicit Runs(VisibleLevel& level) : level_(&level), runs_(&level.primitives.emplace_back()) {}
 
     void show(const IndexRange& range) {
-        if (!runs_->empty() && (away_ + outside_) < minGap)  // the gap is too small for a further range
+        // There are too few culled triangles since the last range to start a new range.
+        if (!runs_->empty() && (away_ + outside_) < minGap)
             runs_->back().count += 3 * (away_ + outside_) + range.count;
         else {
             leaveOut();
@@ -238,8 +248,8 @@ public:
 private:
     VisibleLevel* level_;
     std::vector<IndexRange>* runs_;
-    std::uint32_t away_ = 0;     // back-facing triangles after the last range in runs_
-    std::uint32_t outside_ = 0;  // triangles outside the image after the last range in runs_
+    std::uint32_t away_ = 0;     // number of triangles after the last range in runs_ that face away
+    std::uint32_t outside_ = 0;  // number of triangles after the last range in runs_ that lie outside the image
 };
 
 VisibleLevel levelWithoutHidden(const ObjectViews& views, const ObjectPlan& object, std::uint32_t number,
@@ -287,8 +297,9 @@ CocBox cocBoxOf(const Bounds& viewBox, const OwnBlur& own, const FramePlan& plan
 
 namespace {
 
-// Returns the largest circle of confusion |C| = |factor·(a + b·w) + added·w| of the thin lens over all wavelengths. C
-// is linear in `factor` and `added`, so |C| is largest at the ends of their ranges.
+// Returns the largest clip-space blur |C| = |factor·(a + b·w) + added·w| of the thin lens at depth w, over all
+// wavelengths. a and b are ClipCircleOfConfusion::a and ::front. C is linear in `factor` and `added`, so |C| is largest
+// at the ends of their ranges.
 double thinLensReach(const ClipCircleOfConfusion& coc, const OwnBlur& own, double w) {
     double reach = 0;
     for (const double factor : {own.factorMin, own.factorMax})
@@ -299,10 +310,12 @@ double thinLensReach(const ClipCircleOfConfusion& coc, const OwnBlur& own, doubl
 
 }  // namespace
 
-// Returns true if all corners lie outside one plane of the frustum. For the left plane, at image position −1, this
-// means x/tan(θx/2) + w + |C| < 0, with half a pixel added for the jitter. The circle of confusion of a thin lens,
-// |C(w)|, is convex, so the corners bound it. For other lenses, |C|/w is at most `largest` divided by the image's width
-// in px. If a side of `area` lies inside the image, one more pixel accounts for the rounding of vertex positions.
+// Returns true if all corners of the box lie outside one plane of the frustum, which the lens widens. For the left
+// plane, at image position −1, this means x/tan(θx/2) + w + |C| < 0, with half a pixel added for the jitter. x is the
+// view-space position, w the depth, θx the horizontal field of view and C the clip-space blur (CoC · depth). For a thin
+// lens, |C(w)| is convex, so the corners bound it. For other lenses, |C|/w is at most `largest` divided by the image's
+// width in px. If a side of `area`, the rectangle of a tile, lies inside the image, one more pixel is added for the
+// rounding of vertex positions.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,
                            const PixelRectangle& area) {
     const View& view = plan.view;

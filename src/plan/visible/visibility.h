@@ -4,16 +4,17 @@
 // exposure.
 //
 // One triangle. The determinant det of its three clip positions (x, y, w) is positive if its front face is visible
-// (counter-clockwise). After the shear p + C·(u, k·v, 0) with the circle of confusion C, the determinant is
+// (counter-clockwise). A lens point (u, v) shears the positions to p + C·(u, k·v, 0), where C is the clip-space blur
+// (circle_of_confusion.h) and k the image's aspect ratio. The determinant is then
 //   det + u·Nx + k·v·Ny,   where Nx, Ny are the first two components of Σ Cᵢ·pⱼ × pₖ   (i, j, k cyclic).
 // This is linear in (u, v), because a determinant with two parallel columns is zero. So the back face is visible from
 // the whole unit disk if det + √(Nx² + (k·Ny)²) ≤ 0. Source: Munkberg, Toth and Akenine-Möller 2012, Appendix A, Eq. 5,
 // with the opposite sign of det.
 //
 // Where C is one linear function α + g·(x, y, w), Σ Cᵢ·pⱼ × pₖ = α·n + det·g with n = Σ pⱼ × pₖ. The g of a thin lens
-// points along w, so the condition becomes det + |α|·√(nx² + (k·ny)²) ≤ 0 (Eq. 6). In words: every point of the lens, a
-// disk of radius |α|·tan(θx/2), lies behind the plane of the triangle. A tilted focus plane widens this disk by 1/(1 −
-// |(gx, k·gy)|).
+// points along w, so the condition becomes det + |α|·√(nx² + (k·ny)²) ≤ 0 (Eq. 6). In words: every point of the lens
+// lies behind the plane of the triangle. The lens is a disk of radius |α|·tan(θx/2), with the horizontal field of view
+// θx. A tilted focus plane widens this disk by the factor 1/(1 − |(gx, k·gy)|).
 //
 // Clusters. A cluster faces away if the whole disk lies behind the planes of all its triangles at every t. The test
 // uses the cone of the cluster's normals in object space, where mirrored objects need no special case. The cone test
@@ -26,19 +27,20 @@
 // pixel.
 //
 // The remaining triangles may still rasterize differently. For a triangle narrower than 1/256 px, Mesa's llvmpipe
-// decides front or back depending on whether another triangle of the batch is clipped. With other index ranges, one
-// pixel of a sample may differ where an object crosses the image border.
+// decides front or back depending on whether another triangle of the same batch is clipped. Culling changes the index
+// ranges, and thus the batches. Where an object crosses the image border, one pixel of a sample may therefore differ
+// from the image without culling.
 
 #include "plan/frame_plan.h"
 
 namespace defocus::engine {
 
 // Returns the range of depths and image positions of `viewBox`, which must lie beyond the near plane. `own` bounds the
-// blur modifiers of the surfaces in the box.
+// blur modifiers (factor and added blur) of the surfaces in the box.
 CocBox cocBoxOf(const Bounds& viewBox, const OwnBlur& own, const FramePlan& plan);
 
-// Returns true if no lens sample sees any part of the box. `own` bounds the blur modifiers of the surfaces in the box.
-// `largest` (px) is an upper bound of their CoC.
+// Returns true if no lens sample sees any part of the box. `own` bounds the blur modifiers (factor and added blur) of
+// the surfaces in the box. `largest` is an upper bound of the surfaces' CoC in px.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest);
 // Returns true if no lens sample sees any part of the box inside the rectangle `area` of the image.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,

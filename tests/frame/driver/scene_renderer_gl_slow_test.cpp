@@ -1,4 +1,4 @@
-// Tests that SceneRenderer renders a frame that exceeds the memory limit in tiles.
+// Tests that SceneRenderer uses tiles to render a frame that exceeds the memory limit.
 
 #include <algorithm>
 #include <string>

@@ -67,7 +67,8 @@ TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
     requests[6].layerFormat = LayerFormat::rgba32f;
     requests[7] = movedRequest();
     requests[7].lod = LodMode::off;
-    // Request 8 needs pyramids of another kind (LevelVertices::surviving), and request 9 needs the first kind again.
+    // Request 8 needs pyramids with LevelVertices::surviving. Request 9 needs those with LevelVertices::fitted (the
+    // default) again, as do the requests before 8.
     requests[8].levelVertices = LevelVertices::surviving;
     requests[10] = requests[8];
     SceneRenderer renderer(requests[0]);

@@ -81,7 +81,8 @@ TEST(FocusThrough, findsTheCurvedSurfaceOfManyPoints) {
         }
         Lens lens;
         focusThrough(points, lens, "test");
-        // Four almost concyclic points determine the surface less accurately.
+        // Four points that lie almost on a circle in the image determine the focus surface less accurately than more
+        // points.
         const double tolerance = count == 4 ? 1e-5 : 1e-7;
         EXPECT_NEAR(lens.focusDistance / expected.focusDistance, 1, tolerance);
         EXPECT_NEAR(lens.focusSwing, expected.focusSwing, tolerance);

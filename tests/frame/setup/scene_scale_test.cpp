@@ -54,7 +54,7 @@ TEST(GuessedUnits, bringEverythingBetweenAHandAndAPerson) {
     EXPECT_EQ(guessedMetresPerUnit(0.05), 1);
     EXPECT_EQ(guessedMetresPerUnit(30), 1);
     EXPECT_EQ(guessedMetresPerUnit(154), 0.01);   // the size of a fox in centimetres
-    EXPECT_EQ(guessedMetresPerUnit(555), 0.001);  // the size of a box in millimetres
+    EXPECT_EQ(guessedMetresPerUnit(555), 0.001);  // the size of the Cornell box in millimetres
     EXPECT_EQ(guessedMetresPerUnit(0), 1);
     EXPECT_EQ(guessedMetresPerUnit(std::nan("")), 1);
     EXPECT_EQ(guessedMetresPerUnit(INFINITY), 1);

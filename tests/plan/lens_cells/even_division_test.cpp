@@ -48,10 +48,10 @@ TEST(EvenDivision, pointsBesideACentreBelongToIt) {
 
 // Lens points lie near the centre to which they are assigned: their mean squared distance from it is below 0.3 times
 // the spread, which is the points' mean squared distance from their common mean. A random assignment would give twice
-// the spread. For an ideal division of the disk into sixteen squares, the mean squared distance from a square's middle
-// would be 1/16 · (π/6)/(1/2) = 6.5 % of the spread, and two random points of a square would have twice this mean
-// squared distance. Apertures with corners add a small error, because points and centres are divided in halves
-// independently.
+// the spread. Ideally, the unit disk, whose spread is 1/2, would be divided into sixteen squares of area π/16. The mean
+// squared distance of a square's points from its middle is (π/16)/6, or 6.5 % of the spread. The mean squared
+// distance from a random point of the square, such as a centre of this test, is twice as large. Apertures with corners
+// add a small error, because points and centres are divided in halves independently.
 TEST(EvenDivision, pointsLieNearTheirCentre) {
     for (const ApertureShape& shape : apertureShapes)
         for (const std::uint32_t first : {0u, 64u, 640u}) {

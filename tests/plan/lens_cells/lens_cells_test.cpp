@@ -47,9 +47,9 @@ Moments momentsOf(const Points& points) {
 }
 
 // Lens cells, regions of the lens with one sample each, preserve the position and size of blurred objects at every
-// sample count. The mean of the cells' centres is the lens's mean, and the covariances of the centres and of the blur
-// add up to the lens's covariance. For a circle of confusion of c px, an image blur of σ = b·c px corresponds to σ = 2b
-// lens radii.
+// sample count. The mean of the cells' centres is the mean position on the lens. The covariances of the centres and of
+// the blur add up to the lens's covariance. For a circle of confusion of c px, a blur with the standard deviation b·c
+// px in the image corresponds to one of 2b lens radii on the lens.
 TEST(LensCells, middlesAndBlurHaveTheSpreadOfTheLens) {
     const auto small = muchBlurred();
     const auto check = [&](const char* what, double tolerance) {
@@ -99,12 +99,13 @@ TEST(LensCells, middlesKeepApart) {
     const std::vector<LensSample> samples = lensSamples(small->view.lens, Sequence::sobol, 0, 64, 0);
     const double apart = nearest(lensCellsOf(*small, 64).middles, [](const glm::vec2& p) { return p; });
     EXPECT_GT(apart, 1.5 * nearest(samples, [](const LensSample& s) { return s.lens; }));
-    EXPECT_GT(apart, 1.0 / 8);  // radius, in lens radii, of 64 equal disks with the lens's total area
+    // 64 equal disks that together have the lens's area have a radius of 1/8 lens radius.
+    EXPECT_GT(apart, 1.0 / 8);
 }
 
 // In a frame that is drawn in blocks, the cells of all blocks together divide the lens about as finely as the cells of
-// a frame that is drawn at once. Blocks with the same centres would show ghost copies of lights, however many samples
-// are drawn.
+// a frame that is drawn at once. Blocks with the same cell centres would show ghost copies of lights, however many
+// samples are drawn.
 TEST(LensCells, blocksHaveDifferentMiddles) {
     const auto small = muchBlurred();
     std::vector<glm::vec2> middles;
@@ -163,8 +164,8 @@ TEST(LensCells, edgesAreBlurredAsByADisk) {
 }
 
 // A subset of a planned frame's samples has the same lens cells (regions of the lens) as the entire frame. Samples that
-// are planned separately have different cells. The blur of these cells follows from the frame's number of samples up to
-// their last sample.
+// are planned separately have different cells. The blur of these cells depends on the number of the frame's samples up
+// to the last of the planned samples.
 TEST(LensCells, belongToWhatIsPlannedTogether) {
     const auto small = muchBlurred();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(192));

@@ -94,7 +94,7 @@ TEST(ShadowPlan, aLampThatTheImageDoesNotShowCastsNoShadow) {
     EXPECT_EQ(plan.shadows.maps.front().light, 0);
 }
 
-// A shadow-map texel covers at most two pixels' width of the wall, and at least half a pixel's width.
+// On the wall, a shadow-map texel is at most two pixels and at least half a pixel wide.
 TEST(ShadowPlan, texelsAreAsSmallAsPixels) {
     for (const bool local : {false, true}) {
         const auto small = wallWithoutLights();
