@@ -26,20 +26,25 @@ struct FilmFrame {
     std::vector<std::filesystem::path> files;  // image files, one per file name pattern
     WriteOptions write;                        // encoding of PNG, JPEG and video
     bool finished = false;                     // whether all files exist with the requested settings
-    std::filesystem::path other;               // first existing file with other settings; set only with resume
+    // First existing image file that was made with settings other than this run's. Set only with FilmOptions::resume.
+    std::filesystem::path other;
 };
 
 struct FilmOptions {
-    std::vector<std::string> outputs;        // file name patterns, see capture/frame_files.h
-    std::optional<SampleRange> sampleRange;  // write only partial sums, to FRAME.partFIRST-END.exr; one EXR output only
-    FilmSettings settings;                   // `encoding` is set later, per file; a frame's time limit is ignored
-    bool metered = false;                    // true: FilmFrame::write gets a metered exposure later
-    std::filesystem::path timings;           // path of the sidecar file
-    bool resume = false;                     // true: keep the frames that are already finished
-    std::vector<RefocusRun> runs = {};       // runs of frames computed from lens images; empty with sampleRange
-    // Called with the first image that is drawn untiled, and with the encoding of its 8-bit files.
+    std::vector<std::string> outputs;  // file name patterns; see capture/frame_files.h
+    // Samples to draw: writes their sum to FRAME.partFIRST-END.exr. Requires exactly one output, an EXR file. nullopt:
+    // all samples.
+    std::optional<SampleRange> sampleRange;
+    FilmSettings settings;  // `encoding` is set per file by filmFrames(); a frame's time limit is ignored
+    bool metered = false;   // true: the caller stores a metered exposure in FilmFrame::write before renderFilm()
+    std::filesystem::path timings;      // path of the sidecar file, timings.jsonl
+    bool resume = false;                // true: keep the frames that are already finished
+    std::vector<RefocusRun> runs = {};  // runs of frames computed from lens images; empty with sampleRange
+    // Called with the image of the first rendered frame, unless the frame is drawn in tiles, and with the options for
+    // writing this image to PNG, JPEG and video.
     std::function<void(const Image&, const WriteOptions&)> firstDrawn;
-    // Called for each rendered frame with its number and plan, while the world has the pose of that frame.
+    // Called for each rendered frame with its number and plan, while the world is posed for that frame. Not called for
+    // frames that are computed from lens images.
     std::function<void(int frame, const FramePlan& plan)> frameDrawn;
 };
 
@@ -57,7 +62,7 @@ struct FilmFigures {
     int finishedBefore = 0;
     int refocused = 0;              // frames computed from lens images (one per lens sample); included in `rendered`
     std::uint64_t lensImages = 0;   // number of lens images rendered for the refocused frames
-    double renderMilliseconds = 0;  // sum over all frames of the time from plan to image
+    double renderMilliseconds = 0;  // sum over all frames of the time for planning and rendering, without writing
     double totalMilliseconds = 0;   // wall-clock time until the last file is written
     std::uint64_t triangles = 0;
     std::optional<int> stoppedBefore;  // number of the next frame; nullopt if the run was not stopped

@@ -18,7 +18,7 @@ std::filesystem::path framePath(const std::string& pattern, int frame);
 enum class FrameState {
     missing,   // no file, or a damaged file
     finished,  // complete image with the requested size and settings
-    other,     // complete image with another size or other settings
+    other,     // complete image whose size or settings differ from the requested ones
 };
 FrameState frameState(const std::filesystem::path& path, int width, int height, const std::string& settings);
 

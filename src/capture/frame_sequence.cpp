@@ -87,7 +87,8 @@ double focusDistanceOf(const FocusTarget& target, const Scene& scene, const Pose
 double focusAt(const FocusTrack& focus, const Scene& scene, const FrameMoment& frame, const Lens& lens) {
     View view = frame.view;
     view.lens = lens;
-    // Skip keyframes that don't affect this frame: their nodes may be behind the camera.
+    // Skip keyframes that don't affect this frame. The nodes on which they focus may be behind the camera in this
+    // frame, which would be an error.
     std::vector<Key<double>> dioptres;
     for (std::size_t i = 0; i < focus.keys.size(); ++i) {
         const bool early = i + 2 < focus.keys.size() && focus.keys[i + 2].frame <= frame.frame;

@@ -17,7 +17,8 @@ struct SequenceBase {
     std::shared_ptr<const Scene> scene;
     View view;
     RenderSettings settings;
-    std::vector<PlacedLight> lights;  // lights with their final sizes; default lights if the scene has none
+    std::vector<PlacedLight>
+        lights;  // lights with the request's light sizes; default lights if the scene has no lights
     CameraChoice camera;
     bool cameraStands = false;                     // true: the camera stays as in `view`; false: it follows its node
     std::set<std::string, std::less<>> fixedLens;  // lens fields that don't follow the camera's values

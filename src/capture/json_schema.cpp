@@ -30,7 +30,7 @@ bool acceptsArray(const Schema& schema, const json& value) {
     return std::ranges::all_of(value, [&](const json& item) { return accepts(schema["items"], item); });
 }
 
-// Joins words into a text such as "a", "a or b", "a, b or c".
+// Joins words into a string such as "a", "a or b" or "a, b or c".
 std::string alternatives(const std::vector<std::string>& words) {
     std::string text;
     for (std::size_t i = 0; i < words.size(); ++i)

@@ -17,22 +17,23 @@ namespace defocus::engine {
 
 struct RefocusRun {
     FrameRange frames;
-    Lens lens;                  // lens with the run's widest aperture, focused at the middle of `range` in 1/distance
+    Lens lens;  // lens with the run's widest aperture; its focus distance is the harmonic mean of the ends of `range`
     FocusRange range;           // focus distances of the frames, m
-    std::uint32_t samples = 0;  // number of lens images, at least the number of samples of a frame
+    std::uint32_t samples = 0;  // number of lens images, at least the number of samples of a single frame
 
-    // Returns a string for hashes that identifies the lens images: runs with different lens images have different
-    // strings.
+    // Returns a string that identifies the lens images, for the settings hashes of the frames.
     [[nodiscard]] std::string text() const;
 };
 
 struct RefocusRuns {
-    std::vector<RefocusRun> runs;       // runs in frame order
-    std::vector<std::string> rendered;  // reasons why frames are rendered one by one although they could form a run
+    std::vector<RefocusRun> runs;  // runs in frame order
+    // Messages that say why frames are rendered one by one although they differ only in focus, f-number and aperture.
+    std::vector<std::string> rendered;
 };
 
-// Returns the runs within `frames`, each with the length that saves the most lens samples. `samples`: number of lens
-// samples with which a single frame would be rendered.
+// Divides `frames` into runs of consecutive frames that one set of lens images serves. Each run has the length that
+// saves the most lens samples; frames that save none are in no run. `samples`: number of lens samples with which a
+// single frame would be rendered.
 RefocusRuns refocusRuns(const Shot& shot, const SequenceBase& base, const FilmSettings& settings,
                         const FrameRange& frames, std::uint32_t samples);
 
@@ -48,7 +49,7 @@ public:
     struct Picture {
         Image image;
         std::uint32_t samples = 0;  // number of lens images from which `image` is computed
-        FramePlan plan;             // plan of the lens images, with the view of `image`
+        FramePlan plan;             // plan with which the lens images were rendered, but with the view of `image`
         bool rendered = false;      // true: the lens images were rendered for this frame
     };
     // Computes a frame of `run`. Renders the run's lens images if the previous call was for another run. `driver` draws

@@ -23,7 +23,7 @@ struct FrameRange {
 
 inline constexpr int maxFrame = 9'999'999;
 
-// A point in world space, or the name of a node. A node stands for its centre, which may move.
+// A point in world space, or the name of a node, which stands for the centre of that node. The node may move.
 using Place = std::variant<glm::dvec3, std::string>;
 
 // Keyframes of a lens parameter, in the unit given in lens/lens_fields.h. A single key means a constant value.
@@ -53,14 +53,14 @@ struct CameraKeys {
 struct Turntable {
     double turns = 1;                  // number of rotations; > 0: counter-clockwise seen from above
     std::optional<Place> centre;       // centre of the rotation; nullopt: the centre of the scene
-    std::optional<FrameRange> frames;  // duration of all turns; nullopt: the shot's range
+    std::optional<FrameRange> frames;  // frames during which the camera rotates; nullopt: all frames of the shot
 };
 
 // Moves the camera along its view axis. At the first frame of the movement, the camera is at its original position.
 struct Dolly {
     double distance = 0;  // distance in m; > 0: forward
     Easing easing = Easing::smooth;
-    std::optional<FrameRange> frames;  // duration of the movement; nullopt: the shot's range
+    std::optional<FrameRange> frames;  // frames during which the camera moves; nullopt: all frames of the shot
 };
 
 // Movement of the camera during the shot; std::monostate: none. Shot::request selects the camera.

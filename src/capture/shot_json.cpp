@@ -179,7 +179,7 @@ double lensNumberOf(const JsonReader& reader, const LensField& field) {
     return value;
 }
 
-// Reads keyframes; `numberOf` reads the value of one.
+// Reads keyframes. `numberOf` reads the value of one keyframe.
 LensTrack trackOf(const JsonReader& reader, const auto& numberOf) {
     LensTrack track;
     reader.requireObject({"keys", "interpolation"});
@@ -212,8 +212,8 @@ std::map<std::string, const MethodSetting*, std::less<>> keyedSettings() {
     return keyed;
 }
 
-// Reads the keyframes of a method's setting. Throws Error for values below 1e-6: 0 disables the setting and cannot be
-// interpolated.
+// Reads the keyframes of a method's setting. Throws Error for values below 1e-6. These settings use 0 for "computed
+// from the lens", so values interpolated from 0 would be meaningless.
 LensTrack methodTrackOf(const JsonReader& reader, const MethodSetting& setting) {
     constexpr double min = 1e-6;
     return trackOf(reader, [&](const JsonReader& value) { return value.number(min, setting.max); });
@@ -253,7 +253,8 @@ std::vector<std::string> keysAt(std::string_view place, std::vector<std::string>
     return own;
 }
 
-// Resolves a path in a shot relative to the shot's folder. Texts of settings that aren't paths stay unchanged.
+// Resolves a path in a shot relative to the shot's folder. Values of settings that are not paths are returned
+// unchanged.
 std::string relativeToShot(const Setting& setting, const std::string& text, const Shot& shot) {
     if (setting.name == "environment" && isBuiltInEnvironment(text)) return text;
     return setting.kind == SettingKind::path ? (shot.file.parent_path() / text).string() : text;

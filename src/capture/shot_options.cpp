@@ -39,7 +39,7 @@ std::vector<const char*> fieldsOfFocusPoints(const Request& request) {
     return fields;
 }
 
-// Scales the shot's focus pixels from the image size in the shot to the size in the request.
+// Scales the pixel positions at which the shot focuses from the shot's image size to the request's image size.
 void scaleFocusPixels(Shot& shot, const Request& request) {
     if (!shot.focus || !shot.given.contains("size")) return;
     for (auto& key : shot.focus->keys)

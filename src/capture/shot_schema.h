@@ -6,8 +6,8 @@
 
 namespace defocus::engine {
 
-// Returns `schema` with all entries for settings replaced. Other entries (cameras, focus, frames, outputs) stay
-// unchanged.
+// Returns `schema` with all entries for settings replaced by entries generated from the settings table. Other entries
+// (cameras, focus, frames, outputs) stay unchanged.
 nlohmann::ordered_json withSettings(nlohmann::ordered_json schema);
 
 }  // namespace defocus::engine

@@ -171,7 +171,8 @@ std::string lastLine(std::string text) {
     return text.substr(text.find_last_of("\r\n") + 1);
 }
 
-// Returns the reason why ffmpeg failed: the last message of ffmpeg, or a text of this program if there is no message.
+// Returns the reason why ffmpeg failed: the signal that ended it, its last message, or a generic message if it printed
+// none.
 std::string complaint(const Ffmpeg& ffmpeg, const fs::path& messages) {
     if (const std::string signal = ffmpeg.signalText(); !signal.empty()) return "ffmpeg " + signal;
     const std::string said = lastLine(readText(messages));

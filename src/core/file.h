@@ -43,8 +43,8 @@ void writeFile(const std::filesystem::path& path, std::span<const std::byte> byt
 void writeFile(const std::filesystem::path& path, std::string_view text, NamedBy namer = NamedBy::user);
 
 // New empty temporary file beside `target` with the same extension, for writers that need a path, such as ffmpeg. The
-// destructor removes the temporary file unless `commit()` has renamed it over the target. Temporary files that killed
-// writers of the same target left behind are removed first.
+// destructor removes the temporary file unless `commit()` has renamed it over the target. The constructor first removes
+// temporary files for the same target that killed processes left behind.
 class PendingFile {
 public:
     // Throws Error, with the target's path in its message, if the temporary file cannot be created.

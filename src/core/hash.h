@@ -23,7 +23,7 @@ constexpr std::uint32_t lowbias32(std::uint32_t bits) {
     return bits ^ (bits >> 16);
 }
 
-// Returns the 32-bit MurmurHash3 (x86, seed 0; Appleby) of a text.
+// Returns the 32-bit MurmurHash3 (x86, seed 0; Appleby) of a string.
 std::uint32_t murmurHash3(std::string_view text);
 
 inline constexpr std::uint64_t hashSeed = 0xcbf29ce484222325ull;

@@ -15,11 +15,11 @@ struct SeedError {
     double flip = 0;
 };
 
-// Returns min and max over the seeds as {"seeds": 5, "rmse": {"low": …, "high": …}, "flip": {…}}. Needs at least one
-// error.
+// Returns the min and max error over the seeds as {"seeds": 5, "rmse": {"low": …, "high": …}, "flip": {…}}. Needs at
+// least one error.
 nlohmann::ordered_json seedErrorsJson(std::span<const SeedError> errors);
 
-// CSV header and fields of the min and max over the seeds; without errors, the fields are empty.
+// CSV header, and CSV fields with the min and max error over the seeds. The fields are empty if there are no errors.
 inline constexpr const char* seedErrorsColumns = "seeds,rmseLow,rmseHigh,flipLow,flipHigh";
 std::string seedErrorsCsv(std::span<const SeedError> errors);
 

@@ -13,8 +13,8 @@ public:
     virtual ~GlContext() = default;
     // Makes the context current on this thread. Throws Error if it is current on another thread.
     virtual void makeCurrent() = 0;
-    [[nodiscard]] virtual const std::string& device() const = 0;  // the driver's string GL_RENDERER
-    [[nodiscard]] virtual const std::string& driver() const = 0;  // the driver's string GL_VERSION
+    [[nodiscard]] virtual const std::string& device() const = 0;  // the driver's GL_RENDERER string
+    [[nodiscard]] virtual const std::string& driver() const = 0;  // the driver's GL_VERSION string
     [[nodiscard]] virtual bool software() const = 0;  // true if the driver rasterizes on the CPU, e.g. llvmpipe
     // Returns one line per attempted display: its name, and why it failed or was chosen.
     [[nodiscard]] virtual const std::vector<std::string>& log() const = 0;

@@ -30,7 +30,7 @@ constexpr ShaderConstant constants[] = {
     {"bool", "multipleScattering", "false"},
     {"int", "lightCount", "0"},
     {"int", "maxLights", "1"},         // length of the lights' uniform arrays
-    {"bool", "usesOwnBlur", "false"},  // true if surfaces modify their blur by a factor or by added blur
+    {"bool", "usesOwnBlur", "false"},  // true if surfaces scale their blur or add to it
     {"bool", "chromatic", "false"},
     {"bool", "cocControls", "false"},
     {"bool", "aberrations", "false"},
@@ -124,7 +124,7 @@ constexpr ShaderConstant constants[] = {
     {"float", "largestSum", "0.0"},
     {"bool", "exactTaps", "false"},
     {"bool", "ofChannels", "false"},
-    {"int", "reduction", "1"},  // downsampling factor per axis; also used by method scheuermann
+    {"int", "reduction", "1"},  // downsampling factor per axis; also used by the Scheuermann method
     {"bool", "nearPremultiplied", "false"},
     {"bool", "biasByLuminance", "false"},
 

@@ -26,7 +26,7 @@ struct TextureInfo {
     int height = 1;
     int layers = 0;       // number of layers of a 2D array; 0: 2D texture
     int levels = 1;       // number of mip levels
-    int samples = 1;      // samples per pixel; above 1: a multisampled 2D texture, without layers, levels and filtering
+    int samples = 1;      // samples per pixel; above 1: multisampled 2D texture without layers, mip levels or filtering
     bool linear = false;  // true: linear filtering; false: nearest texel; see also GlTexture::sampling
 };
 

@@ -24,8 +24,8 @@ struct HdrFlipOptions {
 // Default of the FLIP papers: a monitor of 3840 px and 0.7 m width, seen from a distance of 0.7 m.
 inline constexpr double defaultPixelsPerDegree = 67.0;
 
-// Returns the radius in px of the largest filter: FLIP of a pixel depends only on pixels within this distance in each
-// direction.
+// Returns the radius in px of the largest filter: the FLIP value of a pixel depends only on pixels within this distance
+// in each direction.
 int flipRadius(double pixelsPerDegree = defaultPixelsPerDegree);
 
 // Returns FLIP per pixel in [0, 1] with 1 channel: HDR-FLIP if `hdr` is set, else LDR-FLIP, which clips colours to [0,

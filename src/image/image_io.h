@@ -51,8 +51,8 @@ using defocus::compareImages;
 using defocus::readImage;
 using defocus::writeImage;
 
-// Reads an image like readImage of the public API, and sets `metadata` to the file's attributes under EXR names.
-// Numbers from PNG files are strings.
+// Reads an image like readImage of the public API, and stores the file's attributes in `metadata`, with the names that
+// OpenEXR uses. Numeric attributes of PNG files are stored as strings.
 Image readImage(const std::filesystem::path& path, Metadata& metadata);
 
 // Reads an image in strips of rows, as readImage does, for images that do not fit into memory. An image is kept in
@@ -81,15 +81,15 @@ void writeImage(const std::filesystem::path& path, const ImageView& image, const
                 const WriteOptions& options = {});
 
 // Named images of equal size in one EXR file, such as the colours summed over some samples of a frame. Layer NAME has
-// the channels NAME.R, NAME.G, NAME.B and NAME.A: 32-bit float, lossless ZIP. Names must not end with a dot. readLayers
-// returns the layers in alphabetical order. Both functions throw Error under the conditions of readImage and
-// writeImage; readLayers also throws if the file has no layers.
+// the channels NAME.R, NAME.G, NAME.B and NAME.A: 32-bit float, with lossless ZIP compression. Names must not end with
+// a dot. readLayers returns the layers in alphabetical order. Both functions throw Error under the conditions of
+// readImage and writeImage; readLayers also throws if the file has no layers.
 struct ImageLayer {
     std::string name;
     Image image;  // image with 3 or 4 channels
 };
-// Writes named channels of images of equal size to one EXR file: 32-bit float, lossless ZIP. Throws Error if images
-// differ in size or if two channels have the same name.
+// Writes named channels of images of equal size to one EXR file: 32-bit float, with lossless ZIP compression. Throws
+// Error if images differ in size or if two channels have the same name.
 struct NamedChannels {
     std::vector<std::string> names;  // one per channel of `image`, such as "N.X"
     Image image;

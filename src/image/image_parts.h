@@ -1,7 +1,7 @@
 #pragma once
 // Writes and reads multi-part EXR files: images of equal size, each with its depths, in one file that any EXR reader
-// can open. A part has the channels R, G, B and A (16-bit float) and Z (32-bit float), lossless ZIP. Images are written
-// and read one at a time, so that only one image is in memory.
+// can open. A part has the channels R, G, B and A (16-bit float) and Z (32-bit float), with lossless ZIP compression.
+// Images are written and read one at a time, so that only one image is in memory.
 
 #include <cstddef>
 #include <filesystem>

@@ -128,7 +128,7 @@ OpenImage openImage(std::span<const std::byte> encoded, std::string_view format,
 }
 
 // Returns the indices of the file's channels that hold grey, or R, G, B, or R, G, B, A, in this order. In a multi-layer
-// file of Blender, these are the channels of the pass Combined.
+// file from Blender, these are the channels of the Combined pass.
 std::vector<int> colourChannels(const OIIO::ImageSpec& spec, const std::string& name) {
     const auto named = [&](std::string_view channel) {
         auto found = std::ranges::find(spec.channelnames, channel);

@@ -10,10 +10,11 @@
 
 namespace defocus::engine {
 
-// Position of a file's rows in a larger image. EXR stores it as the data window within the display window.
+// Position of a file's rows in the complete image, if the file holds only some rows. EXR stores it as the data window
+// within the display window.
 struct RowPlace {
     int firstRow = 0;
-    int imageHeight = 0;  // height in px of the larger image; 0: the file holds the complete image
+    int imageHeight = 0;  // height in px of the complete image; 0: the file holds all rows
 };
 
 class ImageRowWriter {

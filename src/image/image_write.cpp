@@ -63,7 +63,7 @@ void writeChannels(const std::filesystem::path& path, const std::vector<NamedCha
     if (std::set<std::string>(channels.begin(), channels.end()).size() != channels.size())
         fail("cannot write {}: two channels have the same name", name);
 
-    // Interleaves the channels of all images per pixel. Strips of rows save memory.
+    // Interleaves the channels of all images per pixel. Works on strips of rows to save memory.
     const std::size_t stride = channels.size();
     const auto writePixels = [&](OIIO::ImageOutput& output) {
         std::vector<float> strip;

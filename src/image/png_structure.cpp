@@ -20,7 +20,7 @@ constexpr std::size_t signatureLength = 8;
 constexpr std::size_t chunkOverhead = 12;  // bytes of a chunk's length, type and checksum
 constexpr std::array<std::string_view, 8> keptChunks = {"IHDR", "PLTE", "IDAT", "IEND", "tRNS", "gAMA", "sRGB", "tEXt"};
 
-constexpr unsigned char filterTypes = 5;      // number of filter types of PNG rows (section 9.2)
+constexpr unsigned char filterTypes = 5;      // number of filter types of PNG rows (PNG specification, section 9.2)
 constexpr std::uint32_t maxSide = 1'000'000;  // max width and height in px, libpng's limit
 constexpr std::size_t headerLength = 13, maxPaletteLength = 3 * 256;
 
@@ -39,7 +39,7 @@ void append(std::vector<unsigned char>& target, std::span<const std::byte> bytes
     target.insert(target.end(), first, first + bytes.size());
 }
 
-// Content of a PNG file's chunk IHDR.
+// Content of a PNG file's IHDR chunk.
 struct Header {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
@@ -71,8 +71,8 @@ Header headerOf(std::span<const std::byte> data, const std::string& name) {
     return header;
 }
 
-// Returns the number of bytes of each row of the image in the order of the file: one filter byte, then the pixels.
-// Interlaced images consist of seven smaller images (section 8.2).
+// Returns the length in bytes of each row, in file order: one filter byte, then the pixels. Interlaced images consist
+// of seven smaller images (PNG specification, section 8.2).
 std::vector<std::size_t> rowLengths(const Header& header) {
     const auto bits = std::size_t{header.bits} * channelsOf(header.colour);
     std::vector<std::size_t> lengths;
@@ -92,7 +92,7 @@ std::vector<std::size_t> rowLengths(const Header& header) {
     return lengths;
 }
 
-// Decompresses the bytes of the chunks IDAT, in order.
+// Decompresses the bytes of the IDAT chunks, in order.
 class PixelStream {
 public:
     PixelStream(std::vector<std::span<const std::byte>> chunks, const std::string& name)

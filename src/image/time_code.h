@@ -17,7 +17,7 @@ TimeCode timeCodeOf(std::uint32_t bits);
 // time codes cannot express.
 std::optional<TimeCode> timeCodeOfFrame(int frame, double frameRate);
 
-// Returns the frame rate as a fraction. Rates of television, such as 23.976, get the denominator 1001.
+// Returns the frame rate as a fraction. Television frame rates, such as 23.976, have the denominator 1001.
 Rational rationalFrameRate(double frameRate);
 
 }  // namespace defocus::engine

@@ -15,9 +15,10 @@ constexpr std::size_t channels = 5;  // red, green, blue, alpha and weight
 // a circle of confusion of c px. A disk-shaped cell would have 1/4. Real cells differ in size and shape; twice the
 // value of a disk gives the smallest error (docs/refocus.md).
 constexpr double cellBlur = 0.5;
-constexpr double minVariance = 0.01;  // px²; subtracted from every variance, because a smaller blur is invisible
+// Variance in px² that is subtracted from the blur variance of every pixel. An invisible blur thus counts as sharp.
+constexpr double minVariance = 0.01;
 
-// Returns the blur variance in px² of class k; pixels are sorted into classes by their blur.
+// Returns the blur variance of class k, px². Pixels are sorted into classes by their blur.
 double classVariance(std::size_t k) {
     return 0.5 * std::ldexp(1.0, 2 * static_cast<int>(k));
 }
@@ -76,7 +77,7 @@ void GapFilling::addPixel(std::size_t pixel, const std::uint16_t* colour, float 
     const double dioptres = depth > 0 ? 1 / static_cast<double>(depth) : 0;
     const double c = blur_.diameter * (blur_.focus - dioptres);
     const double variance = std::clamp(cellVariance_ * c * c - minVariance, 0.0, classVariance(classes - 1));
-    std::size_t upper = 0;  // class with the next larger variance
+    std::size_t upper = 0;  // first class whose blur variance is at least `variance`
     while (classVariance(upper) < variance) ++upper;
     const double lower = upper > 0 ? classVariance(upper - 1) : 0;
     const auto share = static_cast<float>((variance - lower) / (classVariance(upper) - lower));
@@ -106,8 +107,8 @@ void GapFilling::add(std::span<const DeepMovedImage> images) {
     for (const DeepMovedImage& moved : images) weights_ += static_cast<double>(moved.weight);
 }
 
-// Composites the pixels `shown`, which have similar blur, over `image`. `nearer`: for each pixel, the weight of the
-// samples that lie nearer to the camera than this class of pixels.
+// Composites the pixels `shown`, a class of pixels with similar blur, over `image`. `nearer`: for each pixel, the
+// weight of the samples that lie nearer to the camera than this class.
 void GapFilling::layOver(Image& image, const Sum& shown, const std::vector<float>& nearer, double variance) const {
     std::vector<float> open(nearer.size());
     for (std::size_t p = 0; p < open.size(); ++p) open[p] = static_cast<float>(weights_) - nearer[p];
@@ -135,7 +136,8 @@ Image GapFilling::mean() const {
     const auto addWeights = [&](const Sum& sum, float sign, std::vector<float>& weights) {
         for (std::size_t p = 0; p < pixels; ++p) weights[p] += sign * sum[channels * p + 4];
     };
-    // Composite the pixels behind the focus plane, grouped by blur, from much to little blur.
+    // Composite the pixels behind the focus plane, grouped by blur, from most to least blurred, which is from far to
+    // near.
     std::vector<float> nearer(pixels);
     for (const Sum& sum : front_) addWeights(sum, 1, nearer);
     const std::vector<float> inFront = nearer;
@@ -161,7 +163,8 @@ Image GapFilling::mean() const {
             pixel[c] = sum / std::max(inFront[p], 1e-6f);
         }
     }
-    // Composite the pixels in front of the focus plane, grouped by blur, from little to much blur.
+    // Composite the pixels in front of the focus plane, grouped by blur, from least to most blurred, which is from far
+    // to near.
     nearer = inFront;
     for (std::size_t k = 0; k < classes; ++k) {
         addWeights(front_[k], -1, nearer);

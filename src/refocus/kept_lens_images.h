@@ -12,8 +12,8 @@ namespace defocus::engine {
 
 class KeptLensImages : public LensImages {
 public:
-    // Draws `settings.sampleCount` lens images of a view, for focus distances in `range`. `driver` must draw method
-    // accumulation. `step` receives the finished fraction of the work, 0 to 1. Throws Error if lightFieldInfo or
+    // Draws `settings.sampleCount` lens images of a view, for focus distances in `range`. `driver` must render with the
+    // accumulation method. `step` receives the finished fraction of the work, 0 to 1. Throws Error if lightFieldInfo or
     // addSamples throws it, or if the images need tiles.
     KeptLensImages(FrameDriver& driver, const View& view, const RenderSettings& settings, const FocusRange& range,
                    const std::function<void(double)>& step);

@@ -29,7 +29,7 @@ constexpr const char* pixelNames[2] = {"defocus:sampleRight", "defocus:sampleUp"
 constexpr const char* shiftNames[2] = {"defocus:pixelsRightPerDioptre", "defocus:pixelsUpPerDioptre"};
 
 // Lens fields that must have their default values. With other values, a change of focus would not merely shift the
-// image of a lens point (light_field.h), or the weights of the images would differ between pixels or colours.
+// image seen from a lens point (light_field.h), or the weights of the images would differ between pixels or colours.
 constexpr std::array unsuited = {
     "focusBreathing",  "catEye",          "axialChromaticAberration", "astigmatism", "coma",       "foregroundLimit",
     "backgroundLimit", "focusRangeFront", "focusRangeBehind",         "focusTilt",   "focusSwing", "fieldCurvature",
@@ -46,7 +46,7 @@ void checkThinLens(const Lens& lens) {
     }
 }
 
-// Returns the largest distance in px by which focusing within the focus range shifts the image of a lens point.
+// Returns the largest distance in px by which focusing within the focus range shifts the image seen from a lens point.
 double largestMove(const LightFieldInfo& info) {
     return std::max(std::abs(info.shift(info.range.nearest)), std::abs(info.shift(info.range.farthest)));
 }

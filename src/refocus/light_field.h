@@ -3,9 +3,10 @@
 // depth. Together, the images are a light field of the scene, as the lens sees it (Levoy and Hanrahan 1996, Light Field
 // Rendering; Ng 2005, Fourier Slice Photography).
 //
-// A point (u, v) of the lens moves a vertex in clip space by C(w)·(u, k·v), and C(w) = a + b·w for a thin lens
-// (lens/circle_of_confusion.h). The focus distance s appears only in b = (A/2)/(tan(θx/2)·s). Another focus distance s′
-// thus moves the whole image of the lens point by
+// A point (u, v) of the lens moves a vertex in clip space by C(w)·(u, k·v). Here k is the image's aspect ratio, w the
+// vertex's clip-space w, and C the blur function: C(w) = a + b·w for a thin lens (lens/circle_of_confusion.h). The
+// focus distance s appears only in b = (A/2)/(tan(θx/2)·s). Another focus distance s′ thus moves the complete image
+// seen from the lens point by
 //   P · (1/s′ − 1/s) · (u, v) px,   P = A·W / (4·tan(θx/2)),
 // at every depth; u points right and v points up. A is the aperture's diameter in m, W the image's width in px, and θx
 // the horizontal field of view.
@@ -27,14 +28,15 @@ struct LightFieldInfo {
     PartSize size;                   // size of refocused images, and width of each lens image's margin, px
     double focusDistance = 1;        // focus distance s of the rendered images, m
     double fStop = 1;                // f-number of the rendered aperture
-    double pixelsPerDioptre = 0;     // shift P of the image of lens point (1, 1) per dioptre of focus, px
+    double pixelsPerDioptre = 0;     // shift P of the image seen from lens point (1, 1) per dioptre of focus, px
     FocusRange range;                // focus distances for which margin and levels of detail suffice
     bool disk = true;                // the rendered aperture is a uniform disk
     std::vector<glm::dvec2> points;  // lens point (u, v) of each image
     std::vector<glm::dvec2> pixels;  // position of each image's sample in its pixel: px right and up from the centre
     Metadata metadata;               // metadata of the frame, without the values of the other members
 
-    // Returns by how many px a change to `otherFocus` moves the image of lens point (1, 1), to the right and up.
+    // Returns by how many px a change of the focus distance to `otherFocus` moves the image seen from lens point (1,
+    // 1), to the right and up.
     [[nodiscard]] double shift(double otherFocus) const {
         return pixelsPerDioptre * (1 / otherFocus - 1 / focusDistance);
     }
@@ -54,13 +56,13 @@ void addSamples(LightFieldInfo& info, const FramePlan& plan);
 // Returns the metadata for each part of the EXR file; a part is the image of one lens point.
 std::vector<Metadata> partMetadata(const LightFieldInfo& info);
 
-// Access to the images of all lens points, in a file or in memory.
+// Access to the images seen from the lens points, in a file or in memory.
 class LensImages {
 public:
     virtual ~LensImages() = default;
     [[nodiscard]] virtual const LightFieldInfo& info() const = 0;
     [[nodiscard]] virtual const std::string& name() const = 0;  // name of the images in messages
-    // Returns the image of lens point i, with its margin: linear, premultiplied RGBA.
+    // Returns the image seen from lens point i, with its margin: linear, premultiplied RGBA.
     [[nodiscard]] virtual std::shared_ptr<const HalfImage> colour(std::size_t i) = 0;
 };
 
@@ -74,7 +76,7 @@ public:
     [[nodiscard]] const LightFieldInfo& info() const override { return info_; }
     // colour() and depth() throw Error if the file is damaged.
     [[nodiscard]] std::shared_ptr<const HalfImage> colour(std::size_t i) override;
-    // Returns the depths in m of the image of lens point i, with its margin.
+    // Returns the depths in m of the image seen from lens point i, with its margin.
     [[nodiscard]] Image depth(std::size_t i) { return parts_.depth(i); }
     // Keeps colours in memory after the first read if all of them fit into half of the free memory. This saves time if
     // several refocused images are computed.

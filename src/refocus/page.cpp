@@ -69,8 +69,8 @@ std::vector<std::string> encodedImages(LightField& field, std::size_t count, dou
         pixels.push_back(encodedRadiance(*field.colour(i), maximum, stepOffset(i)));
         report(progress, "lens images", i + 1, 2 * count);
     }
-    // To find the quality quickly, encode only the first four images until they fit into a proportional fraction of
-    // `limit`. Then encode all images, at a lower quality if they are still too large.
+    // To find the quality quickly, encode only the first four images until they fit into their share of `limit`. Then
+    // encode all images, at a lower quality if they are still too large.
     std::vector<std::string> images(count);
     for (int quality = maxQuality;; quality -= 10) {
         const std::size_t tried = quality > minQuality ? std::min<std::size_t>(count, 4) : count;

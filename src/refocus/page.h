@@ -19,12 +19,13 @@ namespace defocus::engine {
 // Maximum number of images in a page. If there are more lens images, the page contains only the first of them, because
 // every prefix of the lens points is spread evenly over the lens.
 inline constexpr std::size_t maxPageImages = 64;
-// Maximum size in bytes of a page at 1024 × 768 px; pages of other sizes are limited in proportion. WebP's quality is
-// lowered until the page fits.
+// Maximum size in bytes of a page at 1024 × 768 px. For other image sizes, the limit is proportional to the number of
+// pixels. WebP's quality is lowered until the page fits.
 inline constexpr std::size_t pageBytes = 12'000'000;
 
-// Returns the page as HTML. `start`: focus and f-number that the page shows first; the shape is ignored. `write`: tone
-// curve and exposure. Throws Error if `start` is outside the rendered range, or if the file of lens images is damaged.
+// Returns the page as HTML. `start`: focus and f-number that the page shows first; its aperture shape is ignored.
+// `write`: tone curve and exposure. Throws Error if `start` is outside the rendered range, or if the file of lens
+// images is damaged.
 std::string refocusPage(LightField& field, const std::string& title, const Refocusing& start, const WriteOptions& write,
                         const Progress& progress = {});
 

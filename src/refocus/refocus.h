@@ -3,11 +3,11 @@
 // and aperture shape. The method is shift and add (Levoy and Hanrahan 1996; Isaksen, McMillan and Gortler 2000,
 // Dynamically Reparameterized Light Fields).
 //
-// Each lens image is shifted by the distance in light_field.h. A lens image has one sample per pixel, at a known
-// position in the pixel. The shift moves this position; the sample's colour is added unchanged to the pixel that
-// contains the shifted position, so the lens image moves by whole pixels. A pixel of the refocused image is thus the
-// mean of samples within it, one from each lens image, as in a rendered image. Interpolation would soften the refocused
-// image, even with more lens images.
+// Each lens image is shifted by the distance that is derived in light_field.h. A lens image has one sample per pixel,
+// at a known position in the pixel. The shift moves this position; the sample's colour is added unchanged to the pixel
+// that contains the shifted position, so the lens image moves by whole pixels. A pixel of the refocused image is thus
+// the mean of samples within it, one from each lens image, as in a rendered image. Interpolation would soften the
+// refocused image, even with more lens images.
 //
 // A smaller aperture uses the images of the lens points within it. An aperture shape weights each image by the relative
 // amount of light that passes through the shape at the image's lens point.
@@ -25,7 +25,7 @@ struct Refocusing {
     double focusDistance = 1;        // distance in m, within LightFieldInfo::range
     double fStop = 1;                // at least LightFieldInfo::fStop
     std::optional<Lens> shape = {};  // lens with the shape of the aperture; nullopt: shape as rendered
-    bool fillGaps = false;           // true: blur each image to hide the gaps between few images (gap_filling.h)
+    bool fillGaps = false;           // true: blur each image, so that few images don't show as copies (gap_filling.h)
 };
 
 // Returns the focus and the aperture with which the lens images were rendered.
@@ -34,18 +34,18 @@ Refocusing asRendered(const LightFieldInfo& info);
 // Shift and weight with which the image of one lens point is added to a refocused picture.
 struct ShiftedImage {
     std::size_t image = 0;  // index of the image in LightFieldInfo::points
-    glm::ivec2 move{0};     // move in px, to the right and up
+    glm::ivec2 move{0};     // displacement of the lens image in px, to the right and up
     double weight = 1;      // weight of the lens image, > 0
 };
 
-// Returns by how many whole px an image moves to the right and up if the image of lens point (1, 1) moves by `shift`
-// px. The rounding accounts for the sample's position within its pixel.
+// Returns the displacement of an image in whole px, to the right and up. `shift`: displacement in px of the image seen
+// from lens point (1, 1). The rounding accounts for the sample's position within its pixel.
 glm::ivec2 wholeMove(const LightFieldInfo& info, std::size_t image, double shift);
 
 // Returns the shift and the weight of each lens image that contributes to the refocused picture, in the order of
 // LightFieldInfo::points. Throws Error, with `name` in its message, if the focus distance or the f-number is outside
-// the rendered range. Also throws if the refocused picture needs another shape or f-number although the rendered
-// aperture was not a full disk, and if no lens point lies within the aperture.
+// the rendered range. Also throws if the picture needs an aperture shape or f-number other than the rendered one, but
+// the rendered aperture was not a full disk, and if no lens point lies within the aperture.
 std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocusing& refocusing,
                                         const std::string& name);
 
@@ -65,7 +65,8 @@ double focusAtPixel(LightField& field, const Pixel& pixel);
 // Returns the metadata of the refocused picture.
 Metadata refocusedMetadata(const LightFieldInfo& info, const Refocusing& refocusing);
 
-// Returns the exposure (EV) of refocused 8-bit pictures. It depends on the f-number if the lens has an exposure time.
+// Returns the exposure (EV) of refocused 8-bit pictures. If the rendered lens has an exposure time, the exposure
+// depends on the f-number, as in a camera.
 double refocusedExposure(const LightFieldInfo& info, const Refocusing& refocusing);
 
 }  // namespace defocus::engine

@@ -1,5 +1,5 @@
 #pragma once
-// Converts the settings of a refocused picture from the public API and the command line to a Refocusing.
+// Converts refocus settings, from the public API or the command line, to a Refocusing.
 
 #include <optional>
 #include <string>

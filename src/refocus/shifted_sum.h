@@ -11,8 +11,8 @@ namespace defocus::engine {
 
 // An image, and the displacement and the weight with which it is added.
 struct MovedImage {
-    const HalfImage* image = nullptr;  // image with its margin
-    glm::ivec2 move{0};                // move in px, to the right and up; each component at most the margin
+    const HalfImage* image = nullptr;  // image, including the margin around the visible image
+    glm::ivec2 move{0};                // displacement in px, to the right and up; at most PartSize::margin per axis
     float weight = 1;                  // weight of the image in the sum, ≥ 0
 };
 

@@ -243,8 +243,8 @@ std::vector<bool> nodesOf(const Scene& scene, const Pose& pose) {
     return nodes;
 }
 
-// Returns a pose without bounds. The pose has the objects of the pose `exposed`; if `exposed` is null, the animation
-// determines the objects.
+// Returns a pose without bounds. The pose contains the objects of the same nodes as `exposed`, the frame's pose; if
+// `exposed` is null, it contains the objects of the nodes that are visible at `time`.
 Pose posed(const Scene& scene, double time, int clip, const Pose* exposed) {
     // Compute world matrices from parents to children: first the nodes of the drawn scene, then nodes outside it that
     // skins use as joints.

@@ -22,7 +22,8 @@ void addInfluences(std::span<const glm::dmat4> matrices, const glm::u16vec4& joi
     }
 }
 
-// Returns the world matrix of a vertex: Σ w_j · M_j / Σ w_j if it has joints, else the object's matrix.
+// Returns the world matrix of a vertex: the mean of its joints' matrices, weighted by the vertex's joint weights. For a
+// vertex without joints, it is the object's matrix.
 glm::dmat4 worldFromVertex(const Vertices& vertices, const Object& object, std::size_t vertex) {
     if (!object.skinned() || vertices.joints.empty()) return object.worldFromObject;
     glm::dmat4 sum(0.0);
@@ -33,7 +34,8 @@ glm::dmat4 worldFromVertex(const Vertices& vertices, const Object& object, std::
     return weightSum > 0 ? sum / weightSum : object.worldFromJoint.front();
 }
 
-// Returns `values`, which are positions or normals, plus Σ m_t · d_t.
+// Returns `values`, which are positions or normals, plus the displacements of the mesh's morph targets, weighted by the
+// object's morph weights.
 std::vector<glm::dvec3> morphed(const std::vector<glm::vec3>& values, const Mesh& mesh, const Object& object,
                                 std::vector<glm::vec3> MorphTarget::*kind) {
     std::vector<glm::dvec3> result(values.begin(), values.end());

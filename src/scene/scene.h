@@ -178,7 +178,7 @@ enum class EnvironmentType {
     none,      // black and transparent: alpha is the coverage by geometry
     uniform,   // radiance `zenith` in all directions
     gradient,  // radiance mix(horizon, zenith, d.y) for d.y ≥ 0, mix(horizon, nadir, -d.y) below the horizon
-    map,       // equirectangular HDR image; the centre column is d = −z, the right half has d.x > 0
+    map,       // equirectangular HDR image; the centre column shows −z, the right half has d.x > 0
 };
 
 struct Environment {
@@ -220,15 +220,18 @@ struct Skin {
 
 enum class Interpolation { step, linear, cubicSpline };
 enum class ChannelPath {
-    translation,  // translation, rotation, scale, weights, visible: properties of a node
+    // Properties of a node
+    translation,
     rotation,
     scale,
-    weights,
-    visible,      // KHR_node_visibility; values from 0.5 are true
-    cameraYfov,   // radians; camera…: properties of a camera (KHR_animation_pointer)
-    cameraZnear,  // m; near plane
+    weights,  // morph weights
+    visible,  // KHR_node_visibility; values from 0.5 are true
+    // Properties of a camera (KHR_animation_pointer)
+    cameraYfov,   // radians
+    cameraZnear,  // near plane, m
     cameraLens,   // entry of Camera::lens named by AnimationChannel::lensValue
-    lightColor,   // light…: properties of a light (KHR_animation_pointer)
+    // Properties of a light (KHR_animation_pointer)
+    lightColor,
     lightIntensity,
     lightRange,  // m
 };
@@ -238,7 +241,7 @@ struct AnimationChannel {
     ChannelPath path = ChannelPath::translation;
     Interpolation interpolation = Interpolation::linear;
     std::vector<float> times;   // seconds, increasing
-    std::vector<float> values;  // per key: 1, 3, 4 or (morph weights) n numbers; thrice as many for cubicSpline
+    std::vector<float> values;  // per key: 1, 3, 4 or (morph weights) n numbers; three times as many for cubicSpline
     std::string lensValue;      // for ChannelPath::cameraLens: key of Camera::lens
 };
 

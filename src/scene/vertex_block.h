@@ -27,9 +27,9 @@ VertexBlock compacted(const VertexBlock& block, std::span<std::vector<std::uint3
 // that produce the face normals of the displaced triangles.
 VertexBlock flatShaded(const VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
-// Appends `block` to the mesh's vertices and returns the index of its first vertex. If only the mesh or only the block
-// has an attribute, the other one's vertices get a neutral value: normal +y, a perpendicular tangent, uv 0, white, the
-// first joint, no displacement, or no added blur.
+// Appends `block` to the mesh's vertices and returns the index of its first vertex. If an attribute is missing from
+// either the mesh or the block, the vertices that lack it get a neutral value: normal +y, a perpendicular tangent, uv
+// 0, white, the first joint, no displacement, or no added blur.
 std::uint32_t append(Mesh& mesh, const VertexBlock& block);
 
 // Returns an arbitrary unit vector perpendicular to the unit vector `normal`.

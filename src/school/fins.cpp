@@ -210,7 +210,8 @@ void addFin(const Fin& fin, const FinRows& rows, const FishPattern& pattern, Fis
             const float t = fin.rowsAlongRays ? rows.at[row] : along;
             const float r = fin.rowsAlongRays ? along : rows.at[row];
             const FinRay ray = fin.rowsAlongRays ? shared : fin.ray(t);
-            // The normal of the fin's front is the cross product of the derivatives across the rows and along the row.
+            // The normal of the fin's front is the cross product of the surface's derivatives across and along the
+            // vertex rows.
             constexpr float step = 0.004f;
             const float tStep = t + step > 1.0f ? -step : step;
             const float rStep = r + step > 1.0f ? -step : step;

@@ -31,7 +31,7 @@ constexpr std::int64_t maximumTotal = 400'000'000;
 constexpr double horizontalAperture = 36.0;
 constexpr double fStop = 0.95;
 constexpr double focusDistance = 2.0;
-constexpr double tanHalfWidth = 0.36;   // 36 mm / (2 · 50 mm)
+constexpr double tanHalfWidth = 0.36;   // sensor width 36 mm / (2 · focal length 50 mm)
 constexpr double tanHalfHeight = 0.27;  // at an aspect ratio of 4:3
 constexpr double cameraTilt = 0.28;     // upward tilt in radians, so that the bright water surface is the background
 

@@ -235,7 +235,7 @@ Mesh fishMesh(const Fish& fish, int triangles, int skinMaterial, int eyeMaterial
     const std::vector<Fin> fins = fishFins(fish.shape);
     const Layout plan = layoutFor(fish.shape, fins, triangles);
 
-    // Build the straight fish in body lengths: first the body and the fins, then the eyes.
+    // Build the straight fish, with coordinates in body lengths: first the body and the fins, then the eyes.
     FishSurface surface;
     surface.positions.reserve(plan.triangles / 2 + 64);
     surface.colors.reserve(plan.triangles / 2 + 64);

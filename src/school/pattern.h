@@ -12,8 +12,8 @@ namespace defocus::engine {
 struct FishBand {  // coloured band around the fish's body; lengths are in body lengths
     float a = 0.5f;
     float halfWidth = 0.05f;
-    float bow = 0.0f;    // shift of the band towards the tail at back and belly, relative to mid-height
-    float slant = 0.0f;  // shift of the band towards the tail at the back, and towards the head at the belly
+    float bow = 0.0f;    // shift of the band towards the tail along back and belly, relative to mid-height
+    float slant = 0.0f;  // shift of the band towards the tail along the back, and towards the head along the belly
     glm::vec3 color{0.0f};
     glm::vec3 rim{0.0f};
     float rimWidth = 0.0f;

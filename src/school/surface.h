@@ -33,7 +33,8 @@ void stitchShell(const std::vector<VertexRow>& rows, std::uint32_t backOffset, c
                  std::vector<std::uint32_t>& indices);
 
 // ringTriangles() returns the number of triangles that stitchRings and capRing create for rings with these vertex
-// counts. shellTriangles() returns the number of triangles that stitchShell creates for open rows.
+// counts. shellTriangles() returns the number of triangles that stitchShell creates for open rows, which are not rings,
+// with these vertex counts.
 std::uint64_t ringTriangles(const std::vector<std::uint32_t>& counts);
 std::uint64_t shellTriangles(const std::vector<std::uint32_t>& counts);
 

@@ -1,4 +1,4 @@
-// Injects faults of the system into a program that preloads this library (LD_PRELOAD). Environment variables select the
+// Injects system faults into a program that preloads this library (LD_PRELOAD). Environment variables select the
 // faults:
 //   FAULT_LOCKS=1      flock(2) fails as on a file system without locks
 //   FAULT_CLOCK=1      the wall clock goes back by an hour with each reading

@@ -18,11 +18,11 @@ def row(samples, median, low, high, flip=0.01, mse=1e-4, ssim=0.99, runs=3):
 
 
 OLD = [row(8, 100, 90, 110), row(16, 200, 190, 210), row(32, 400, 390, 410), row(64, 800, 800, 800), row(256, 10, 9, 11)]
-NEW = [row(32, 500, 411, 510),  # slower than OLD
-       row(16, 150, 130, 190, flip=0.015),  # equally fast, since both spreads include 190
-       row(8, 50, 40, 80),  # faster than OLD
+NEW = [row(32, 500, 411, 510),  # slower than in OLD: all times are above the range there
+       row(16, 150, 130, 190, flip=0.015),  # equally fast: the times in OLD and NEW both include 190 ms
+       row(8, 50, 40, 80),  # faster than in OLD: all times are below the range there
        row(128, 1, 1, 1),
-       row(256, 20, 11, 30)]  # equally fast, since both spreads include 11
+       row(256, 20, 11, 30)]  # equally fast: the times in OLD and NEW both include 11 ms
 
 
 def csv_of(rows):

@@ -313,7 +313,8 @@ std::vector<Bytes> imageSeeds() {
 
 // ---- lens images
 
-// Refocuses the lens images (views from lens points), within and outside the focus range that the file states.
+// Refocuses the lens images (views from lens points) at the focus distance and at both ends of the focus range that the
+// file states.
 void runLensImages(std::span<const std::byte> bytes) {
     try {
         LightField field(written("lens.exr", bytes));
@@ -375,7 +376,7 @@ void runParsers(std::string_view text) {
     parse(parseSampleRange);
     parse(parseFrameRange);
     parse(parseShotOverride);
-    // Printing an amount of memory and parsing the text again preserves the amount within three digits.
+    // An amount of memory that is printed, with three significant digits, and parsed again differs by at most 1 %.
     parse([](std::string_view amount) {
         const auto bytes = static_cast<double>(parseBytes(amount));
         if (std::abs(static_cast<double>(parseBytes(bytesText(parseBytes(amount)))) / bytes - 1) > 0.01) std::abort();

@@ -22,10 +22,10 @@ struct FuzzTarget {
 //   gltf      a scene file, from which a small frame is planned, without and with a ground and shadows
 //   shot      a shot file
 //   cache     a pyramid file with a correct checksum
-//   image     an image file as environment, aperture, tile, and input of compare and merge; the first byte selects
-//             the format
+//   image     an image file, read as an environment, an aperture, a tile, and as input of `compare` and `merge`; the
+//             first byte selects the format
 //   usda      a USD text file with a camera
-//   lens      a file of lens images (views from lens points), refocused within the range that it states
+//   lens      a file of lens images (views from lens points), refocused within the range that the file states
 //   settings  lines of "name=value" for the table of settings; the values also go to the parsers of other options
 std::span<const FuzzTarget> fuzzTargets();
 

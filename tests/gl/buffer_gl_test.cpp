@@ -72,7 +72,7 @@ TEST_F(GlBuffer, beyondMemoryIsAnErrorThatSaysHowMuch) {
     }
 }
 
-// Vertex shader that draws each vertex as one pixel, in column `place`.x and in the row of the instance's index.
+// Vertex shader that draws each vertex as one pixel, in column `place`.x of the row whose number is the instance index.
 constexpr const char* pixelOfVertex = R"(
 layout(location = 2) in vec2 place;
 layout(location = 5) in float shade;

@@ -30,7 +30,7 @@ protected:
     [[nodiscard]] Program program(std::vector<std::string> shaders, ShaderDefines defines = {}) const {
         return Program({std::move(shaders), std::move(defines), folder_.path()});
     }
-    // Returns a program that draws the entire target. The fragment code `body` assigns the vec4 `value`.
+    // Returns a program that covers the entire render target. The fragment code `body` assigns the vec4 `value`.
     [[nodiscard]] Program fragmentProgram(const std::string& declarations, const std::string& body) const {
         writeShader("test.frag",
                     "layout(location = 0) out vec4 value;\n" + declarations + "\nvoid main() {\n" + body + "\n}\n");

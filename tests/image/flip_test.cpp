@@ -94,7 +94,7 @@ TEST(Flip, betweenDarkGreysFollowsLightness) {
     const double lightness = 0.008 * 24389.0 / 27.0;
     const double dark = meanOf(flipErrorMap(constant(0, 0, 0), constant(0.008f, 0.008f, 0.008f)));
     // FLIP maps the colour difference e, whose max is M, to 0.95·e/(0.4·M) up to e = 0.4·M, and to 0.95 + 0.05·(e −
-    // 0.4·M)/(0.6·M) above. For black and white, e = 100^0.7.
+    // 0.4·M)/(0.6·M) above. Between black and white, e = 100^0.7.
     const double largest = std::pow(100.0, 0.7) * 0.05 / 0.6 / (blackWhite - 0.95 + 0.4 * 0.05 / 0.6);
     EXPECT_NEAR(dark, std::pow(lightness, 0.7) * 0.95 / (0.4 * largest), 1e-4);
 }

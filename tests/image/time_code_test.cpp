@@ -52,7 +52,7 @@ TEST(ExrAttributes, areReadBack) {
     for (const auto& [name, value] : filmMetadata()) EXPECT_TRUE(read.at(name) == value) << name;
 }
 
-// Debian's tools print the attributes under their standard names.
+// The command-line tools exrheader (OpenEXR) and iinfo (OpenImageIO) print the attributes under their standard names.
 TEST(ExrAttributes, areThoseOfOtherPrograms) {
     const ScratchFolder folder;
     writeImage(folder / "film.exr", Image(4, 3, 4), filmMetadata());

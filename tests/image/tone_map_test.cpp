@@ -64,8 +64,9 @@ TEST(ToneMapped, agxKeepsMiddleGreyAndGreysGrey) {
     }
 }
 
-// Compares Khronos PBR Neutral with properties from its specification: colours from 8 % to 80 % in each channel lose
-// only 4 %, for Fresnel reflection. Above this range, the curve is continuous and stays below 1.
+// Compares Khronos PBR Neutral with properties from its specification. If every channel is from 0.08 to 0.8, the curve
+// only subtracts 0.04, to compensate for the Fresnel reflection of dielectrics. Above this range, the curve is
+// continuous and stays below 1.
 TEST(ToneMapped, neutralKeepsColoursAndRollsHighlightsOff) {
     const auto kept = shown({0.5f, 0.3f, 0.1f}, ToneMap::neutral);
     EXPECT_NEAR(kept[0], srgbEncode(0.46f), 1e-5);
@@ -73,7 +74,7 @@ TEST(ToneMapped, neutralKeepsColoursAndRollsHighlightsOff) {
     EXPECT_NEAR(kept[2], srgbEncode(0.06f), 1e-5);
     EXPECT_NEAR(shown({0.04f, 0.04f, 0.04f}, ToneMap::neutral)[0], srgbEncode(0.01f), 1e-5);
     EXPECT_NEAR(shown({0.8f, 0.8f, 0.8f}, ToneMap::neutral)[0], srgbEncode(0.76f), 1e-5);
-    // Above x = 80 %, the curve is 1 − 0.24² / (x − 0.04 + 0.24 − 0.76), a hyperbola that joins the line x − 0.04 with
+    // Above x = 0.8, the curve is 1 − 0.24² / (x − 0.04 + 0.24 − 0.76), a hyperbola that joins the line x − 0.04 with
     // slope 1.
     EXPECT_NEAR(shown({2, 2, 2}, ToneMap::neutral)[0], srgbEncode(1 - 0.24f * 0.24f / 1.44f), 1e-5);
     EXPECT_LT(shown({100, 100, 100}, ToneMap::neutral)[0], 1);

@@ -1,4 +1,5 @@
-// Tests how a refocused image fills the gaps between few lens images (views from points of the lens).
+// Tests how refocusing fills the gaps between lens images (views from points of the lens) if there are only a few of
+// them.
 
 #include "refocus/gap_filling.h"
 

@@ -45,7 +45,7 @@ TEST_F(LightFieldLibrary, givesThePicturesOfTheEngine) {
     const FocalStack stack = field.stack(3, {{}, settings.lens});
     ASSERT_EQ(stack.pictures.size(), 3u);
     EXPECT_EQ(stack.focusDistances.front(), 1.5);
-    EXPECT_NEAR(stack.focusDistances[1], 2, 1e-12);  // 1/2 is midway between 1/1.5 and 1/3
+    EXPECT_NEAR(stack.focusDistances[1], 2, 1e-12);  // focus distances are evenly spaced in 1/distance
     EXPECT_EQ(stack.focusDistances.back(), 3);
     settings.focus = FocusDistance{3};
     EXPECT_EQ(stack.pictures.back().pixels, field.refocus(settings).pixels);

@@ -12,8 +12,8 @@
 namespace defocus::engine {
 namespace {
 
-// Method accumulation stores the image of each sample in half floats. With a transparent background, these images are
-// not composited over a background, so a file of lens images (views from lens points) keeps every bit.
+// The accumulation method stores the image of each sample in half floats. With a transparent background, these images
+// are not composited over a background, so a file of lens images (views from lens points) stores them without loss.
 TEST_F(LightFieldTest, atTheRenderedFocusHasTheBitsOfAccumulation) {
     Request request = smallSchool();
     request.background = TransparentBackground{};
@@ -31,7 +31,7 @@ TEST_F(LightFieldTest, atTheRenderedFocusHasTheBitsOfAccumulation) {
     EXPECT_EQ(refocused(field, asRendered(info)).pixels, within(image, info.size.margin).pixels);
 }
 
-// A point p of the wide lens is the point 2·p of a lens that is closed by two stops.
+// In coordinates of the unit disk, point p of the wide lens is point 2·p of the lens that is stopped down by two stops.
 TEST_F(LightFieldTest, stoppingDownIsARenderOfTheRemainingSamples) {
     Request request = smallSchool();
     request.samples = 256;
@@ -65,8 +65,8 @@ TEST_F(LightFieldTest, findsTheFocusOfAPixel) {
     EXPECT_THROW(focusAtPixel(field, {128, 0}), Error);
 }
 
-// The image with everything in focus equals an antialiased pinhole image. Only outlines may differ, where only few
-// views from lens points show the surface.
+// The image with everything in focus equals an antialiased pinhole image. Only outlines may differ, where the surface
+// is visible from only a few lens points.
 TEST_F(LightFieldTest, theSharpPictureIsThatOfAPinhole) {
     Request request = smallSchool();
     request.lod = LodMode::off;

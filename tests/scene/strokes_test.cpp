@@ -104,7 +104,7 @@ TEST(Strokes, areUnlitWithoutNormals) {
     EXPECT_FALSE(lit.materials.at(static_cast<std::size_t>(lit.meshes[0].primitives[0].material)).unlit);
 }
 
-// Each node is at its own distance, so the lines of each node have their own width in object space.
+// Each node is at a different distance, so its lines need a different width in object space.
 TEST(Strokes, eachNodeHasItsOwnMesh) {
     GltfBuilder builder = strokesOf(linesMode);
     builder.add("nodes", {{"mesh", 0}, {"translation", {0, 0, -10}}});

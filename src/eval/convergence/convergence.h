@@ -27,12 +27,13 @@ namespace defocus::engine {
 // Variants of a method's settings. They are measured if the user names the method without settings.
 enum class MethodForm {
     published,  // settings of the paper that describes the method; not measured if there is no paper
-    best,       // settings in Method::best; called `standard` if these equal the defaults
+    best,       // settings in Method::best; if they equal the defaults, the variant is called `standard` instead
     standard,
 };
 const char* methodFormName(MethodForm form);
 
-// A method to measure with the settings of its paper, taken from a preset (frame/settings/presets.h).
+// A method that is measured with the settings published in its paper. The settings come from a preset
+// (frame/settings/presets.h).
 struct PublishedForm {
     std::string preset;
     MethodUse use;
@@ -97,7 +98,7 @@ struct ConvergenceRun {
     double pyramidMilliseconds = 0;  // build time of the pyramids, if the case uses levels
     double setupMilliseconds = 0;    // set-up time of the renderer: uploads, shaders, ray-tracing structures
     double milliseconds = 0;         // wall-clock time of the frame
-    double gpuMilliseconds = 0;      // time by timer queries, which miss the vertex work on software drivers
+    double gpuMilliseconds = 0;      // GPU time from timer queries, which miss the vertex work on software drivers
     std::uint64_t triangles = 0;
     std::uint64_t peakBytes = 0;  // peak size of the renderer's resources
     std::uint64_t imageHash = 0;

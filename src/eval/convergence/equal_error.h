@@ -21,15 +21,15 @@ struct Competitor {
     struct Time {
         double rmse = 0;
         std::optional<double> milliseconds;  // time of a frame with this error; nullopt if no row reaches the error
-        bool atMost = false;                 // true: upper bound, because the fastest row already has a smaller error
+        bool atMost = false;  // true: `milliseconds` is an upper bound; even the fastest row's error is at most `rmse`
     };
     std::vector<Time> times;  // one entry per requested error, in the order of the request
 };
 
 // Returns each competitor's times to reach `errors`, which must be > 0. Times are interpolated on the competitor's
-// Pareto front. Between neighbouring rows, the error is assumed to be a power of the time. This assumption is exact for
-// sampling noise of any order of convergence. Accumulation with levels comes first, the others in order of appearance.
-// Rows with faults are ignored.
+// Pareto front. Between neighbouring rows, the error is assumed to be a power function of the time. This assumption is
+// exact for sampling noise of any order of convergence. The competitor "accumulation with levels" comes first; the
+// other competitors follow in order of appearance. Rows with faults are ignored.
 std::vector<Competitor> timesToErrors(std::span<const ConvergenceRow> rows, std::span<const double> errors);
 
 // Returns a text table of seconds and of ratios to the first competitor's time; empty for fewer than two competitors.

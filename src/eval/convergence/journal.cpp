@@ -1,4 +1,5 @@
-// Writes and reads the journal of bench convergence, which has one CSV line per measured frame; see convergence/text.h.
+// Writes and reads the journal of the command `bench convergence`. The journal has one CSV line per measured frame; see
+// convergence/text.h.
 
 #include <fmt/format.h>
 

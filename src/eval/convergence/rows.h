@@ -1,6 +1,7 @@
 #pragma once
 // Summarises the runs of each case as one row: medians, their spread, and whether the row is on a Pareto front. Also
-// computes the error that each level setting has against full detail; more lens samples cannot reduce this error.
+// computes the error of each level-of-detail setting relative to full detail; more lens samples cannot reduce this
+// error.
 
 #include <optional>
 #include <span>
@@ -52,9 +53,9 @@ struct Trial {
 // front or none.
 std::vector<bool> paretoFront(std::span<const Trial> trials);
 
-// Error of a level setting against full detail, at the thresholds for the largest measured number of samples. More lens
-// samples would not reduce this error, because both images have the same sampling noise, which cancels in their
-// difference.
+// Error of a level-of-detail setting relative to full detail, with the levels chosen for the largest measured number of
+// samples. More lens samples would not reduce this error: the image with levels and the image at full detail have the
+// same sampling noise, which cancels in their difference.
 struct BiasFloor {
     std::string method;
     std::string setting;
@@ -62,7 +63,7 @@ struct BiasFloor {
     ImageError error;
 };
 
-// Returns the error against full detail (BiasFloor) of each setting that draws levels.
+// Returns the error relative to full detail (BiasFloor) of each setting that draws levels.
 std::vector<BiasFloor> biasFloors(std::span<const ConvergenceRow> rows);
 
 }  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #pragma once
-// Writes the results of bench convergence as a text table, CSV and JSON, and reads and writes its journal, from which
-// an interrupted run continues.
+// Writes the results of the command `bench convergence` as a text table, CSV and JSON. Also reads and writes its
+// journal, from which an interrupted run continues.
 
 #include <cstdint>
 #include <span>
@@ -53,7 +53,7 @@ std::string convergenceJson(std::span<const ConvergenceRow> rows, const Referenc
 std::string runsCsv(std::span<const ConvergenceRun> runs, std::uint64_t subject);
 
 // Returns the runs of a journal. The text may end at any byte: an incomplete last line is dropped. Throws Error, with
-// the file `name` in its message, if the hash `subject` differs or a line is malformed.
+// the file `name` in its message, if the journal's hash differs from `subject` or a line is malformed.
 std::vector<ConvergenceRun> readRunsCsv(std::string_view text, std::uint64_t subject, const std::string& name);
 
 }  // namespace defocus::engine

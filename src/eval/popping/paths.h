@@ -28,7 +28,7 @@ struct MovementFrame {
 std::vector<MovementFrame> framesAlong(Movement movement, const World& world, const View& view, int frames,
                                        int clip = 0);
 
-// Copies pose and lights of the frame to the world.
+// Copies the frame's pose and lights to the world.
 void poseWorld(World& world, const MovementFrame& frame);
 
 // Returns the `length` consecutive frames with the most level changes under LodMode::nearest; the first such frames if

@@ -69,7 +69,7 @@ double mean(const Image& map, const Image* mask) {
     return values > 0 ? sum / static_cast<double>(values) : 0;
 }
 
-// Returns the error of `image` relative to `expected`; both contain display values.
+// Returns the error of `image` relative to `expected`. Both images are display-encoded.
 Pop popBetween(const Image& expected, const Image& image, const Image& objects) {
     Image difference = image;
     for (std::size_t i = 0; i < difference.pixels.size(); ++i) difference.pixels[i] -= expected.pixels[i];
@@ -107,8 +107,8 @@ std::vector<Image> masksOf(World& world, const std::vector<MovementFrame>& movem
 
 struct ModeState {
     FramePlan plan;
-    Image image;      // image of the level mode, in display values
-    Image reference;  // image at full detail with the same lens samples, in display values
+    Image image;      // image drawn with the level mode, display-encoded
+    Image reference;  // image at full detail with the same lens samples, display-encoded
 };
 
 PoppingFrame frameOf(const Renderers& renderers, PoppingMode mode, const ModeState& before, const ModeState& now,
@@ -201,7 +201,7 @@ std::optional<SampleStep> measureSampleStep(const World& world, Renderer& render
     step.level = static_cast<std::uint32_t>(object->lambda);
     const double depth = 0.5 * (object->nearestDepth + object->farthestDepth);
     step.coc = std::abs(circleOfConfusion(plan.coc, depth, view.width));
-    // projectedEdge is the projected mean edge length of level 0 in px, at the object's nearest depth.
+    // `projectedEdge` is the mean edge length of level 0, projected at the object's nearest depth, in px.
     step.edgeError = pyramid.levels[step.level + 1].error / pyramid.levels[0].meanEdge * object->projectedEdge *
                      object->nearestDepth / depth;
     step.expected = std::sqrt(std::max(step.coc / step.edgeError, 1.0)) / samples;
@@ -233,7 +233,8 @@ void measurePopping(World& world, const View& view, const PoppingOptions& option
     const Renderers renderers{methodNamed("accumulation").make(world, precise),
                               methodNamed("multirate").make(world, precise)};
     const MovementFrame own{view, world.pose};
-    std::vector<std::vector<MovementFrame>> movements;  // computed first, because invalid movements throw
+    // Compute all movements first, so that an invalid movement throws before any image is rendered.
+    std::vector<std::vector<MovementFrame>> movements;
     for (const Movement movement : options.movements) {
         movements.push_back(busiestStretch(
             framesAlong(movement, world, view, options.pathFrames, options.clip), world,
@@ -255,7 +256,8 @@ void measurePopping(World& world, const View& view, const PoppingOptions& option
                 measureMovement(world, renderers, options.movements[m], movements[m], masks, options, samples, step));
     }
 
-    // Measure the switch of single samples last, because the movements are the main result.
+    // Measure last how much the image changes when one sample switches its level: the movements are the main result and
+    // are reported first.
     poseWorld(world, own);
     for (const std::uint32_t samples : options.sampleCounts)
         if (const auto sampleStep = measureSampleStep(world, *renderers.accumulation, view, options, samples))

@@ -2,7 +2,7 @@
 // Measures the popping of levels of detail: the change from frame to frame that levels add while camera, focus or scene
 // move. Compares four modes. nearest: one level per object. fractional: samples divided between two levels. continuous:
 // like fractional, but one sample draws the finer level in some pixels and the coarser level in the others. multirate:
-// fractional levels, drawn by method multirate instead of accumulation.
+// fractional levels, drawn by the multirate method instead of accumulation.
 //
 // The reference is full detail with the same lens samples. For multirate, the reference is drawn by multirate, too.
 // Sampling noise therefore cancels, and full detail itself measures 0. Let I be a frame of the mode and R the same
@@ -16,14 +16,16 @@
 // frame t or t − 1. For the step, only objects whose levels or splits differ count. Unchanged objects thus don't dilute
 // a pop, and the error of a pop hardly depends on the number of objects that pop in a frame.
 //
-// Expected step: if all N samples change their level at once, the difference is blurred by c px. The difference of a
-// single sample is sharp and w px wide, so its step is √(c/w)/N of the pop of all samples. Let Δλ be the change of an
-// object's real-valued level per frame. If less than one sample changes per frame (Δλ·N < 1), fractional levels make
-// this step in some frames and none in the others. Continuous levels change a fraction Δλ·N of the sample's pixels in
-// every frame, which gives a step of √(c/w)·√(Δλ/N). At a quarter of the speed, this step is half as large.
+// Expected step: if all N samples change their level at once, the difference between the two levels is blurred by the
+// CoC, c px. If a single sample changes, the difference is sharp and w px wide, and the step is √(c/w)/N times the step
+// of all samples. Let Δλ be the change of an object's real-valued level per frame. If less than one sample changes per
+// frame (Δλ·N < 1), fractional levels make this step in some frames and none in the others. Continuous levels change a
+// fraction Δλ·N of the sample's pixels in every frame, which gives a step of √(c/w)·√(Δλ/N). At a quarter of the speed,
+// this step is half as large.
 //
 // Equal for all modes: scene, views, number of lens samples, thresholds, image size and, except for multirate,
-// renderer. Layers are 32-bit floats by default, so that their rounding doesn't count as an error of the levels.
+// renderer. The layers, which hold the images of single samples, are 32-bit floats by default. Their rounding thus
+// doesn't count as an error of the levels.
 
 #include <array>
 #include <cstdint>
@@ -70,7 +72,7 @@ struct PoppingFrame {
     Movement movement = Movement::focusPull;
     std::uint32_t samples = 0;
     PoppingMode mode = PoppingMode::nearest;
-    int frame = 0;     // number t of the frame in the movement, ≥ 1
+    int frame = 0;     // number of the frame within the measured frames of the movement, ≥ 1
     double speed = 0;  // max over all objects of |λ_t − λ_{t−1}|; λ_t is the object's real-valued level in frame t
     Pop change;
     Pop step;
@@ -83,23 +85,23 @@ struct SampleStep {
     std::string object;
     std::uint32_t level = 0;  // finer of the two levels
     double coc = 0;           // CoC diameter in px at the middle of the object's depth range
-    double edgeError = 0;     // error of the coarser level, px
-    double expected = 0;      // value predicted for N samples: √(coc/edgeError)/N if coc > edgeError, else 1/N
-    double measured = 0;      // RMS of the N steps, divided by the RMSE between the two levels
+    double edgeError = 0;     // error of the coarser level, px; an estimate of w, the width of the difference
+    double expected = 0;  // prediction of `measured` for N samples: √(coc/edgeError)/N if coc > edgeError, else 1/N
+    double measured = 0;  // RMS change as samples switch one by one, relative to the change if all switch at once
 };
 
 struct PoppingVisitor {
     // Called once with the first quarter of the first movement's frames in all modes, so that a first result appears
-    // after seconds. May be empty.
+    // within seconds. May be empty.
     std::function<void(std::span<const PoppingFrame>)> firstFrames;
     // Called once for each movement and each number of samples, with the frames of all modes.
     std::function<void(std::span<const PoppingFrame>)> frames;
     std::function<void(const SampleStep&)> sampleStep;
 };
 
-// Measures all movements and numbers of samples, then the sample steps. Needs a current GL context. Sets the pose of
-// `world` for each frame and restores it at the end. Throws Error in the same cases as planning, rendering and
-// framesAlong.
+// Measures the popping for each camera movement and each number of samples, then a SampleStep for each number of
+// samples. Needs a current GL context. Sets the pose of `world` for each frame and restores it at the end. Throws Error
+// in the same cases as planning, rendering and framesAlong.
 void measurePopping(World& world, const View& view, const PoppingOptions& options, const PoppingVisitor& visitor,
                     const Progress& progress = {});
 

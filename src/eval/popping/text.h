@@ -35,7 +35,7 @@ std::vector<PoppingRow> poppingRows(std::span<const PoppingFrame> frames);
 std::string firstFramesLine(std::span<const PoppingFrame> frames);
 std::string poppingHeader();                         // returns the table's header, two lines
 std::string poppingLine(const PoppingRow& row);      // returns the table's line for a row
-std::string sampleStepLine(const SampleStep& step);  // returns a sample step as one line with labels
+std::string sampleStepLine(const SampleStep& step);  // returns one line of text with labels
 // Returns a sentence with the largest pop of each mode relative to LodMode::nearest, at the largest number of samples.
 std::string poppingSummary(std::span<const PoppingRow> rows);
 

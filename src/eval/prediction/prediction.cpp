@@ -19,7 +19,8 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint32_t fewSamples = 64;
-// Lens samples per image. Their noise cancels in the product of two images' errors.
+// Number of lens samples per image. Errors are measured as products of two independent images' errors, in which the
+// sampling noise averages out; see renderedError().
 constexpr std::uint32_t enoughSamples = 1024;
 
 // Scene for the measurement: a single static mesh without background, under the default lights, with the focal plane
@@ -141,8 +142,9 @@ Light lightOf(const Views& views) {
 }
 
 // Returns the RMS error over the covered area, relative to the mean radiance. Radiance is clamped at shownWhite times
-// the mean. The differences of both sample sets are multiplied: their independent noise cancels, and the error for N →
-// ∞ samples remains.
+// the mean. The difference between level and reference is computed for each of the two sets of lens samples, and the
+// two differences are multiplied. Their noise is independent and averages out, so that the error for N → ∞ samples
+// remains.
 double renderedError(const TwoSets& reference, const TwoSets& level) {
     const Light light = lightOf(reference[0]);
     if (!(light.mean > 0)) return 0;

@@ -29,7 +29,7 @@ struct PredictionOptions {
 struct PredictionRow {
     std::string mesh;
     double coc = 0;           // CoC diameter at the mesh's centre, px
-    std::uint32_t level = 0;  // level of detail; 0: full detail with 64 samples, whose error is sampling noise
+    std::uint32_t level = 0;  // level of detail; for 0, the errors are the sampling noise of 64 samples at full detail
     std::uint32_t triangles = 0;
     double predicted = 0;
     double rendered = 0;
@@ -40,9 +40,9 @@ struct PredictionRow {
     [[nodiscard]] bool withinTwo() const { return predicted <= 2 * rendered && rendered <= 2 * predicted; }
 };
 
-// For each blur, calls `visit` with the error of 64 lens samples at full detail, then with the error of each level in
-// ascending order. Needs a current GL context and frame.scene; animated meshes are measured in their rest pose. Throws
-// Error if no mesh of the scene has levels.
+// For each blur in `options.cocs`, calls `visit` with the error of 64 lens samples at full detail, then with the error
+// of each level, in order of the level number. Needs a current GL context and frame.scene; animated meshes are measured
+// in their rest pose. Throws Error if no mesh of the scene has levels.
 void measurePrediction(const PreparedFrame& frame, const PredictionOptions& options,
                        const std::function<void(const PredictionRow&)>& visit, const Progress& progress = {});
 

@@ -124,14 +124,16 @@ std::string tooLarge(const ScalingPoint& point, const Machine& machine) {
     return fmt::format("about {:.0f} GB of main memory needed", needed / 1e9);
 }
 
-// The scaling point that was measured last, and its world. The next point reuses the world if it needs the same one.
+// The scaling point that was measured last, and its world (scene, pyramids and view). The next point reuses the world
+// if it needs the same one.
 struct Subject {
     Machine machine;
     ScalingPoint point;
     std::unique_ptr<ScalingWorld> world;
 };
 
-// Measures a point of an axis. Returns why the measurement failed; empty on success.
+// Measures one point of an axis, which is one value of the varied quantity. Returns why the measurement failed; empty
+// on success.
 std::string measuredOrWhyNot(Subject& subject, const ScalingPoint& point, const ScalingOptions& options,
                              const ScalingVisitor& visitor, const Progress& progress) {
     std::string reason = tooLarge(point, subject.machine);

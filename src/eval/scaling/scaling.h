@@ -8,9 +8,9 @@
 // fill, the work per pixel of a surface. On a GPU these parts overlap, so they show which part limits a frame, not the
 // cost of each part.
 //
-// Along an axis, all parameters that it doesn't vary (see scalingPoints) stay constant; all points are measured in one
-// process. Runs alternate between modes. Times are medians of the wall-clock time between finished frames, after one
-// untimed frame.
+// Triangles, instances, lens samples, pixels and blur are the axes of the benchmark. Along an axis, all parameters that
+// it doesn't vary (see scalingPoints) stay constant; all points are measured in one process. Runs alternate between
+// modes. Times are medians of the wall-clock time between finished frames, after one untimed frame.
 
 #include <cstdint>
 #include <filesystem>
@@ -32,7 +32,7 @@ enum class ScalingAxis {
     triangles,  // 100,000 … 10,000,000 triangles in eight fish
     instances,  // 1 … 10,000 instances of one fish
     samples,    // 2 … 64 lens samples
-    pixels,     // 640 × 480 … 3840 × 2160 px
+    pixels,     // image sizes from 640 × 480 to 3840 × 2160 px
     blur,       // largest circle of confusion; varied by f-numbers from 16 to 1
 };
 
@@ -51,7 +51,7 @@ enum class ScalingPart { layers, vertices, fill };
 
 const char* scalingPartName(ScalingPart part);
 
-// A frame to measure, as a point on an axis. The axis sets one of the members; all others keep their defaults.
+// Parameters of a frame to measure. Each axis varies one of them, or width and height; all others keep their defaults.
 struct ScalingPoint {
     ScalingAxis axis = ScalingAxis::triangles;
     double value = 0;  // number of triangles, instances, samples or pixels, or the f-number
@@ -73,12 +73,12 @@ struct ScalingRow {
     int width = 0;
     int height = 0;
     int runs = 0;
-    Spread milliseconds;             // time of the complete frame
-    Spread layers;                   // time of the empty frame, in which layers are only cleared and added, ms
-    Spread vertices;                 // time of the frame drawn into a small image, mainly work per vertex, ms
-    Spread fill;                     // rest of the complete frame's time: work per pixel of a surface, ms, ≥ 0
-    std::uint64_t triangles = 0;     // drawn triangles, sum over all samples
-    std::uint64_t gpuBytes = 0;      // peak size of the renderer's resources
+    Spread milliseconds;          // time of the complete frame, ms
+    Spread layers;                // time of the empty frame, in which layers are only cleared and added, ms
+    Spread vertices;              // time of the frame drawn into a small image, ms; mainly work per vertex
+    Spread fill;                  // milliseconds − layers − vertices, ≥ 0: mainly work per pixel of a surface, ms
+    std::uint64_t triangles = 0;  // drawn triangles, sum over all samples
+    std::uint64_t gpuBytes = 0;   // peak size of the renderer's resources
     std::uint64_t pyramidBytes = 0;  // main memory of all levels of all meshes
 
     // Returns the slowest part of the frame (by median) and each part that is about as slow, in the order of
@@ -87,11 +87,11 @@ struct ScalingRow {
     [[nodiscard]] std::vector<ScalingPart> largestParts() const;
 };
 
-// Times (ms) of the runs of a frame's three versions: complete, empty, and drawn into a small image. The vectors have
-// the same size.
+// Times (ms) of the three timed versions of a frame: complete, empty, and drawn into a small image. Each vector has one
+// element per run.
 struct ScalingTimes {
     std::vector<double> complete;
-    std::vector<double> layers;    // times of the empty frame
+    std::vector<double> layers;    // times of the frame without objects, in which the layers are only cleared and added
     std::vector<double> vertices;  // times of the frame drawn into a small image
 };
 

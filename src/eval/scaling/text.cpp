@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Returns a short text for a number, such as "300 k" or "10 M".
+// Formats a number briefly, such as "300 k" or "10 M".
 std::string shortNumber(double value) {
     if (value >= 1e6) return fmt::format("{:.3g} M", value / 1e6);
     return value >= 1e4 ? fmt::format("{:.3g} k", value / 1e3) : fmt::format("{:.4g}", value);

@@ -51,7 +51,7 @@ std::uint32_t referenceSamplesOf(const Setting& setting, const std::vector<Setti
     return std::clamp(referenceFactor * max, 2u, maxSamples);
 }
 
-// Renders the reference with the lens of a setting. Reuses the reference for consecutive settings with the same lens.
+// Renders the reference image with the lens of a setting. Reuses the image for consecutive settings with the same lens.
 class References {
 public:
     References(const World& world, const std::vector<Setting>& settings, const SpeedupOptions& options,
@@ -206,8 +206,8 @@ SpeedupRow rowOf(const Setting& setting, const SpeedupSubject& subject, const Re
     return row;
 }
 
-// Calls `visit` with the row of each variant. Variants whose levels depend on size alone or on blur alone have no row:
-// the preceding row contains their results.
+// Calls `visit` with the row of each variant. Variants whose levels depend on size alone or on blur alone have no row
+// of their own; their results are in the row of the preceding variant.
 void visitRows(const std::deque<SpeedupSubject>& subjects, const Setting& setting, const ReferenceImage* reference,
                const std::function<void(const SpeedupRow&)>& visit) {
     for (std::size_t i = 0; i < subjects.size();) {

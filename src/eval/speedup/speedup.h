@@ -3,7 +3,7 @@
 // detail than at full detail, for a fixed camera. Varies the number of lens samples, the f-number and the focus
 // distance.
 //
-// Full detail, nearest level and fractional level have the same scene, camera, lens, lens samples, image size, number
+// Full detail, nearest level and fractional levels have the same scene, camera, lens, lens samples, image size, number
 // of layers per draw, process and renderer. Runs alternate between all compared modes and methods, so a slowdown of the
 // machine affects all of them.
 
@@ -25,22 +25,22 @@ namespace defocus::engine {
 // Settings of levels and lens samples, and a world whose pyramids are built with these settings.
 struct SpeedupForm {
     std::string preset;              // name of the preset (settings of a publication); empty: none
-    const World* world = nullptr;    // the worlds of all forms differ only in their pyramids
+    const World* world = nullptr;    // scene to draw; the worlds of all SpeedupForms differ only in their pyramids
     RenderSettings plan;             // settings without the number of samples and the level mode
     double pyramidMilliseconds = 0;  // build time of the world's pyramids
 };
 
 struct SpeedupOptions {
-    std::vector<std::uint32_t> sampleCounts = {16, 32, 64, 128, 256, 512};  // to measure with the view's own lens
+    std::vector<std::uint32_t> sampleCounts = {16, 32, 64, 128, 256, 512};  // sample counts for the view's own lens
     std::vector<double> fStops;                                             // f-numbers to measure with `sweepSamples`
     std::vector<double> focusDistances;  // focus distances (m) to measure with `sweepSamples`
     std::uint32_t sweepSamples = 64;
-    std::vector<MethodUse> methods;  // methods to measure after accumulation, with the first SpeedupForm
+    std::vector<MethodUse> methods;  // methods to measure in addition to accumulation, each with forms[0] only
     int runs = 5;                    // number of runs of each frame, ≥ 1
     int seeds = 5;                   // number of seeds, ≥ 1; run r uses the plan's seed + r % seeds
-    // Lens samples of the converged reference for each lens (reference_image.h); 0: no reference. Default: eight times
-    // the largest number of samples measured with that lens. With this default, rendering the reference takes about two
-    // thirds of the time of three runs of all modes.
+    // Number of lens samples of the converged reference image for each lens (reference_image.h); 0: no reference.
+    // Default: eight times the largest number of samples measured with that lens. With this default, rendering the
+    // reference takes about as long as two runs of all modes.
     std::optional<std::uint32_t> referenceSamples;
     RendererOptions renderer;
 };
@@ -77,9 +77,10 @@ struct SpeedupRow {
     Difference referenceRemaining;            // estimated error of the reference image itself
 };
 
-// Calls `visit` with each row as soon as it is measured. For each setting, measures full detail, nearest level and
-// fractional level of each form (settings and world), then the further methods. `forms` must not be empty. Needs a
-// current GL context. Throws Error in the same cases as planning and rendering.
+// Calls `visit` with each row as soon as it is measured. A setting is a lens and a number of samples. For each setting,
+// measures accumulation with each SpeedupForm in `forms`: at full detail, with the nearest level and with fractional
+// levels. Then measures the methods in `options.methods`. `forms` must not be empty. Needs a current GL context. Throws
+// Error in the same cases as planning and rendering.
 void measureSpeedup(std::span<const SpeedupForm> forms, const View& view, const SpeedupOptions& options,
                     const std::function<void(const SpeedupRow&)>& visit, const Progress& progress = {});
 

@@ -14,9 +14,9 @@ namespace defocus::engine {
 
 std::string cameraJsonText(const CameraTake& take);
 
-// Returns the camera of a JSON text. Between samples, positions and lens values are interpolated linearly and rotations
-// spherically. `name`: the name that the camera must have; empty: any name. `file`: file name for messages. Throws
-// Error if the text does not describe such a camera.
+// Returns the camera that a JSON document describes. Between samples, positions and lens values are interpolated
+// linearly and rotations spherically. `name`: the name that the camera must have; empty: any name. `file`: file name
+// for messages. Throws Error if the document does not describe such a camera.
 CameraTrack jsonCamera(std::string_view text, const std::string& name, const std::string& file);
 
 }  // namespace defocus::engine

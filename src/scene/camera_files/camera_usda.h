@@ -7,9 +7,9 @@
 
 namespace defocus::engine {
 
-// Returns a USD layer with the camera /World/NAME; characters that USD names can't have become underscores. The layer's
-// unit is 1 m. If `take` has several samples, they become time samples. Lens values without a USD attribute are written
-// as "custom double defocus:NAME".
+// Returns a USD layer with the camera /World/NAME. Characters that are not allowed in USD names are replaced by
+// underscores. The layer's unit is 1 m. If `take` has several samples, they become time samples. Lens values without a
+// USD attribute are written as "custom double defocus:NAME".
 std::string cameraUsdaText(const CameraTake& take);
 
 }  // namespace defocus::engine

@@ -15,7 +15,8 @@ namespace defocus::engine {
 namespace {
 
 constexpr double widestSensor = 1000;  // max sensor width in mm; a wider sensor means that the file stores mm
-constexpr double plainUnit = 0.01;     // default of the layer entry metersPerUnit; a tenth of this unit is 1 mm
+// Default of the layer entry metersPerUnit. USD gives focal length and sensor size in tenths of the unit, here in mm.
+constexpr double plainUnit = 0.01;
 constexpr const char* lensPrefix = "defocus:";
 
 // A camera with its ancestors, from the root to the camera.
@@ -227,7 +228,8 @@ private:
     PrimPath path_;
     std::string where_;
     Stage stage_;
-    std::optional<double> tenthMillimetres_;  // mm per unit of lens lengths; nullopt: unit = layer's unit / 10
+    // Size in mm of the unit of focal length and sensor size. nullopt: a tenth of the layer's unit.
+    std::optional<double> tenthMillimetres_;
 };
 
 }  // namespace

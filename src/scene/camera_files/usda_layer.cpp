@@ -168,7 +168,8 @@ private:
         if (keep) into.numbers.push_back(found);
     }
 
-    // Parses a value. If `keep` is false, only checks the value's syntax, because arrays of meshes are large.
+    // Parses a value. If `keep` is false, only checks the syntax and stores nothing, because the data arrays of meshes
+    // are large.
     void value(UsdValue& into, bool keep, int depth = 0) {
         if (depth > deepestValue) refuse("the value is nested too deeply");
         const char first = next();

@@ -37,8 +37,8 @@ struct UsdLayer {
     std::vector<UsdPrim> prims;
 };
 
-// Parses a layer. `file` is the name in messages. Throws Error for binary and zipped USD files, and for text that is
-// not .usda; the message has the line number.
+// Parses a layer. `file`: file name for error messages. Throws Error for binary and zipped USD files, and for text that
+// is not .usda; the message contains the line number.
 UsdLayer parseUsda(std::string_view text, const std::string& file);
 
 }  // namespace defocus::engine

@@ -195,7 +195,8 @@ std::vector<float> readFloats(Source& source, int accessor, int components, cons
     takeBudget(source, elementCount(source, accessor), perElement * sizeof(float), what);
     std::vector<float> result(elementCount(source, accessor) * perElement);
     const double scale = normalisationScale(source, accessor);
-    // Clamp signed normalised integers to −1, because −128/127 and −32768/32767 are less than −1 (3.11).
+    // Clamp signed normalised integers to −1, because −128/127 and −32768/32767 are less than −1 (glTF 2.0
+    // specification, section 3.11).
     const bool clamps = scale != 1.0;
     forEachComponent(source, accessor, what, [&](std::size_t element, std::size_t component, double value) {
         result[element * perElement + component] = static_cast<float>(clamps ? std::max(value / scale, -1.0) : value);

@@ -14,8 +14,8 @@ struct Hierarchy {
     std::string sceneName;
 };
 
-// Reads the kept nodes. Throws Error for cycles, for nodes with two parents, and for a node whose instance attributes
-// differ in count.
+// Reads the nodes that are kept (see Hierarchy). Throws Error for cycles, for nodes with two parents, and for a node
+// whose instance attributes differ in count.
 Hierarchy readHierarchy(Source& source);
 
 std::vector<Camera> readCameras(Source& source);

@@ -25,16 +25,16 @@ enum class Kind {
     indices,    // array of indices
     indexMap,   // object whose values are indices
     indexMaps,  // array of objects whose values are indices
-    object,     // object with the members `properties`
-    objects,    // array of objects
+    object,     // object whose members are listed in `properties`
+    objects,    // array of objects whose members are listed in `properties`
 };
 
 struct Property {
     std::string_view name;
     Kind kind;
-    std::string_view target = {};  // top-level array that the indices refer to; for Kind::index, indices, …
-    std::span<const Property> properties = {};  // members of the object; for Kind::object, objects
-    std::size_t length = 0;                     // number of entries; 0: any; for Kind::numbers
+    std::string_view target = {};  // top-level array that the indices refer to; for the four kinds of indices
+    std::span<const Property> properties = {};  // members of the object; only for Kind::object and Kind::objects
+    std::size_t length = 0;                     // number of entries; 0: any; only for Kind::numbers
     bool required = false;
 };
 

@@ -26,13 +26,13 @@ namespace defocus::engine::gltf {
 // accessors.
 class UnpackBudget {
 public:
-    // Raises the limit for a file of `fileBytes` bytes. Must be called once per file that is read.
+    // Raises the memory limit by 256 times `fileBytes`, the size of a file. Must be called once per file that is read.
     void grant(std::uint64_t fileBytes);
     [[nodiscard]] std::uint64_t fileBytes() const { return fileBytes_; }  // total size of the files passed to grant()
     // Counts `count` elements of `elementBytes` each as used memory. Returns false, and counts nothing, if the total
     // would exceed the limit.
     [[nodiscard]] bool take(std::uint64_t count, std::uint64_t elementBytes);
-    [[nodiscard]] std::uint64_t limit() const { return limit_; }  // current limit in bytes
+    [[nodiscard]] std::uint64_t limit() const { return limit_; }  // current memory limit, bytes
     [[nodiscard]] std::uint64_t taken() const { return taken_; }  // bytes counted by take() so far
 
 private:
@@ -49,7 +49,7 @@ struct Source {
     std::vector<std::optional<std::vector<std::byte>>> buffers;        // bytes; nullopt: a fallback buffer without data
     std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // bytes of views with EXT_meshopt_compression
     UnpackBudget budget;
-    std::set<std::filesystem::path> files;  // external files whose size was added to the budget
+    std::set<std::filesystem::path> files;  // external files whose size has raised the memory limit
     std::vector<Ignored> ignored;
     std::map<std::pair<std::string, std::string>, std::size_t> ignoredPlaces;  // (what, reason) → index into `ignored`
 };

@@ -70,7 +70,8 @@ void attempt(const Source& source, ReadImage& image, const auto& step) {
     }
 }
 
-// Returns image `index` with its name and label, but not yet decoded. Adds the size of an external file to the budget.
+// Returns image `index` with its name and label, but not yet decoded. The size of an external file raises the memory
+// limit (grantFile).
 ReadImage openImage(Source& source, std::size_t index) {
     const nlohmann::json& json = source.document.json["images"][index];
     ReadImage result;
@@ -112,7 +113,9 @@ void convertGlossiness(Source& source, std::vector<Material>& materials, Texture
         const nlohmann::json* extension =
             findExtension(source.document.json["materials"][i], "KHR_materials_pbrSpecularGlossiness");
         if (extension == nullptr || !extension->contains("specularGlossinessTexture")) continue;
-        if (!use.used()) {  // the texture was removed: use a dielectric instead of a mirror
+        if (!use.used()) {
+            // The specular-glossiness texture was removed, and it had the reflectance at normal incidence. With the IOR
+            // of 0 that such materials have, the surface would be a mirror. Make it a dielectric instead.
             materials[i].ior = Material().ior;
             continue;
         }

@@ -138,7 +138,7 @@ TEST_F(Convergence, biasAndSamplingErrorObeyTheTriangleInequality) {
     EXPECT_LT(runs[1].triangles, runs[0].triangles);
     EXPECT_EQ(runs[1].pyramidMilliseconds, 12);
 
-    // With thresholds of zero, the image equals the image at full detail in every pixel.
+    // With level-of-detail thresholds of zero, the image equals the image at full detail in every pixel.
     ASSERT_TRUE(runs[2].bias);
     EXPECT_EQ(runs[2].bias->mse, 0);
     EXPECT_EQ(runs[2].imageHash, runs[0].imageHash);
@@ -232,7 +232,7 @@ TEST_F(Convergence, methodsThatCanOnlyShowAnotherImageAreLeftOut) {
         EXPECT_EQ(measured + leftOut_.size(), 3u);
         return names;
     };
-    EXPECT_EQ(namesLeftOut(), "unshaded ");  // method `unshaded` is left out, since the spheres are lit
+    EXPECT_EQ(namesLeftOut(), "unshaded ");  // the method `unshaded` is left out, since the spheres are lit
 
     Pose moved = small_->world.pose;
     for (Object& object : moved.objects) object.worldFromObject[3].x += 0.2;

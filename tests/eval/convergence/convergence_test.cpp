@@ -54,7 +54,7 @@ ConvergenceRow rowOf(const std::string& method, const std::string& setting, doub
     return row;
 }
 
-// The interpolated time to reach an error is exact if the error is a power of the time.
+// The interpolated time to reach an error is exact if the error is a power function of the time.
 TEST(EqualError, isExactForPowersOfTheTime) {
     std::vector<ConvergenceRow> rows;
     for (const double ms : {3.0, 48.0, 768.0}) {
@@ -296,7 +296,7 @@ TEST(ConvergenceCases, followTheTableAndTheLists) {
                                   "rays standard 16", "embree standard 16"}));
 
     // The cases always include full detail and the ray tracer `embree`. Without a list of methods, they include every
-    // method except `auto`, which only chooses between two of the others.
+    // method except `auto`, which only chooses between two other methods.
     options.lods = {LodMode::nearest};
     options.sampleCounts = {4};
     options.methods = {parseMethodUse("blur")};

@@ -7,7 +7,7 @@ namespace defocus::engine {
 namespace {
 
 // Lighting is baked into the vertex colours of an unlit scene. A quad that faces +z, under a light from (0.4, 0.8,
-// 0.6)/√1.16, reflects 0.2 + 0.8·0.6/√1.16 of its colour.
+// 0.6)/√1.16, reflects 0.2 (ambient) + 0.8 (diffuse) · 0.6/√1.16 (cosine) of its colour.
 TEST(ConvergenceUnlit, paintsTheLightOnTheVertices) {
     Scene scene;
     const Material lit{.baseColorFactor = {0.5f, 0.25f, 1, 0.5f}, .alphaMode = AlphaMode::blend};

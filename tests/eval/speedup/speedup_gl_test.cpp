@@ -61,8 +61,8 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
     const double ofOneSample = static_cast<double>(rows[0].triangles) / 4;
     EXPECT_NEAR(static_cast<double>(rows[3].triangles) / 9, ofOneSample, 0.01 * ofOneSample);
 
-    // Errors are smaller than half the difference between the images of the two lenses. Therefore, each row must have
-    // been compared with a reference of its own lens.
+    // Errors are smaller than half the difference between the images of the two lenses. This shows that each row of the
+    // results was compared with a reference image for its own lens.
     View wide = small->view;
     View narrow = small->view;
     narrow.lens.fStop *= 8;
@@ -100,8 +100,8 @@ TEST(Speedup, hasNoReferenceWhereNoneIsWanted) {
     });
 }
 
-// With only the size threshold or only the blur threshold, a frame draws at least as many triangles as with both. It
-// draws exactly as many as a plan with only that threshold.
+// With only the size threshold or only the blur threshold, a frame draws more triangles than with both. Each of the two
+// counts equals the count of a plan in which the other threshold is 0.
 TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const std::unique_ptr<SmallWorld> small = fiveSpheres();
@@ -140,7 +140,7 @@ TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
 }
 
 // The published and the standard settings of a method are each compared with full detail at the same number of samples.
-// The two settings use different sample sequences.
+// The two sets of settings use different sample sequences.
 TEST(Speedup, measuresFormsAndMethodsBesideEachOther) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const std::unique_ptr<SmallWorld> small = fiveSpheres();

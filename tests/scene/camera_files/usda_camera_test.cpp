@@ -21,7 +21,8 @@ CameraTrack camera(const std::string& text, const std::string& path = "") {
     return usdCamera(parseUsda(text, "shot.usda"), path, "shot.usda");
 }
 
-// Returns the error message for a text with `from` replaced by `to`; empty if the text is accepted.
+// Returns the error message for the USD source `text` in which `from` is replaced by `to`; empty if the source is
+// accepted.
 std::string refusal(std::string text, const std::string& from, const std::string& to, const std::string& path = "") {
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
@@ -51,7 +52,7 @@ TEST(UsdCamera, convertsCentimetres) {
     EXPECT_LT(glm::distance(glm::dvec3(tracked.worldFromCamera[3]), glm::dvec3(1, 0.2, 3)), 1e-12);
 }
 
-// If image and sensor differ in aspect ratio, the sensor is extended, as by USD's policy "expandAperture".
+// If the image and the sensor differ in aspect ratio, the sensor is extended, as in USD's policy "expandAperture".
 TEST(UsdCamera, showsTheWholeSensor) {
     Pose pose;
     pose.tracked = camera(usda_samples::plain).at(0);

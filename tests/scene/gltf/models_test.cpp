@@ -1,4 +1,4 @@
-// Compares loaded public models with the figures in their README files and with known properties.
+// Compares loaded public models with the numbers given in their README files and with known properties.
 
 #include "models.h"
 
@@ -20,7 +20,7 @@ namespace {
 struct ModelFacts {
     const char* file;
     std::size_t triangles;         // number of triangles if each mesh counts once
-    std::size_t trianglesInScene;  // number of triangles if a mesh counts for each node that draws it
+    std::size_t trianglesInScene;  // number of triangles if each mesh counts once for every node that draws it
 };
 
 class Model : public testing::TestWithParam<ModelFacts> {};

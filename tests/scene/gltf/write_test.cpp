@@ -124,7 +124,7 @@ TEST(GltfWrite, FileIsWhatTheStandardAsks) {
 TEST(GltfWrite, LeavesOutWhatTheStandardForbids) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     Mesh mesh = twoPrimitives();
-    mesh.vertices.positions[4].x = nan;      // makes a vertex invalid that both triangles of primitive 1 use
+    mesh.vertices.positions[4].x = nan;      // invalidates a vertex that is shared by both triangles of primitive 1
     mesh.vertices.normals[1] = {0, 0, 0};    // zero length
     mesh.vertices.normals[2] = {nan, 1, 0};  // NaN
     mesh.vertices.uv0[3] = {std::numeric_limits<float>::infinity(), 0};
