@@ -106,8 +106,9 @@ View viewOf(const RefocusRun& run, View view) {
 }  // namespace
 
 std::string RefocusRun::text() const {
-    return fmt::format("lens images {} {} {} {} {}", lens.focusDistance, lens.fStop, range.nearest, range.farthest,
-                       samples);
+    const std::string text = fmt::format("lens images {} {} {} {} {}", lens.focusDistance, lens.fStop, range.nearest,
+                                         range.farthest, samples);
+    return sameShape(lens, withDisk(lens)) ? text + " of a disk" : text;
 }
 
 RefocusRuns refocusRuns(const Shot& shot, const SequenceBase& base, const FilmSettings& settings,

@@ -21,7 +21,8 @@ struct RefocusRun {
     FocusRange range;           // focus distances of the frames, m
     std::uint32_t samples = 0;  // number of lens images, at least the number of samples of a single frame
 
-    // Returns a string that identifies the lens images, for the settings hashes of the frames.
+    // Returns a string that identifies the lens images among those of one frame, for the frame's settings hash: frames
+    // without a shape in common are computed from images of a disk, all others from images of their own shape.
     [[nodiscard]] std::string text() const;
 };
 

@@ -60,8 +60,8 @@ double filledArea(const ApertureImage& image) {
             squares += std::pow(inRow * (end - std::exchange(before, end)), 2);
         }
     }
-    const double cellsOfDisk = std::numbers::pi / 4 * static_cast<double>(columns * image.rowEnds.size());
-    return std::min(1.0, 1 / (squares * cellsOfDisk));
+    const double diameter = std::max(image.columns, image.rows);  // of the disk, in cells
+    return std::min(1.0, 1 / (squares * std::numbers::pi / 4 * diameter * diameter));
 }
 
 LensSpread lensSpread(const Lens& lens) {

@@ -49,7 +49,7 @@ std::uint64_t maxLayers(const Scene& scene, const FramePlan& plan, const Rendere
     const std::uint64_t pixels = pixelCount(window.layerWidth, window.layerHeight);
     const std::uint64_t layerBytes =
         pixels * layerPixelBytes(format) * (plan.usesTransmission ? 2 : 1) +  // transmission needs a copy of all layers
-        shadowMapBytes(scene, plan) + pixels * LensLayers::layerBytes(plan.settings.layers);
+        shadowMapBytes(scene, plan) + pixels * LensLayers::layerBytes(plan.settings.layers, countsSamples(plan));
     return std::max<std::uint64_t>(1, options.waveBytes / layerBytes);
 }
 
@@ -222,16 +222,16 @@ private:
         const int axis = positionsPerAxis(plan_.settings);
         const LayerSumInfo info{window.width / axis, window.height / axis, format, options_.shaderFolder};
         const std::vector<Layer>& layers = plan_.settings.layers;
-        const bool countsSamples = plan_.view.lens.catEye > 0;
-        const bool same = sum_ && sum_->info() == info && drawnLayers_ == layers && countsSamples_ == countsSamples;
+        const bool counts = countsSamples(plan_);
+        const bool same = sum_ && sum_->info() == info && drawnLayers_ == layers && countsSamples_ == counts;
         if (!same) {
             layers_.reset();
             sum_.reset();  // free the old buffers first: there may not be enough memory for both
             sum_.emplace(info);
             if (!layers.empty())
-                layers_.emplace(layers, countsSamples, glm::ivec2(info.width, info.height), options_.shaderFolder);
+                layers_.emplace(layers, counts, glm::ivec2(info.width, info.height), options_.shaderFolder);
             drawnLayers_ = layers;
-            countsSamples_ = countsSamples;
+            countsSamples_ = counts;
         }
         sum_->reset({window.left, window.bottom});
     }

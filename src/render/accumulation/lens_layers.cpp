@@ -60,6 +60,12 @@ std::vector<Slot> slotsOf(const std::vector<Layer>& layers, bool countsSamples) 
 constexpr const char* numberSlot = "NUMBER_SLOT";
 constexpr const char* depthSlot = "DEPTH_SLOT";
 
+// Returns whether the values of a slot are added up over the samples. The indices of objects and materials are counted
+// in tables instead.
+bool hasSum(const Slot& slot) {
+    return slot.name != std::string_view(numberSlot);
+}
+
 std::vector<Layer> numberLayers(const std::vector<Layer>& layers) {
     std::vector<Layer> found;
     for (const Layer layer : {Layer::objects, Layer::materials})
@@ -125,16 +131,23 @@ ShaderDefines LensLayers::defines(const std::vector<Layer>& layers, bool countsS
     return defines;
 }
 
-std::uint64_t LensLayers::layerBytes(const std::vector<Layer>& layers) {
+bool countsSamples(const FramePlan& plan) {
+    return plan.view.lens.catEye > 0;
+}
+
+std::uint64_t LensLayers::layerBytes(const std::vector<Layer>& layers, bool countsSamples) {
+    if (layers.empty()) return 0;
     std::uint64_t bytes = 0;
-    for (const Slot& slot : slotsOf(layers, false)) bytes += pixelBytes(slot.format);
+    for (const Slot& slot : slotsOf(layers, countsSamples)) bytes += pixelBytes(slot.format);
     return bytes;
 }
 
-std::uint64_t LensLayers::sumBytes(const std::vector<Layer>& layers) {
-    const std::uint64_t tables = numberLayers(layers).size();
-    return 2 * pixelBytes(TextureFormat::rgba32f) * slotsOf(layers, false).size() +
-           tables * tableEntries * pixelBytes(TextureFormat::r32ui);
+std::uint64_t LensLayers::sumBytes(const std::vector<Layer>& layers, bool countsSamples) {
+    if (layers.empty()) return 0;
+    const std::vector<Slot> slots = slotsOf(layers, countsSamples);
+    const auto sums = static_cast<std::uint64_t>(std::ranges::count_if(slots, hasSum));
+    return 2 * pixelBytes(TextureFormat::rgba32f) * sums +
+           numberLayers(layers).size() * tableEntries * pixelBytes(TextureFormat::r32ui);
 }
 
 bool LensLayers::countNumbers(const std::vector<Layer>& layers) {
@@ -175,7 +188,7 @@ LensLayers::LensLayers(const std::vector<Layer>& layers, bool countsSamples, con
         return GlTexture({.format = format, .width = size.x, .height = size.y, .layers = depth});
     };
     for (const Slot& slot : slotsOf(layers, countsSamples)) {
-        if (slot.name == std::string_view(numberSlot)) continue;
+        if (!hasSum(slot)) continue;
         SlotSum& sum = slots_[slot.name];
         sum.sum = image(TextureFormat::rgba32f, 0);
         sum.compensation = image(TextureFormat::rgba32f, 0);

@@ -18,6 +18,9 @@
 
 namespace defocus::engine {
 
+// Returns whether the number of samples differs between pixels, because the lens barrel hides lens points (cat's eye).
+[[nodiscard]] bool countsSamples(const FramePlan& plan);
+
 // Textures for the data layers (depth, normals and other outputs) of a batch (wave) of samples. The pass that draws the
 // colours also draws the data layers.
 class WaveDataLayers {
@@ -50,8 +53,8 @@ public:
     [[nodiscard]] static ShaderDefines defines(const std::vector<Layer>& layers, bool countsSamples);
     // Both functions return bytes per pixel: layerBytes() for the data layers of one lens sample, sumBytes() for their
     // sums over all samples.
-    [[nodiscard]] static std::uint64_t layerBytes(const std::vector<Layer>& layers);
-    [[nodiscard]] static std::uint64_t sumBytes(const std::vector<Layer>& layers);
+    [[nodiscard]] static std::uint64_t layerBytes(const std::vector<Layer>& layers, bool countsSamples);
+    [[nodiscard]] static std::uint64_t sumBytes(const std::vector<Layer>& layers, bool countsSamples);
     // Returns whether the layers include objects or materials, which count the samples of each object or material in a
     // pixel. If so, the surface pass writes the indices of objects and materials.
     [[nodiscard]] static bool countNumbers(const std::vector<Layer>& layers);

@@ -70,9 +70,10 @@ TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLi
     needs.rows = {0, plan.view.height};
     const std::uint64_t backdropFactor = plan.usesTransmission ? 2 : 1;
     const std::vector<Layer>& data = plan.settings.layers;
-    needs.layerPixel =
-        layerPixelBytes(chosenLayerFormat(world, limits.layerFormat)) * backdropFactor + LensLayers::layerBytes(data);
-    needs.dataPixel = LensLayers::sumBytes(data);
+    const bool counts = countsSamples(plan);
+    needs.layerPixel = layerPixelBytes(chosenLayerFormat(world, limits.layerFormat)) * backdropFactor +
+                       LensLayers::layerBytes(data, counts);
+    needs.dataPixel = LensLayers::sumBytes(data, counts);
     needs.layerMaps = shadowMapBytes(*world.scene, plan);
     needs.waveBytes = RendererOptions{}.waveBytes;
     needs.askedWave = limits.wave;

@@ -96,6 +96,21 @@ TEST_F(CaptureRefocus, smallAperturesHaveAsManySamples) {
     EXPECT_NE(plan.find("0000.exr (refocused)"), std::string::npos) << plan;
 }
 
+// A frame with a hexagonal aperture is computed from images of a hexagon. If another frame of its run has another
+// shape, it is computed from images of a disk instead, so --resume does not keep the earlier one.
+TEST_F(CaptureRefocus, resumingNoticesOtherLensImages) {
+    json document = focusPull();
+    document["lens"]["bladeCount"] = 6;
+    writeShot(document);
+    ASSERT_EQ(filmed("pull", {"--refocus", "--range", "0:6"}).exitCode, 0);
+    document["lens"]["bladeCount"] = {
+        {"keys", {{{"frame", 0}, {"value", 6}}, {{"frame", 6}, {"value", 6}}, {{"frame", 7}, {"value", 0}}}}};
+    writeShot(document);
+    const Outcome resumed = filmed("pull", {"--refocus", "--resume"});
+    EXPECT_EQ(resumed.exitCode, 1);
+    EXPECT_NE(resumed.err.find("other settings"), std::string::npos) << resumed.err;
+}
+
 TEST_F(CaptureRefocus, framesWithMotionStayTheSame) {
     ASSERT_EQ(filmed("plain", {"--method", "accumulation"}).exitCode, 0);
     const Outcome outcome = filmed("moving", {"--refocus"});

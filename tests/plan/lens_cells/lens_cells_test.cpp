@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
+#include <memory>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -199,6 +200,22 @@ TEST(LensCells, blurFallsWithTheSamplesUntilThereIsNone) {
     const LensCells before = lensCellsOf(*small, 4096);
     for (std::size_t i = 0; i < none.middles.size(); ++i)
         ASSERT_LT(glm::distance(none.middles[i], before.middles[i]), 1e-6f) << i;
+}
+
+// Black rows around an aperture image change nothing: the open area of the lens, and with it the blur of the cells, is
+// the same. The image has four bright dots.
+TEST(LensCells, blackBordersOfAnApertureImageChangeNothing) {
+    const auto blurWith = [](int height) {
+        Image image(16, height, 3);
+        for (const int x : {2, 13})
+            for (const int y : {height / 2 - 2, height / 2 + 1})
+                for (int channel = 0; channel < 3; ++channel) image.at(x, y)[channel] = 1;
+        const auto small = muchBlurred();
+        small->view.lens.apertureImage = std::make_shared<const Image>(std::move(image));
+        return lensCellsOf(*small, 64).blur;
+    };
+    EXPECT_GT(blurWith(16), 0);
+    EXPECT_NEAR(blurWith(4), blurWith(16), 1e-9);
 }
 
 // While the blur grows, the resolution that a sample's image needs falls to 1/16 of full resolution, without a jump.

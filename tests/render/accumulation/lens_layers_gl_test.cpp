@@ -8,6 +8,7 @@
 #include "lens/circle_of_confusion.h"
 #include "likeness.h"
 #include "render/accumulation/drawn_layers.h"
+#include "render/accumulation/lens_layers.h"
 
 namespace defocus::engine {
 namespace {
@@ -31,6 +32,19 @@ std::unique_ptr<SmallWorld> threeSquares() {
     small->view.lens.focusDistance = 2;
     finish(*small);
     return small;
+}
+
+// The memory that is predicted for the sums of data layers is the memory that they take, apart from an unused
+// attachment of 4 bytes per pixel.
+TEST_F(LensLayer, takeTheMemoryThatIsPredicted) {
+    for (const bool countsSamples : {false, true})
+        for (const std::vector<Layer>& layers :
+             {everyLayer, {Layer::normal}, {Layer::depth}, {Layer::objects}, {Layer::coc, Layer::materials}}) {
+            const LensLayers sums(layers, countsSamples, {8, 4}, {});
+            EXPECT_EQ(sums.bytes(), 8 * 4 * (LensLayers::sumBytes(layers, countsSamples) + 4)) << layers.size();
+        }
+    EXPECT_EQ(LensLayers::layerBytes({Layer::normal}, true),
+              LensLayers::layerBytes({Layer::normal, Layer::depth}, false));
 }
 
 TEST_F(LensLayer, leavesThePictureUnchanged) {
