@@ -23,9 +23,9 @@ layout(std140, binding = 7) uniform BoundBlock { vec4 lensBounds[maxRays]; };
 layout(std430, binding = 8) buffer TestBlock { uint tests[2]; };
 
 layout(location = 2) uniform uint firstTile;   // first tile whose triangle list is in `entries`
-// x: first entry of each tile's list that this dispatch tests; y: number of entries. Mesa's software driver ends the
-// loops of a thread after a total of 65,535 iterations. Long lists therefore need several dispatches, each of which
-// continues where the previous dispatch ended.
+// This dispatch tests the entries x to y - 1 of each tile's list. Mesa's software driver ends the loops of a thread
+// after a total of 65,535 iterations. Long lists therefore need several dispatches, each of which continues where the
+// previous dispatch ended.
 layout(location = 3) uniform uvec2 part;
 
 const uint threads = uint(tileSize * tileSize);

@@ -15,7 +15,7 @@ namespace {
 
 // Max mean difference between vertex indices in the same triangle or in consecutive triangles, in units of √(vertex
 // count).
-constexpr double maxSpread = 2;
+constexpr double maxSpread = 1.5;
 
 }  // namespace
 
@@ -27,8 +27,8 @@ bool isScattered(const TriangleSet<MeshVertexNumber>& triangles, std::size_t ver
     std::uint64_t sum = 0;
     for (std::size_t i = 3; i < v.size(); ++i) sum += apart(v[i], v[i - 3]);
     for (std::size_t i = 0; i < v.size(); i += 3) sum += apart(v[i], v[i + 1]);
-    return static_cast<double>(sum) >
-           maxSpread * std::sqrt(static_cast<double>(vertexCount)) * static_cast<double>(v.size());
+    const double differences = 4.0 / 3 * static_cast<double>(v.size());  // in `sum`, apart from the first triangle
+    return static_cast<double>(sum) > maxSpread * std::sqrt(static_cast<double>(vertexCount)) * differences;
 }
 
 void sortSpatially(WeldedVertices& unique, const std::vector<glm::vec3>& positions) {

@@ -12,7 +12,7 @@
 namespace defocus::engine {
 
 // Returns whether the vertices of one triangle and of consecutive triangles are so far apart in memory that caches help
-// little. The limit is a mean index distance of 2√n for n vertices. In a grid of n vertices stored row by row,
+// little. The limit is a mean index distance of 1.5·√n for n vertices. In a grid of n vertices stored row by row,
 // neighbours are up to √n apart.
 bool isScattered(const TriangleSet<MeshVertexNumber>& triangles, std::size_t vertexCount);
 // Renumbers vertices so that vertices that are close in space are close in memory. `positions` are the positions of the
