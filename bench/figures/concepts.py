@@ -72,8 +72,8 @@ def disk_points(count):
 
 
 def draw_lens_sample():
-    """Draws a side view: three lens points see a far and a near point at different positions on the focus plane."""
-    drawing = Drawing(720, 300, "Three lens points see one point at three places of the focus plane")
+    """Draws a side view: three lens samples see a far and a near point at different positions on the focus plane."""
+    drawing = Drawing(720, 300, "Rays from three lens samples to two points cross the focus plane at different positions")
     lens, plane, axis, half = 70, 380, 150, 75
     far, near = (660, axis - 40), (250, axis + 25)
     drawing.line((30, axis), (700, axis), GREY, 0.8, "4 4")
@@ -123,7 +123,7 @@ def draw_circle_of_confusion():
         x = place(depth, 0)[0]
         drawing.dot((x, 265), max(diameter(depth), 1), ORANGE if depth < FOCUS else BLUE, opacity=0.5)
         drawing.text((x, 240), f"{depth} m", "middle")
-    drawing.text(((left + right) / 2, 318), "disk of a point at each depth, twice as large", "middle", GREY)
+    drawing.text(((left + right) / 2, 318), "image of a point at each depth, drawn at twice its size", "middle", GREY)
     drawing.save("circle-of-confusion.svg")
 
 
@@ -204,8 +204,8 @@ def halved(points, count):
 
 
 def draw_lens_cells():
-    """Draws 16 lens points (left), and 16 lens cells with 32 points each, marked with the points' means (right)."""
-    drawing = Drawing(720, 300, "Sixteen lens points, and sixteen lens cells with their means")
+    """Draws 16 lens samples as points (left), and 16 lens cells of 32 points each, marked with the points' means (right)."""
+    drawing = Drawing(720, 300, "Sixteen lens samples as points, and as cells with their means")
     radius = 125
     left, right = (180, 140), (540, 140)
     for centre in (left, right):

@@ -92,14 +92,14 @@ def speed_sentence():
     by_size, drawn = dict(samples_sweep(FISH))[64], dict(samples_sweep(OWN))[64]
     full, levels = drawn["off"], drawn["fractional"]
     return textwrap.fill(
-        f"With 64 lens samples of the built-in scene, {levels['triangles'] / 1e6:.0f} million triangles are drawn instead of "
-        f"{full['triangles'] / 1e6:.0f} million; culled triangles aren't counted. Measured against a "
-        f"converged image, the RMSE is {error_ratio(drawn):.2f} times that of full meshes, and the perceptual error FLIP is "
-        f"{error_ratio(drawn, 'flip'):.2f} times as large. On {run_of(FISH)['machine']['threads']} CPU cores without a GPU, a frame takes "
-        f"{seconds(levels):.1f} s instead of {seconds(full):.1f} s, {levels['speedUp']:.1f} times as fast. Coarser levels "
-        f"(`--lod-metric size`) are {by_size['fractional']['speedUp']:.1f} times as fast as full meshes, with {error_ratio(by_size):.1f} "
-        "times their RMSE. [Results](docs/results.md) has more measurements, including a comparison with a CPU ray tracer and "
-        "timings on [a GPU](docs/results.md#on-a-gpu).", 128, break_long_words=False, break_on_hyphens=False) + "\n"
+        f"With 64 lens samples at {run_of(OWN)['width']:,} × {run_of(OWN)['height']:,} px, the built-in scene is drawn with "
+        f"{levels['triangles'] / 1e6:.0f} million triangles. Full meshes would need {full['triangles'] / 1e6:.0f} million; culled "
+        f"triangles aren't counted. Against a converged image, the RMSE is {error_ratio(drawn):.2f} times the RMSE of full meshes, and the "
+        f"perceptual error FLIP is {error_ratio(drawn, 'flip'):.2f} times as large. On {run_of(OWN)['machine']['threads']} CPU cores "
+        f"without a GPU, a frame takes {seconds(levels):.1f} s instead of {seconds(full):.1f} s, {levels['speedUp']:.1f} times as fast. "
+        f"With the coarser levels of `--lod-metric size`, it is {by_size['fractional']['speedUp']:.1f} times as fast, at "
+        f"{error_ratio(by_size):.1f} times the RMSE. [Results](docs/results.md) has more measurements, including a comparison with a "
+        "CPU ray tracer and timings on [a GPU](docs/results.md#on-a-gpu).", 128, break_long_words=False, break_on_hyphens=False) + "\n"
 
 
 def demo():
