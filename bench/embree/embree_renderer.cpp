@@ -86,7 +86,7 @@ void checkTraceable(const Lens& lens) {
     Lens plain = lens;
     plain.foregroundLimit = std::numeric_limits<double>::infinity();
     if (!clipCircleOfConfusion(plain, 1, 1).thinLens())
-        fail("method embree: of the controls of the blur, only --foreground-limit is traced");
+        fail("method embree: of the blur controls, only --foreground-limit is traced");
     if (lens.foregroundLimit == 0)
         fail("method embree: a foreground limit of 0 px would put the lens into the focus plane; trace a small one");
 }

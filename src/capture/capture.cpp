@@ -215,10 +215,10 @@ DrawnFrame refocusFrame(const RefocusRun& run, FrameMoment moment, World& world,
     return drawn;
 }
 
-// Returns a line such as "frame 12, 3400 ms and 18.2 M triangles each".
+// Returns a line such as "frame 12, 3400 ms and 18.2 M triangles per frame".
 std::string stageText(int frame, const FilmFigures& figures, double milliseconds) {
     if (figures.rendered == 0) return fmt::format("frame {}", frame);
-    return fmt::format("frame {}, {:.0f} ms and {:.2f} M triangles each", frame, milliseconds / figures.rendered,
+    return fmt::format("frame {}, {:.0f} ms and {:.2f} M triangles per frame", frame, milliseconds / figures.rendered,
                        static_cast<double>(figures.triangles) * 1e-6 / figures.rendered);
 }
 

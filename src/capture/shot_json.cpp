@@ -115,7 +115,7 @@ ShotMovement movementOf(const JsonReader& reader) {
     if (movements > 1) reader.failWith("give only one of 'keys', 'turntable' and 'dolly'");
     if (reader.has("interpolation") && !reader.has("keys"))
         reader.at("interpolation")
-            .failWith("interpolation applies only to keyframes; a dolly has its own 'interpolation'");
+            .failWith("this 'interpolation' applies only to 'keys'; for a dolly, put it into 'dolly'");
     if (reader.has("keys")) return cameraKeysOf(reader);
     if (reader.has("turntable")) return turntableOf(reader.at("turntable"));
     if (reader.has("dolly")) return dollyOf(reader.at("dolly"));
@@ -153,7 +153,7 @@ FocusTrack focusOf(const JsonReader& reader) {
     if (!reader.has("keys")) {
         focus.keys = {{0, focusTargetOf(reader)}};
         if (const auto easing = reader.find("interpolation"))
-            easing->failWith("interpolation applies only to keyframes; leave it out or give 'keys'");
+            easing->failWith("'interpolation' applies only to 'keys'; leave it out or give 'keys'");
         return focus;
     }
     if (namesFocusTarget(reader))

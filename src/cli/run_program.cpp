@@ -44,9 +44,11 @@ int printFault(int code, std::string message) {
 }
 
 void addGlobalOptions(CLI::App& program, GlobalOptions& global) {
-    program.set_version_flag("--version", "defocus " + programVersion());
+    program.set_version_flag("--version", "defocus " + programVersion(), "Print the version and exit");
     program.add_flag("--quiet", global.quiet, "Print errors only, without progress, warnings and summary");
-    program.add_flag("--verbose", global.verbose, "Also print the device, the levels of detail and the times");
+    program.add_flag(
+        "--verbose", global.verbose,
+        "Also print details: use of the cache, parts of the drawing that are left out, and the time of each step");
     advanced(program
                  .add_option("--shader-dir", global.shaderDir,
                              "Folder from which to read the shaders instead of the built-in ones, for live editing")

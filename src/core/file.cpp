@@ -155,7 +155,7 @@ void removeAbandonedOf(const fs::path& target) {
 
 std::vector<std::byte> readFile(const fs::path& path) {
     std::error_code status;
-    if (fs::is_directory(path, status)) fail("{} is a directory, not a file", path.string());
+    if (fs::is_directory(path, status)) fail("{} is a folder, not a file", path.string());
     // Reading a device may never end, and opening a pipe may block forever.
     if (fs::exists(path, status) && !fs::is_regular_file(path, status) && !isDescriptor(path))
         fail("{} is a device or a pipe, not a file", path.string());
@@ -273,7 +273,7 @@ void removeAbandoned(const fs::path& temporary) {
 
 void checkWritable(const fs::path& path) {
     std::error_code status;
-    if (fs::is_directory(path, status)) fail("{} is a directory; give a file name", path.string());
+    if (fs::is_directory(path, status)) fail("{} is a folder; give a file name", path.string());
     const PendingFile probe(path);
 }
 

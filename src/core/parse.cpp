@@ -65,8 +65,8 @@ Share parseShare(std::string_view text, std::string_view noun, int maxCount) {
     if (!index || !count || *index < 0 || *index >= maxCount || *count < 1 || *count > maxCount)
         fail("'{}' is not I/N, such as 0/4: {} I (0 to N-1) of N", text, noun);
     if (*index >= *count)
-        fail("'{}': with {} {}s, the {} must be 0 to {} (Slurm: --array=0-{})", text, *count, noun, noun, *count - 1,
-             *count - 1);
+        fail("'{}': with {} {}s, the {} must be 0 to {} (in a Slurm job array: --array=0-{})", text, *count, noun, noun,
+             *count - 1, *count - 1);
     return {*index, *count};
 }
 

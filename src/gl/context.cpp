@@ -127,7 +127,8 @@ public:
         if (id != 0) eglChooseConfig(display_, attributes, &config, 1, &configs);
         createContext(configs > 0 ? config : EGL_NO_CONFIG_KHR, current);
         if (context_ == EGL_NO_CONTEXT)
-            fail("cannot create a further OpenGL context: {}; give --threads 1", eglErrorName(eglGetError()));
+            fail("cannot create an OpenGL context for another thread: {}; give --threads 1",
+                 eglErrorName(eglGetError()));
         readDriver();
     }
 

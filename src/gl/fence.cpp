@@ -13,7 +13,7 @@ Fence Fence::forOtherContexts() {
 bool Fence::wait(GLuint64 maxNanoseconds) const {
     if (sync_ == nullptr) return true;
     const GLenum result = glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, maxNanoseconds);
-    if (result == GL_WAIT_FAILED) fail("OpenGL cannot wait for the commands of a context");
+    if (result == GL_WAIT_FAILED) fail("waiting for an OpenGL fence failed (glClientWaitSync)");
     return result != GL_TIMEOUT_EXPIRED;
 }
 

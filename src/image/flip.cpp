@@ -298,7 +298,7 @@ void checkOptions(const std::optional<HdrFlipOptions>& hdr, double pixelsPerDegr
     if (!(start >= -60 && start <= stop && stop <= 60))
         fail("FLIP: exposures from {} to {} EV must increase and stay within ±60 EV", start, stop);
     if (hdr->exposures < 1 || hdr->exposures > 64)
-        fail("FLIP: {} exposures is out of range; choose 1 to 64", hdr->exposures);
+        fail("FLIP: the number of exposures, {}, is out of range; choose 1 to 64", hdr->exposures);
 }
 
 }  // namespace

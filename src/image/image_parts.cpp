@@ -126,7 +126,7 @@ ImagePartReader::ImagePartReader(const std::filesystem::path& path) : state_(std
                  s.name, part);
         if (own.x != -s.size.margin || own.y != own.x || own.width != s.size.fullWidth() ||
             own.height != s.size.fullHeight())
-            fail("cannot read {}: image {} has another size than image 0", s.name, part);
+            fail("cannot read {}: image {} and image 0 differ in size", s.name, part);
         if (s.metadata.size() == maxImageParts)
             fail("cannot read {}: it has more than {} images", s.name, maxImageParts);
         s.metadata.push_back(metadataOf(own));

@@ -170,7 +170,7 @@ ImageRowReader::ImageRowReader(const std::filesystem::path& path) : state_(std::
     const bool colours =
         names == std::vector<std::string>{"R", "G", "B"} || names == std::vector<std::string>{"R", "G", "B", "A"};
     if (!colours || s.spec.width < 1 || s.spec.height < 1 || s.spec.deep || s.spec.tile_width > 0)
-        fail("{}: not an EXR file of rows with the channels R, G, B and A", s.name);
+        fail("{}: not a scan-line EXR file with the channels R, G, B or R, G, B, A", s.name);
 }
 
 ImageRowReader::~ImageRowReader() = default;

@@ -251,8 +251,8 @@ Difference compareStrips(const ImageStrips& reference, const ImageStrips& test, 
                          std::uint64_t maxBytes) {
     const Image* mask = options.mask;
     if (mask != nullptr && (mask->width != reference.width || mask->height != reference.height || mask->channels != 1))
-        fail("comparison mask: {}x{} with {} channels, but the images need {}x{} with 1", mask->width, mask->height,
-             mask->channels, reference.width, reference.height);
+        fail("the comparison mask has {}x{} px and {} channels; it must have {}x{} px and 1 channel", mask->width,
+             mask->height, mask->channels, reference.width, reference.height);
     DifferenceSums sums(reference.width, reference.height, options);
     for (const Strip& strip : stripsOf(reference.width, reference.height, maxBytes)) {
         const ImageView a = reference.rows(strip.from, strip.to - strip.from);

@@ -165,8 +165,8 @@ std::vector<unsigned char> checkedPng(std::span<const std::byte> encoded, const 
             hasPalette = true;
         }
         if (type == "IDAT") {
-            if (pixelsEnded) fail("{}: damaged PNG image: another chunk interrupts the pixels", name);
-            if (needsPalette && !hasPalette) fail("{}: damaged PNG image: no palette before the pixels", name);
+            if (pixelsEnded) fail("{}: damaged PNG image: another chunk interrupts the image data", name);
+            if (needsPalette && !hasPalette) fail("{}: damaged PNG image: no palette before the image data", name);
             hasPixels = true;
         } else {
             pixelsEnded = hasPixels;
@@ -175,7 +175,7 @@ std::vector<unsigned char> checkedPng(std::span<const std::byte> encoded, const 
         const bool kept = std::ranges::find(keptChunks, type) != keptChunks.end() && (type != "PLTE" || needsPalette);
         if (kept) append(chunks, rest.first(chunkSize));
         if (type == "IEND") {
-            if (!hasPixels) fail("{}: damaged PNG image: no pixels", name);
+            if (!hasPixels) fail("{}: damaged PNG image: no image data", name);
             return chunks;
         }
         offset += chunkSize;

@@ -53,22 +53,22 @@ void checkLens(const Lens& lens) {
     requireWithin(lens.bladeCurvature, 0, 1, "the blade curvature");
     requireWithin(lens.obstruction, 0, 0.999, "the obstruction");
     requireWithin(lens.sphericalAberration, -1, 1, "the spherical aberration");
-    requireWithin(lens.catEye, 0, 1, "the cat's eye");
+    requireWithin(lens.catEye, 0, 1, "the cat's-eye bokeh");
     requireWithin(lens.axialChromaticAberration, -100, 100, "the axial chromatic aberration (dioptres)");
     requireWithin(lens.astigmatism, -maxAberration, maxAberration, "the astigmatism (mm)");
     requireWithin(lens.coma, -maxAberration, maxAberration, "the coma (mm)");
     requireWithin(lens.foregroundLimit, 0, infinity, "the foreground limit (px)");
     requireWithin(lens.backgroundLimit, 0, infinity, "the background limit (px)");
-    requireWithin(lens.focusRangeFront, 0, infinity, "the focus range in front of the focus distance (m)");
-    requireWithin(lens.focusRangeBehind, 0, infinity, "the focus range behind the focus distance (m)");
+    requireWithin(lens.focusRangeFront, 0, infinity, "the sharp range in front of the focus distance (m)");
+    requireWithin(lens.focusRangeBehind, 0, infinity, "the sharp range behind the focus distance (m)");
     requireWithin(lens.focusTilt, -maxTilt, maxTilt, "the focus tilt (radians)");
     requireWithin(lens.focusSwing, -maxTilt, maxTilt, "the focus swing (radians)");
     requireWithin(lens.fieldCurvature, -1e3, 1e3, "the field curvature");
     requireWithin(lens.radialBlurGain, 0, 1e3, "the radial blur gain");
     if (lens.focusRangeFront >= lens.focusDistance)
         fail(
-            "lens: the focus range extends {:.6g} m in front of the focus distance of {:.6g} m; it must end in front "
-            "of the camera",
+            "lens: the sharp range begins {:.6g} m in front of the focus distance of {:.6g} m, at or behind the "
+            "camera; give a smaller --focus-range-front",
             lens.focusRangeFront, lens.focusDistance);
     if (lens.focusBreathing && lens.focusDistance <= lens.focalLength * millimetre)
         fail("lens: with focus breathing, the focus distance ({:.6g} m) must exceed the focal length ({:.6g} mm)",

@@ -112,8 +112,8 @@ const LensField fields[] = {
      "1"},
     {"focusRangeRefocuses", "--focus-range-refocuses", LensSection::focus, "", 0, 1, &Lens::focusRangeRefocuses,
      &LensSettings::focusRangeRefocuses,
-     "Blur behind the focus range as if the lens were focused at the range's far end. Without it, the blur at infinity "
-     "is that of a lens without a focus range. Default: from the camera, else off",
+     "Behind the sharp range (--focus-range-behind), blur as if the lens were focused at the range's far end. Without "
+     "this option, the blur at infinity is the same as without a sharp range. Default: from the camera, else off",
      "true"},
     {"focusTilt", "--focus-tilt", LensSection::focus, "DEG", -89.9, 89.9, &Lens::focusTilt, &LensSettings::focusTilt,
      "Tilt of the focus plane about the horizontal axis, in degrees; above 0, its top is nearer. Default: from the "

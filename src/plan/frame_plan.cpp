@@ -32,11 +32,11 @@ void checkRequest(const View& view, const RenderSettings& settings) {
     if (settings.sampleCount < 1 || settings.sampleCount > maxSamples)
         fail("{} samples: choose 1 to {}", settings.sampleCount, maxSamples);
     if (settings.positions != 1 && settings.positions != 4)
-        fail("{} pixel positions per lens sample: choose 1 or 4", settings.positions);
+        fail("{} subpixel positions per lens sample: choose 1 or 4 (--positions)", settings.positions);
     if (settings.positions > 1 && !settings.layers.empty())
-        fail("data layers need one pixel position per lens sample (--positions 1)");
+        fail("data layers (--exr-layers) need one subpixel position per lens sample; give --positions 1");
     if (!(view.nearPlane > 0)) fail("the near plane must be above 0 m, not {}", view.nearPlane);
-    if (!(settings.cocTolerance > 0)) fail("the CoC tolerance must be above 0 px, not {}", settings.cocTolerance);
+    if (!(settings.cocTolerance > 0)) fail("--coc-tolerance must be above 0 px, not {}", settings.cocTolerance);
     const LodThresholds thresholds =
         chosenThresholds(settings.thresholds, settings.metric, std::max(positionCount(settings), 1u));
     if (!(thresholds.blur >= 0) || !(thresholds.size >= 0) || !(thresholds.light >= 0))
@@ -294,12 +294,12 @@ void leaveOutSamples(FramePlan& plan) {
     const std::uint32_t kept =
         still ? std::min(plan.settings.sampleCount, antialiasingSamples) : plan.settings.sampleCount;
     plan.leftOut.push_back(
-        {"lens samples",
-         fmt::format("no blur reaches half a pixel (maximum {:.2g} px); {} {} samples remain", plan.largestBlur, kept,
-                     still                   ? "antialiasing"
-                     : !plan.moments.empty() ? "motion"
-                     : stochastic            ? "transparency"
-                                             : "shadow")});
+        {"lens samples", fmt::format("no blur reaches half a pixel (maximum {:.2g} px); {} samples are drawn for {}",
+                                     plan.largestBlur, kept,
+                                     still                   ? "antialiasing"
+                                     : !plan.moments.empty() ? "motion"
+                                     : stochastic            ? "transparency"
+                                                             : "shadows")});
     plan.samples.resize(kept);
     plan.frameSamples = plan.frameFirst + kept;
 }
@@ -336,7 +336,7 @@ void noteUnusedPaths(FramePlan& plan, const World& world) {
     if (!plan.usesBlending) plan.leftOut.push_back({"blend path", "no drawn material is alpha-blended"});
     if (!plan.usesTransmission) plan.leftOut.push_back({"transmission path", "no drawn material transmits light"});
     if (!plan.usesCocControls)
-        plan.leftOut.push_back({"controls of the blur", "neither the lens nor an object has any: C(w) = a + b·w"});
+        plan.leftOut.push_back({"blur controls", "neither the lens nor an object has any: C(w) = a + b·w"});
     if (plan.shadows.maps.empty())
         plan.leftOut.push_back({"shadow maps", drawsShadows(world, plan.settings)
                                                    ? "no object is in front of a light"
@@ -449,7 +449,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     plan.needsAlpha = world.environment.type == EnvironmentType::none || !world.environment.visible;
     plan.showsMap = !plan.needsAlpha && world.environment.type == EnvironmentType::map;
     if (plan.needsAlpha && view.lens.dofEnabled && view.lens.catEye > 0)
-        fail("lens: a cat's eye cannot be combined with a transparent background");
+        fail("lens: cat's-eye bokeh (--cat-eye) cannot be combined with a transparent background");
     plan.samples = lensSamples(view.lens, settings.sequence, settings.firstSample, settings.sampleCount, settings.seed);
     // Each lens sample renders a grid of positions in a pixel. The jitter therefore spans one grid cell instead of a
     // pixel.

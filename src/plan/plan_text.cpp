@@ -37,12 +37,12 @@ std::string thresholdsText(const FramePlan& plan) {
 // Describes which method "auto" has chosen, and why.
 std::string chosenMethodText(const FramePlan& plan) {
     if (const std::string reason = reasonForAccumulation(plan); !reason.empty())
-        return fmt::format("--method auto is accumulation, as {}\n", reason);
+        return fmt::format("--method auto selects accumulation, because {}\n", reason);
     const LensCells cells = lensCells(plan);
     return fmt::format(
-        "--method auto is multirate, as about {:.0f} % of the image is blurred by {:g} px or more: each sample's image "
-        "is blurred as its cell of the lens would blur it, with σ = {:.3g} of the CoC ({:.2g} px for the largest "
-        "CoC)\n",
+        "--method auto selects multirate, because about {:.0f} % of the image is blurred by {:g} px or more\n"
+        "each sample's image is blurred as by its cell of the lens: a Gaussian with σ = {:.3g} times the CoC ({:.2g} "
+        "px for the largest CoC)\n",
         100 * blurredShare(plan, minBlurOfCells), minBlurOfCells, cells.blur, cells.blur * plan.largestBlur);
 }
 
@@ -68,7 +68,7 @@ std::string planTable(const FramePlan& plan) {
     const Lens& lens = plan.view.lens;
     std::string text = fmt::format(
         "{} x {} px, {} sample{} of {}{}, {:.4g} mm f/{:.3g}, focus at {:.4g} m, aperture {:.4g} mm\n"
-        "level of detail: {}, {} metric, {}, {}, {} vertices\n\n",
+        "level of detail: {}, metric {}, {}, {}, vertices {}\n\n",
         plan.view.width, plan.view.height, plan.samples.size(), plan.samples.size() == 1 ? "" : "s",
         sequenceName(plan.settings.sequence),
         plan.settings.positions > 1 ? fmt::format(" with {} positions", plan.settings.positions) : "", lens.focalLength,

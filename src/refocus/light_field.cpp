@@ -41,8 +41,10 @@ void checkThinLens(const Lens& lens) {
     for (const char* name : unsuited) {
         const LensField& field = *lensFieldNamed(name);
         if (lensFieldValue(lens, field) != lensFieldValue(Lens(), field))
-            fail("lens images cannot be combined with {}: a change of focus would not only shift each image",
-                 field.option);
+            fail(
+                "lens images cannot be combined with {}: refocusing shifts each image as a whole, which cannot "
+                "reproduce this effect; leave it out",
+                field.option);
     }
 }
 
@@ -91,7 +93,8 @@ LightFieldInfo infoOf(const ImagePartReader& parts, const std::string& name) {
     info.range = {1 / needed(first, nearestName, name, 1e-12, 1e12), 1 / needed(first, farthestName, name, 0, 1e12)};
     info.disk = needed(first, diskName, name, 0, 1) != 0;
     if (info.size.margin < marginOf(info))
-        fail("{}: its margin of {} px is too small for its focus range; render the file again", name, info.size.margin);
+        fail("{}: the margin of {} px around its lens images is too small for its focus range; render the file again",
+             name, info.size.margin);
     for (std::size_t i = 0; i < images; ++i) {
         const auto pair = [&](const char* const names[2], double max) {
             return glm::dvec2(needed(parts.metadata(i), names[0], name, -max, max),
@@ -125,9 +128,8 @@ LightFieldInfo lightFieldInfo(const View& view, const FocusRange& range) {
     const int longer = std::max(view.width, view.height);
     if (!(largestMove(info) <= longer))
         fail(
-            "lens images for a focus from {:.3g} to {:.3g} m need a margin of {:.0f} px, larger than the image ({} "
-            "px); "
-            "give a narrower range or a larger --fstop",
+            "to refocus from {:.3g} to {:.3g} m, lens images need a margin of {:.0f} px around the image, more than "
+            "its longer side of {} px; give a narrower --focus-range or a larger --fstop",
             range.nearest, range.farthest, largestMove(info), longer);
     info.size = {view.width, view.height, marginOf(info)};
     return info;
@@ -136,8 +138,8 @@ LightFieldInfo lightFieldInfo(const View& view, const FocusRange& range) {
 void addSamples(LightFieldInfo& info, const FramePlan& plan) {
     if (plan.usesOwnBlur)
         fail(
-            "lens images cannot show objects or vertices with their own blur (--node-blur, vertex attributes): a "
-            "change of focus would not shift each image as a whole");
+            "lens images cannot show objects or vertices with their own blur (--node-blur, vertex attributes): "
+            "refocusing shifts each image as a whole, which cannot reproduce this effect");
     for (const LensSample& sample : plan.samples) {
         info.points.emplace_back(sample.lens);
         info.pixels.emplace_back(sample.pixel);

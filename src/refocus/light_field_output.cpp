@@ -27,8 +27,9 @@ std::optional<FocusRange> visibleRange(const Image& depth) {
 LightFieldOutput::LightFieldOutput(SceneDriver& driver, std::filesystem::path path, std::optional<FocusRange> range)
     : driver_(driver), path_(std::move(path)), range_(range) {
     if (range && !(range->nearest > 0 && range->nearest <= range->farthest))
-        throw UsageError(fmt::format("the focus range must have 0 < nearest ≤ farthest, not {:g} and {:g} m",
-                                     range->nearest, range->farthest));
+        throw UsageError(fmt::format(
+            "the focus range must begin above 0 m and must not end before it begins, but it is {:g} to {:g} m",
+            range->nearest, range->farthest));
 }
 
 void LightFieldOutput::checkPath(const std::filesystem::path& path) {
@@ -40,7 +41,7 @@ void LightFieldOutput::checkPath(const std::filesystem::path& path) {
 Request LightFieldOutput::suited(Request request) {
     if (request.method != automaticMethod && request.method != "accumulation")
         throw UsageError(
-            fmt::format("--lens-images needs the method accumulation, not '{}'; leave out --method", request.method));
+            fmt::format("--lens-images requires --method accumulation, not '{}'; leave out --method", request.method));
     if (request.targetError || request.timeLimit)
         throw UsageError(
             "--lens-images needs a fixed number of images; give --samples instead of --target-error and "

@@ -117,7 +117,7 @@ SceneState stateAt(const Scene& scene, double time, int clip) {
             {node.translation, node.rotation, node.scale, restWeights(scene, node), node.visible, false});
     if (clip >= 0 && !scene.clips.empty()) {
         if (static_cast<std::size_t>(clip) >= scene.clips.size())
-            fail("there is no animation clip {}; the scene has {} clips (0 to {})", clip, scene.clips.size(),
+            fail("there is no animation {}; the scene has {} animations (0 to {})", clip, scene.clips.size(),
                  scene.clips.size() - 1);
         animate(scene.clips[static_cast<std::size_t>(clip)], time, state);
     }

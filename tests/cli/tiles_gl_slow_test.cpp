@@ -148,7 +148,7 @@ TEST_F(ShortOfMemory, samplesThatTheBlurAloneChoseAreSaid) {
     *(std::ranges::find(words, "--samples") + 1) = "auto";
     const Outcome outcome = run(words);
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("lens samples, predicted from its blur"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("lens samples, a number estimated from the blur"), std::string::npos) << outcome.err;
 }
 
 }  // namespace

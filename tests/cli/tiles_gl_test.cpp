@@ -56,13 +56,14 @@ TEST_F(TileCommand, whatIsMissingOrForeignIsNamed) {
         EXPECT_FALSE(fs::exists(folder() / "merged.exr"));
         return outcome;
     };
-    expectRefused(merged({"0.exr", "2.exr"}), 1, "tile 1/3 of the frame is missing: rows 16 to 31 of 48 (--tile 1/3)");
+    expectRefused(merged({"0.exr", "2.exr"}), 1,
+                  "a tile of the frame is missing: rows 16 to 31 of 48; render it with --tile 1/3");
     expectRefused(merged({"1.exr", "2.exr"}), 1, "tile 0/3");
     expectRefused(merged({"0.exr", "1.exr"}), 1, "tile 2/3");
     expectRefused(merged({"0.exr", "gone.exr", "2.exr"}), 1, "cannot read gone.exr: No such file");
     expectRefused(merged({"0.exr", "0.exr", "1.exr", "2.exr"}), 1, "overlap: both hold row 0");
     expectRefused(merged({"half.exr", "1.exr", "2.exr"}), 1, "overlap");
-    expectRefused(merged({"0.exr", "other.exr", "2.exr"}), 1, "different frames: seed is 0 and 1");
+    expectRefused(merged({"0.exr", "other.exr", "2.exr"}), 1, "different frames: seed differs (0 and 1)");
     expectRefused(merged({"0.exr", "quads.gltf", "2.exr"}), 1, "quads.gltf: ");
     ASSERT_EQ(run(line({"-o", "whole.exr"})).exitCode, 0);
     expectRefused(merged({"0.exr", "whole.exr"}), 1, "whole.exr is not a tile of a frame");

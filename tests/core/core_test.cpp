@@ -215,7 +215,7 @@ TEST_F(Files, temporaryNamesThatAreTakenAreLeftAlone) {
 }
 
 TEST_F(Files, errorsNameThePathAndTheReason) {
-    EXPECT_NE(messageOf([&] { readFile(folder_); }).find("is a directory"), std::string::npos);
+    EXPECT_NE(messageOf([&] { readFile(folder_); }).find("is a folder"), std::string::npos);
     const std::string missing = messageOf([&] { readFile(folder_ / "missing"); });
     EXPECT_NE(missing.find("missing"), std::string::npos);
     EXPECT_NE(missing.find("No such file"), std::string::npos);

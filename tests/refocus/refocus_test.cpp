@@ -163,7 +163,8 @@ TEST(LensImages, needALensThatOnlyMovesThem) {
     refused([](Lens& lens) { lens.astigmatism = 0.1; }, "--astigmatism");
     refused([](Lens& lens) { lens.coma = 0.1; }, "--coma");
     refused([](Lens& lens) { lens.dofEnabled = false; }, "--no-dof");
-    EXPECT_NE(refusalOf({}, 1e-3).find("a focus from 0.001 to 3 m need a margin of"), std::string::npos);
+    EXPECT_NE(refusalOf({}, 1e-3).find("to refocus from 0.001 to 3 m, lens images need a margin of"),
+              std::string::npos);
 }
 
 // The margin is at least the largest shift of a lens image (view from a lens point) over the focus range, rounded to

@@ -94,8 +94,8 @@ std::vector<ConvergenceRun> earlierRuns(const ConvergenceArguments& arguments, s
              journal.string(), runs.size());
     if (holdsOtherReference(folder, reference))
         fail(
-            "the reference in {} has another scene, camera, size, number of samples or build of the program; choose "
-            "another folder, or start over with --overwrite",
+            "the reference in {} was rendered with another scene, camera, size, number of samples or build of the "
+            "program; choose another folder, or start over with --overwrite",
             folder.string());
     return runs;
 }

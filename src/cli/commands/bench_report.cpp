@@ -48,7 +48,7 @@ bool runScript(const std::filesystem::path& results, const std::filesystem::path
         const int code = exitCodeOf({python, "-c", reportScript(), results.string(), report.string()});
         if (code == 0) return true;
         if (code != notInstalled && code != withoutMatplotlib)
-            fail("cannot draw the report {} (exit code {}); the results beside it are complete",
+            fail("cannot create the report {}: Python ended with exit code {}; the result files beside it are complete",
                  (report / "index.html").string(), code);
     }
     return false;

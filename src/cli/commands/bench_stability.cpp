@@ -84,7 +84,7 @@ void runStability(const StabilityArguments& arguments, const GlobalOptions& glob
     if (!output.empty()) writeFile(output, stabilityJson(rows, honesty, benchSubject(*context, global)));
     drawReport(arguments.report, arguments.report);
     const auto failed = std::ranges::count_if(rows, &StabilityRow::failed);
-    if (failed > 0) fail("{} of {} cases exceed their limits", failed, rows.size());
+    if (failed > 0) fail("{} of {} cases exceed their error limits", failed, rows.size());
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ std::string shutterText(double seconds) {
 }
 
 const char* const plainLensNote =
-    "The depth of field ignores focus range, tilt, curvature and limits of the blur; the table includes them";
+    "The depth of field ignores the sharp range, tilt, curvature and limits of the blur; the table includes them";
 
 }  // namespace
 
@@ -120,8 +120,8 @@ std::string cameraTable(const PreparedFrame& frame, const CameraQuestion& questi
     line("hyperfocal", inMetres(facts.depth.hyperfocal));
     if (lens.exposureTime > 0)
         line("exposure",
-             fmt::format("{} at ISO {:.4g}: EV100 {:.2f}, which is --exposure {:.2f}", shutterText(lens.exposureTime),
-                         lens.iso, exposureValue100(lens), photographicExposure(lens)));
+             fmt::format("{} at ISO {:.4g}: EV100 {:.2f}, which corresponds to --exposure {:.2f}",
+                         shutterText(lens.exposureTime), lens.iso, exposureValue100(lens), photographicExposure(lens)));
     if (!facts.plain) text += fmt::format("{}.\n", plainLensNote);
     text += fmt::format("\n{:>12} {:>12} {:>14}\n", "depth", "blur, px", "on sensor, mm");
     for (const Blur& blur : facts.blurs)

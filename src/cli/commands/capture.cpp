@@ -89,7 +89,9 @@ void checkArguments(const CaptureArguments& arguments) {
         throw UsageError("--sample-range cannot be combined with --target-error; give --samples");
     checkSampleRange(*arguments.sampleRange, arguments.request.samples.value_or(maxSamples));
     if (arguments.shot.outputs.size() != 1 || fs::path(arguments.shot.outputs.front()).extension() != ".exr")
-        fail("--sample-range writes sums of samples to EXR files; give one output, such as -o frames/####.exr");
+        fail(
+            "--sample-range writes sums of samples to EXR files named after the output; give one .exr output, such as "
+            "-o frames/####.exr");
 }
 
 FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& settings) {
@@ -208,14 +210,15 @@ void printPops(const PopCheck& check) {
         fmt::format("level-of-detail pops in {} frame pair{}: ", check.compared(), check.compared() == 1 ? "" : "s");
     if (const std::optional<FramePop>& pop = check.largest())
         text += fmt::format(
-            "the largest has an RMSE of {:.4f}, in the pixels of '{}' from frame {} to {}; for comparison, another "
-            "seed changes these pixels by {:.4f}",
+            "the largest has an RMSE of {:.4f}, in the pixels of '{}' from frame {} to {}; for comparison, other "
+            "sample positions (another seed) change these pixels by an RMSE of {:.4f}",
             pop->rmse, pop->object, pop->frame - 1, pop->frame, pop->seedRmse);
     else
         text += "none, as no object changes its level";
     if (check.incomparable() > 0)
-        text += fmt::format("; {} more can't be compared, because their numbers of samples differ; give --samples N",
-                            check.incomparable());
+        text += fmt::format(
+            "; frame pairs that cannot be compared, because their numbers of samples differ: {}; give --samples N",
+            check.incomparable());
     printMessage("{}\n", text);
 }
 
@@ -284,7 +287,7 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     FilmOptions options = filmOptions(arguments, filmSettings(prepared, arguments.request, global.shaderDir));
     if (arguments.refocus && use.method->name != "accumulation")
         throw UsageError(
-            fmt::format("--refocus needs the method accumulation, not '{}'; leave out --method", use.text()));
+            fmt::format("--refocus requires --method accumulation, not '{}'; leave out --method", use.text()));
     RefocusRuns runs;
     if (arguments.refocus) runs = chosenRuns(shot, base, options.settings);
     options.runs = runs.runs;
@@ -406,8 +409,9 @@ void addOutputs(CLI::App& command, CaptureArguments& arguments) {
                        [&arguments](const std::string& text) { arguments.shard = parseShare(text, "part", maxShards); })
                  ->group(group));
     advanced(addParsed(command, "--sample-range", "FIRST:END",
-                       "Range of the lens samples to draw in each frame, in multiples of 64. Writes their sums to "
-                       "#.partFIRST-END.exr for 'defocus merge'",
+                       "Draw only lens samples FIRST to END-1 of each frame. For 'defocus merge', their sums are "
+                       "written to NAME.partFIRST-END.exr instead of NAME.exr. FIRST and END are multiples of 64; END "
+                       "can also be the number of samples",
                        [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
                  ->group(group));
     command.add_flag("--dry-run", arguments.dryRun, "Print the plan of each frame without rendering")->group(group);

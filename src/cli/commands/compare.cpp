@@ -177,10 +177,13 @@ void addCompareCommand(CLI::App& program, const GlobalOptions&) {
     command->add_flag("--json", arguments->json,
                       "Print JSON: mae, rmse, psnr (dB; null if the images are equal), ssim, flip, maxError, "
                       "maxErrorPixel [column, row], nonFinite, pixelCount");
-    command->add_option("--error-map", arguments->errorMap,
-                        "Image file for the FLIP value of each pixel: .png and .jpg in magma colours, .exr as values");
-    CLI::Option* hdr = command->add_flag(
-        "--hdr", arguments->hdr, "Use FLIP for HDR images: the maximum over several exposures, instead of EV 0");
+    command
+        ->add_option("--error-map", arguments->errorMap,
+                     "Image file for the FLIP value of each pixel: .png and .jpg in magma colours, .exr as values")
+        ->type_name("FILE");
+    CLI::Option* hdr =
+        command->add_flag("--hdr", arguments->hdr,
+                          "Use FLIP for HDR images: the maximum over several exposures, instead of the value at EV 0");
     const Range exposures = {-60, 60};
     advanced(addNumber(*command, "--start-exposure", arguments->hdrFlip.startExposure, exposures, "EV",
                        "First exposure of --hdr in EV")
@@ -192,8 +195,9 @@ void addCompareCommand(CLI::App& program, const GlobalOptions&) {
                  ->needs(hdr));
     command
         ->add_option("--fail-above", arguments->failAbove,
-                     "METRIC=VALUE: fail with exit code 1 if a metric is worse than VALUE (below it for psnr and ssim, "
-                     "else above it). Can be given several times")
+                     "Fail with exit code 1 if METRIC is worse than VALUE: lower for psnr and ssim, higher for the "
+                     "other metrics. Can be given several times")
+        ->type_name("METRIC=VALUE")
         ->allow_extra_args(false)
         ->check(CLI::Validator(limitFault, ""));
     command->footer(

@@ -103,9 +103,10 @@ void addExportCameraCommand(CLI::App& program, const GlobalOptions& global) {
                      "File to write: .usda, .gltf with lens values as extras, or .json")
         ->type_name("FILE")
         ->capture_default_str();
-    addParsed(*command, "--range", "FIRST:LAST",
-              "Frames to write as an animation; frame 0 is the start of the animation. Default: the camera at --time",
-              [arguments](const std::string& text) { arguments->range = parseFrameRange(text); });
+    addParsed(
+        *command, "--range", "FIRST:LAST",
+        "Frames to write as an animation; frame 0 is the start of the animation. Default: a single frame, at --time",
+        [arguments](const std::string& text) { arguments->range = parseFrameRange(text); });
     addNumber(*command, "--frame-rate", arguments->frameRate, {1e-3, 1e6}, "FPS",
               "Frame rate in frames per second, for --range and the time codes of .usda");
     addSettings(*command, arguments->request,

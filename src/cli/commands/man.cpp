@@ -80,7 +80,8 @@ std::string commandText(const CLI::App& command) {
             groups.push_back(option->get_group());
     }
     if (!groups.empty())
-        options += ".PP\n" + line(fmt::format("Also accepts the settings of: {}.", fmt::join(groups, "; ")));
+        options +=
+            ".PP\n" + line(fmt::format("Also accepts the settings in these groups: {}.", fmt::join(groups, "; ")));
     return subsection(name) + line(command.get_description() + ".") +
            fmt::format(".PP\n.B {}\n[\\fIoptions\\fR]{}\n", name, usage) + options + footerText(command.get_footer());
 }

@@ -286,12 +286,12 @@ void addPyramidCommand(CLI::App& program, const GlobalOptions& global) {
     command
         ->add_option("--mesh", arguments->mesh, "Mesh to simplify, by its name in 'defocus info'. Default: all meshes")
         ->type_name("NAME");
-    CLI::Option* points =
-        advanced(addInteger(*command, "--points", arguments->points, 100, 100'000'000,
-                            "Number of points on a level, and on the full mesh, at which their distance is measured"));
+    CLI::Option* points = advanced(addInteger(
+        *command, "--points", arguments->points, 100, 100'000'000,
+        "Number of points on each level and on the full mesh at which the distance between both is measured"));
     command
         ->add_flag("--no-measure", arguments->noMeasure,
-                   "Skip the measurement of distances, which takes most of the time")
+                   "Do not measure the distances between levels and full mesh, which takes most of the time")
         ->excludes(points);
     command->add_option("--export", arguments->exportFolder, "Folder to which each level is written as a .glb file")
         ->type_name("FOLDER");
@@ -299,7 +299,9 @@ void addPyramidCommand(CLI::App& program, const GlobalOptions& global) {
         ->add_option("--cache-dir", arguments->cacheFolder,
                      "Folder from which levels are read and in which they are stored. Default: build all levels")
         ->type_name("FOLDER");
-    command->add_flag("--json", arguments->json, "Print JSON, with distances in both directions");
+    command->add_flag(
+        "--json", arguments->json,
+        "Print JSON, with the distances from each level to the full mesh and from the full mesh to each level");
     addSettings(*command, arguments->request, {"levelVertices"});
     command->footer(
         "Lengths are in the units of the mesh. The error of a level is an upper bound of the 99th percentile of the\n"

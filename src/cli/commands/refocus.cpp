@@ -122,11 +122,11 @@ void addRefocusCommand(CLI::App& program, const GlobalOptions& global) {
               "Exposure in EV for PNG and JPEG. Default: as rendered");
     CLI::Option* const fills =
         command->add_flag("--fill-gaps,!--no-fill-gaps", arguments->fillGaps,
-                          "Blur each lens image to fill the gaps between copies of blurred points (default). "
-                          "--no-fill-gaps is faster");
+                          "Blur each lens image slightly, so that a point out of focus appears as one disk, not as "
+                          "separate copies (default). --no-fill-gaps is faster");
     addParsed(*command, "--html", "FILE",
-              fmt::format("Write one web page in which a visitor chooses focus, f-number and bokeh, with at most {} "
-                          "images. Replaces --output",
+              fmt::format("Write a web page in which visitors choose focus, f-number and bokeh. It contains at most {} "
+                          "lens images. Replaces --output",
                           maxPageImages),
               [arguments](const std::string& text) { arguments->page = text; })
         ->excludes("--output")
@@ -147,7 +147,7 @@ void addRefocusCommand(CLI::App& program, const GlobalOptions& global) {
     addInteger(*command, "--stack", arguments->stack, 2, 100,
                "Write a focal stack for the output out.exr: N images (out.00.exr, out.01.exr …), an image with "
                "everything in focus (out.sharp.exr) and depths in m (out.depth.exr). The focus distances cover the "
-               "rendered range, evenly in 1/distance")
+               "focus range of the lens images (render --focus-range), evenly in 1/distance")
         ->default_str("")
         ->excludes("--html")
         ->excludes(pull);

@@ -40,27 +40,28 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
     const char* group = "Output";
     arguments.outputs = {"out.exr"};
     addImageOutputs(command, arguments.outputs)->group(group);
-    advanced(addParsed(command, "--aov", "depth,coc,level,work",
-                       "Also write auxiliary images beside the first output. depth: depth in m. coc: signed circle of "
-                       "confusion in px. level: level of detail. work: triangles per pixel, including hidden ones, "
-                       "summed over the lens samples of method accumulation. depth and coc are EXR; the others EXR and "
-                       "PNG",
-                       [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
-                 ->group(group));
+    advanced(
+        addParsed(
+            command, "--aov", "depth,coc,level,work",
+            "Also write auxiliary images beside the first output. depth: depth in m. coc: signed circle of confusion "
+            "in px. level: level of detail. work: triangles per pixel, including hidden ones, summed over the lens "
+            "samples of method accumulation. depth and coc are written as EXR, level and work as EXR and PNG",
+            [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
+            ->group(group));
     advanced(addParsed(command, "--sample-range", "FIRST:END",
-                       "Draw only lens samples FIRST to END-1 (multiples of 64), to an EXR file that 'defocus merge' "
-                       "combines with the other parts",
+                       "Draw only lens samples FIRST to END-1, to an EXR file that 'defocus merge' combines with the "
+                       "other parts. FIRST and END are multiples of 64; END can also be the number of samples",
                        [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
                  ->group(group));
     advanced(addParsed(command, "--tile", "I/N",
-                       "Divide the image into N horizontal bands and render only band I (0 to N-1), to an EXR file for "
+                       "Divide the image into N horizontal tiles and render only tile I (0 to N-1), to an EXR file for "
                        "'defocus merge'",
                        [&arguments](const std::string& text) { arguments.tile = parseTileShare(text); })
                  ->group(group));
     command
         .add_flag("--resume", arguments.resume,
-                  "Continue an interrupted run with the same settings. Finished parts are read from the folder "
-                  "NAME.tiles beside the first output NAME.exr or, with --tile, from the output file itself")
+                  "Continue an interrupted run with the same settings. Finished tiles are read from the folder "
+                  "NAME.tiles beside the first output NAME.exr. With --tile, a finished output file is kept")
         ->group(group);
     advanced(command
                  .add_flag("--keep-partial", arguments.keepPartial,

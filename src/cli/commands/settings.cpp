@@ -163,12 +163,13 @@ void addSettingsCommand(CLI::App& program) {
     CLI::App* command = program.add_subcommand("settings", "List every setting with its range and default");
     CLI::Option* json = command->add_flag("--json", arguments->json, "Print JSON");
     CLI::Option* page = command->add_flag("--markdown", arguments->markdown, "Print the page docs/settings.md");
-    CLI::Option* schema = command
-                              ->add_option("--shot-schema", arguments->schema,
-                                           "JSON schema of shots to update: prints it with the current types, ranges "
-                                           "and descriptions of the settings")
-                              ->type_name("FILE")
-                              ->check(unnamed(CLI::ExistingFile));
+    CLI::Option* schema =
+        command
+            ->add_option(
+                "--shot-schema", arguments->schema,
+                "Print this JSON schema of shots with the current types, ranges and descriptions of the settings")
+            ->type_name("FILE")
+            ->check(unnamed(CLI::ExistingFile));
     json->excludes(page)->excludes(schema);
     page->excludes(schema);
     command->callback([arguments] {

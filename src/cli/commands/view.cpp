@@ -37,7 +37,7 @@ void addViewCommand(CLI::App& program, const GlobalOptions& global) {
         ->group(group);
     command
         ->add_option("--screenshot", options->screenshot,
-                     "Image file for the last frame; sets --frames 1 if it is not given")
+                     "Image file for the last frame. Without --frames, the window closes after one frame")
         ->type_name("FILE")
         ->group(group);
     advanced(command

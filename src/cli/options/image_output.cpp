@@ -57,8 +57,8 @@ private:
 CLI::Option* addImageOutputs(CLI::App& command, std::vector<fs::path>& outputs) {
     return command
         .add_option("-o,--output", outputs,
-                    "Image file to write: .exr (linear floats with metadata), .png or .jpg (tone-mapped). -, exr:- or "
-                    "jpg:- writes PNG, EXR or JPEG to standard output. Can be given several times")
+                    "Image file to write: .exr (linear floats with metadata), .png or .jpg (tone-mapped). To write to "
+                    "standard output, give - (PNG), exr:- (EXR) or jpg:- (JPEG). Can be given several times")
         ->allow_extra_args(false)
         ->type_name("FILE")
         ->default_str("out.exr");

@@ -78,7 +78,10 @@ std::vector<ConvergenceRun> readRunsCsv(std::string_view text, std::uint64_t sub
     std::vector<ConvergenceRun> runs;
     if (text.size() < header.size() && header.starts_with(text)) return runs;
     if (!text.starts_with(header))
-        fail("{} is not a journal of bench convergence; choose another folder, or start over with --overwrite", name);
+        fail(
+            "{} is not a results file of 'defocus bench convergence'; choose another folder, or start over with "
+            "--overwrite",
+            name);
     std::size_t begin = header.size();
     for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string_view::npos; begin = end + 1) {
         FieldReader fields(text.substr(begin, end - begin));
@@ -105,12 +108,12 @@ std::vector<ConvergenceRun> readRunsCsv(std::string_view text, std::uint64_t sub
             fields.error(run.bias.emplace());
         run.fault = fields.text();
         if (!fields.good())
-            fail("{}: line {} is not a run; choose another folder, or start over with --overwrite", name,
+            fail("{}: line {} does not describe a run; choose another folder, or start over with --overwrite", name,
                  runs.size() + 2);
         if (measured != subject)
             fail(
-                "{} has results of another scene, camera, size, reference, device or build of the program; choose "
-                "another folder, or start over with --overwrite",
+                "{} contains results for another scene, camera, size, reference, device or build of the program; "
+                "choose another folder, or start over with --overwrite",
                 name);
         runs.push_back(std::move(run));
     }

@@ -24,7 +24,9 @@ std::string faultOf(const std::vector<const ConvergenceRun*>& runs, int seeds) {
             runs, [&](const ConvergenceRun* each) { return each->run % seeds == run->run % seeds; });
         const auto [min, max] = std::minmax(run->error.mse, (*other)->error.mse);
         if (max - min > maxDifference * min)
-            return fmt::format("runs with the same seed differ: MSE {:.3g} to {:.3g}", min, max);
+            return fmt::format(
+                "runs with the same seed should give the same image but their MSE ranges from {:.3g} to {:.3g}", min,
+                max);
     }
     return {};
 }

@@ -123,14 +123,15 @@ std::string convergenceSummary(std::span<const ConvergenceRow> rows, const Refer
     const Difference& remaining = reference.remaining;
     std::string text = fmt::format(
         "\n"
-        "reference: {} lens samples at full detail; its own remaining error is about PSNR {:.2f} dB, FLIP {:.4f}, "
-        "which limits all figures\n"
-        "* no other row is both faster and closer (MSE); + the same within its method; f by FLIP\n",
+        "reference: {} lens samples at full detail; its own sampling error is about PSNR {:.2f} dB, FLIP {:.4f}; "
+        "smaller errors in the table are not reliable\n"
+        "* no other row is both faster and closer to the reference by MSE; + no other row of the same method is; f "
+        "like *, but by FLIP\n",
         reference.samples, remaining.psnr, remaining.flip);
     for (const BiasFloor& floor : biasFloors(rows))
         text += fmt::format(
-            "bias floor of {}, {}: PSNR {:.2f} dB, FLIP {:.4f} from full detail at the same {} lens samples; more "
-            "samples with these thresholds come no closer\n",
+            "bias of {}, {}: PSNR {:.2f} dB, FLIP {:.4f} relative to full detail with the same {} lens samples; more "
+            "samples with these thresholds do not reduce it\n",
             floor.method, floor.setting, floor.error.psnr(), floor.error.flip, floor.samples);
     return text + equalErrorTable(timesToErrors(rows, comparedErrors));
 }

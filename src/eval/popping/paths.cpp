@@ -66,7 +66,7 @@ std::vector<MovementFrame> framesAlong(Movement movement, const World& world, co
     if (frames < 2) fail("a movement needs at least 2 frames, not {}", frames);
     const Scene& scene = *world.scene;
     if (movement == Movement::clip && (clip < 0 || static_cast<std::size_t>(clip) >= scene.clips.size()))
-        fail("the scene has no animation clip {}", clip);
+        fail("the scene has no animation {}", clip);
     const Depths depths = depthsOf(world, view);
     const glm::dvec3 centre = world.pose.bounds.centre();
     const double focusDistance =

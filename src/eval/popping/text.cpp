@@ -141,9 +141,8 @@ std::string poppingLine(const PoppingRow& row) {
 
 std::string sampleStepLine(const SampleStep& step) {
     return fmt::format(
-        "{} samples, {} between levels {} and {}: one sample's step is {:.4f} of the whole level's ({:.2f}/N); "
-        "expected "
-        "{} = {:.4f} for a blur c of {:.1f} px and an edge error w of {:.2f} px\n",
+        "N = {} samples, {}: if one sample changes from level {} to {}, the image changes by {:.4f} of the change if "
+        "all do ({:.2f}/N); expected {} = {:.4f} for a blur c of {:.1f} px and level differences w of {:.2f} px\n",
         step.samples, step.object, step.level, step.level + 1, step.measured, step.measured * step.samples,
         step.coc > step.edgeError ? "sqrt(c/w)/N" : "1/N", step.expected, step.coc, step.edgeError);
 }
@@ -151,8 +150,10 @@ std::string sampleStepLine(const SampleStep& step) {
 std::string poppingSummary(std::span<const PoppingRow> rows) {
     std::uint32_t max = 0;
     for (const PoppingRow& row : rows) max = std::max(max, row.samples);
-    std::string text =
-        fmt::format("\nlargest pop at {} samples, relative to the nearest level's (pop alone, RMSE / FLIP):\n", max);
+    std::string text = fmt::format(
+        "\nlargest pop at {} samples, divided by the largest pop of mode nearest (RMSE / FLIP of the pop alone, "
+        "without other changes):\n",
+        max);
     for (const PoppingMode mode : poppingModes) {
         if (mode == PoppingMode::nearest) continue;
         text += fmt::format("  {:<10}", poppingModeName(mode));

@@ -48,9 +48,9 @@ std::string predictionSummary(std::span<const PredictionRow> rows) {
     }
     if (used == 0) return "No level is used.\n";
     return fmt::format(
-        "For {} of {} levels that 16 to 512 samples use, the prediction is within a factor of 2; the largest factor is "
-        "{:.2f},\n"
-        "the geometric mean is {:.2f}.\n",
+        "For {} of the {} levels that are used with 16 to 512 samples, the predicted error is within a factor of 2 of "
+        "the rendered\n"
+        "error. The largest factor is {:.2f}; the geometric mean of predicted / rendered is {:.2f}.\n",
         within, used, worst, std::exp(logarithms / static_cast<double>(used)));
 }
 

@@ -158,16 +158,17 @@ std::string boundsAlong(std::span<const ScalingRow> rows) {
 
 std::string scalingSummary(std::span<const ScalingRow> rows) {
     std::string text =
-        "\ntime and memory over each axis, for the upper half of its points, with the largest parts of the frame "
-        "time\n(alike: their spreads overlap, or they differ by less than a twentieth of the frame time)\n";
+        "\ntime and GPU memory as powers of each axis's value, fitted to the upper half of its points, and the largest "
+        "parts of the frame time\n(alike: their spreads overlap, or they differ by less than a twentieth of the frame "
+        "time)\n";
     for (const std::vector<ScalingRow>& curve : curvesOf(rows)) {
         text += fmt::format("  {:<10} {:<10} ", scalingAxisName(curve.front().axis), lodModeName(curve.front().mode));
         const std::optional<PowerLaw> time = lawOf(curve, timeOf);
         const std::optional<PowerLaw> memory = lawOf(curve, memoryOf);
         if (time)
-            text += fmt::format("exponent {:>5.2f} (residual {:.1f} %, {} points), ", time->exponent,
+            text += fmt::format("time exponent {:>5.2f} (residual {:.1f} %, {} points), ", time->exponent,
                                 100 * time->residual, time->points);
-        if (memory) text += fmt::format("of the GPU memory {:>5.2f}; ", memory->exponent);
+        if (memory) text += fmt::format("GPU memory exponent {:>5.2f}; ", memory->exponent);
         text += boundsAlong(curve) + '\n';
     }
     return text;

@@ -152,8 +152,8 @@ public:
         const Lens& lens = plan_.view.lens;
         if (plan_.usesLens && (lens.catEye > 0 || lens.axialChromaticAberration != 0))
             fail(
-                "--sample-range cannot be combined with a cat's eye or axial chromatic aberration; render all samples "
-                "at once");
+                "--sample-range cannot be combined with cat's-eye bokeh (--cat-eye) or axial chromatic aberration; "
+                "render all samples at once");
         renderer.start(samplesOf(plan_, part_.range.first, count()));
     }
 
@@ -162,7 +162,7 @@ public:
         const bool more = renderer_.advance();
         if (more && renderer_.samples() % blockSamples != 0) return true;
         std::optional<BlockSum> block = renderer_.blockSum();
-        if (!block) fail("--sample-range requires the method accumulation");
+        if (!block) fail("--sample-range requires --method accumulation");
         part_.blocks.push_back(std::move(*block));
         return more;
     }
@@ -190,7 +190,7 @@ public:
         while (renderer_.advance()) {
         }
         std::optional<Image> depth = renderer_.sampleDepth();
-        if (!depth) fail("images of single lens samples require the method accumulation");
+        if (!depth) fail("lens images require --method accumulation");
         take_(samples_, renderer_.image(), std::move(*depth));
         return ++samples_ < sampleTotal();
     }

@@ -74,7 +74,8 @@ void FrameOutput::check(const FrameFiles& files, const Request& request) {
     if (stopSettings(request).given())
         throw UsageError(option + " cannot be combined with --target-error or --time-limit; give --samples");
     if (!files.untiledReason.empty())
-        throw UsageError(fmt::format("{} cannot be used here: {}", option, files.untiledReason));
+        throw UsageError(
+            fmt::format("{} draws the image in tiles, but {}; leave one of them out", option, files.untiledReason));
     if (files.share && !oneExr)
         throw UsageError("--tile writes to a single EXR file; give one output, such as -o tile.exr");
 }

@@ -47,10 +47,10 @@ std::size_t pyramidKind(const RenderSettings& settings) {
 // Returns a note if a frame in tiles may take a different number of samples than an untiled frame; otherwise empty.
 std::vector<std::string> tiledSamplesNote(const FramePlan& plan) {
     if (!plan.usesLens) return {};
-    return {fmt::format(
-        "the image is drawn in tiles with {} lens samples, predicted from its blur; an untiled image may take "
-        "another number; set the number with --samples",
-        plan.samples.size())};
+    return {
+        fmt::format("the image is drawn in tiles with {} lens samples, a number estimated from the blur; an image "
+                    "without tiles may have another number; set it with --samples",
+                    plan.samples.size())};
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ EndText textOf(engine::PyramidEnd end) {
         case PyramidEnd::maxLevels:
             return {"maxLevels", "the maximum number of levels is reached"};
     }
-    engine::fail("unknown end of a pyramid");
+    engine::fail("unknown reason why a pyramid has no further level");
 }
 
 PlannedObject reportedObject(const ObjectPlan& object, const engine::LensCells& cells) {

@@ -96,9 +96,9 @@ std::vector<std::string> coarseDivisions(const FramePlan& plan) {
     const auto count = std::ranges::count_if(plan.objects, bounded);
     if (count == 0) return {};
     return {
-        fmt::format("the blur of {} object{} varies too much inside triangles and is approximated: their edges are "
-                    "divided into at most {} parts; use a smaller --field-curvature, --radial-blur-gain or "
-                    "--astigmatism, or levels of detail",
+        fmt::format("the blur of {} object{} varies too much within triangles and is approximated: to limit the number "
+                    "of triangles, their edges are divided into at most {} parts; use a smaller --field-curvature, "
+                    "--radial-blur-gain or --astigmatism, or levels of detail, which have fewer triangles",
                     count, count == 1 ? "" : "s", std::ranges::find_if(plan.objects, bounded)->maxParts)};
 }
 

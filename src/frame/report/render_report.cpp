@@ -203,7 +203,7 @@ std::string statsJson(const RenderReport& report) {
 }
 
 std::string errorText(const RenderStats& stats) {
-    return stats.estimatedError ? fmt::format("error about {:.2g}", *stats.estimatedError) : "error not estimated";
+    return stats.estimatedError ? fmt::format("RMSE about {:.2g}", *stats.estimatedError) : "RMSE not estimated";
 }
 
 std::string summary(const RenderReport& report) {

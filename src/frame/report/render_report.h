@@ -34,7 +34,7 @@ Metadata renderMetadata(const RenderReport& report);
 // is a diameter in pixels, null if unbounded. date is in UTC. peakBytes is the peak memory of the process.
 std::string statsJson(const RenderReport& report);
 
-// Returns a text such as "error about 0.0047", or "error not estimated".
+// Returns a text such as "RMSE about 0.0047", or "RMSE not estimated".
 std::string errorText(const RenderStats& stats);
 
 // Returns a summary such as "1024x768, 64 samples in 1.52 s: 2.1 M triangles (full detail: 115.2 M), llvmpipe …". For a

@@ -12,7 +12,7 @@ std::string methodWithoutSamples(const SettingContext& context) {
 std::string methodWithoutPositions(const SettingContext& context) {
     if (context.method.drawsPositions) return {};
     if (!context.method.usesLensSamples) return methodWithoutSamples(context);
-    return fmt::format("method {} has one pixel position per lens sample", context.method.name);
+    return fmt::format("method {} draws one subpixel position per lens sample", context.method.name);
 }
 
 std::string methodWithoutShapes(const SettingContext& context) {
@@ -22,7 +22,8 @@ std::string methodWithoutShapes(const SettingContext& context) {
 
 std::string methodWithoutLensPoints(const SettingContext& context) {
     if (context.method.aperture == ApertureShown::all) return {};
-    return fmt::format("method {} cannot vary the lens across the image or by colour", context.method.name);
+    return fmt::format("method {} does not support blur that differs across the image or between colours",
+                       context.method.name);
 }
 
 std::string methodWithoutThreads(const SettingContext& context) {

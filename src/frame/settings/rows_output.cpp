@@ -178,10 +178,9 @@ Rows developerRows() {
                      "are subdivided")
             .unit("px")
             .unused(methodWithoutSamples),
-        rows::boolean(
-            "keepAll", "--keep-all", MEMBER(keepAll),
-            "Turn off two shortcuts: hidden parts are drawn, too (slower, same image), and all lens samples are drawn "
-            "even if no blur reaches half a pixel (changes the image slightly)")
+        rows::boolean("keepAll", "--keep-all", MEMBER(keepAll),
+                      "Turn off two shortcuts: hidden parts are drawn, too (slower, same image), and all lens samples "
+                      "are drawn even without visible blur, motion or shadows (changes the image slightly)")
             .effect(SettingEffect::run),
         rows::other(
             "memory", "--memory", "SIZE",

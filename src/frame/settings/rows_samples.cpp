@@ -48,11 +48,12 @@ Row presetRow() {
 }
 
 Row samplesRow() {
-    return rows::integer("samples", "--samples", 1, maxSamples, MEMBER(samples),
-                         fmt::format("Number of lens samples. Without visible blur, shadows and motion, at most {} are "
-                                     "drawn, unless --keep-all is given. auto: the number that --quality needs, at "
-                                     "most {}. With --target-error or --time-limit: the maximum number, {} by default",
-                                     antialiasingSamples, maxAutomaticSamples, maxSamples))
+    return rows::integer(
+               "samples", "--samples", 1, maxSamples, MEMBER(samples),
+               fmt::format("Number of lens samples. If the image has no visible blur, no motion and no shadows, at "
+                           "most {} are drawn, unless --keep-all is given. auto: the number that --quality needs, at "
+                           "most {}. With --target-error or --time-limit: the maximum number, {} by default",
+                           antialiasingSamples, maxAutomaticSamples, maxSamples))
         .metavar("N|auto")
         .choices({"auto"})
         .values(

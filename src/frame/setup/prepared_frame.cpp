@@ -358,7 +358,7 @@ std::vector<std::string> frameWarnings(const PreparedFrame& frame) {
     const Lens& lens = frame.view.lens;
     if (lens.dofEnabled && lens.focusDistance * 1000 <= lens.focalLength)
         lines.push_back(
-            fmt::format("the focus distance of {:g} m is within the focal length of {:g} mm, which no real lens "
+            fmt::format("the focus distance of {:g} m does not exceed the focal length of {:g} mm, which no real lens "
                         "allows; check --units",
                         lens.focusDistance, lens.focalLength));
     if (const Bounds& bounds = frame.world.pose.bounds; !bounds.empty()) {
@@ -371,7 +371,7 @@ std::vector<std::string> frameWarnings(const PreparedFrame& frame) {
                             farthest, largestScene, smallestScene));
     }
     if (const Pose& pose = frame.world.pose; pose.faintLights > 0)
-        lines.push_back(fmt::format("the scene has {} lights; the {} of the largest intensity are drawn",
+        lines.push_back(fmt::format("the scene has {} lights; only the {} brightest are used",
                                     pose.lights.size() + pose.faintLights, pose.lights.size()));
     if (!frame.cacheFailure.empty())
         lines.push_back(fmt::format("simplified meshes are not cached: {}", frame.cacheFailure));

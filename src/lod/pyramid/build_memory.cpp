@@ -71,8 +71,8 @@ void requireRoomToBuild(const Mesh& mesh, const PyramidOptions& options) {
     const std::uint64_t held = residentMemory();
     if (held + needed <= options.memoryLimit) return;
     fail(
-        "{} of memory are too little for mesh '{}': its {} triangles need up to {}, and the program already uses {}; "
-        "allow {}{}",
+        "{} of memory is too little for mesh '{}': its {} triangles need up to {}, and the program already uses {}; "
+        "allow {} with --memory{}",
         bytesText(options.memoryLimit), mesh.name, grouped(mesh.triangleCount()), bytesText(needed), bytesText(held),
         bytesText(held + needed), options.maxLevels > 1 ? ", or use --lod off, which needs less" : "");
 }

@@ -44,16 +44,16 @@ void checkShutter(const World& world, const View& view, const RenderSettings& se
     const std::size_t count = momentCount(world, view);
     if (count == 0) return;
     const std::size_t needed = world.shutter.perSample ? settings.sampleCount : 2;
-    if (count < needed) fail("the shutter has {} time sample(s), but needs at least {}", count, needed);
+    if (count < needed) fail("the shutter interval has {} time samples; at least {} are needed", count, needed);
     const bool camerasFit = view.shutterCameras.empty() || view.shutterCameras.size() == count;
     const bool posesFit = world.shutter.poses.empty() || world.shutter.poses.size() == count;
     if (!camerasFit || !posesFit)
-        fail("the shutter has {} poses of the scene, but {} poses of the camera", world.shutter.poses.size(),
-             view.shutterCameras.size());
+        fail("the shutter interval has {} poses of the scene, but {} poses of the camera; give the same number",
+             world.shutter.poses.size(), view.shutterCameras.size());
     for (const Pose& pose : world.shutter.poses)
         if (pose.objects.size() != world.pose.objects.size())
-            fail("the shutter has {} objects at one time sample, but {} at another", pose.objects.size(),
-                 world.pose.objects.size());
+            fail("the scene has {} objects at one time sample of the shutter interval, but {} at another",
+                 pose.objects.size(), world.pose.objects.size());
 }
 
 std::vector<ObjectPose> objectMotion(const World& world, const View& view, std::size_t object, const ObjectPose& pose) {

@@ -118,7 +118,8 @@ public:
         const bool wholeBlocks = sum_ && samples() == sampleTotal() && samples() % blockSamples == 0;
         if (!wholeBlocks || plan.view.width != plan_.view.width || plan.view.height != plan_.view.height)
             fail(
-                "samples can be added only after the current block of samples is complete, and at the same image size");
+                "samples can be added only if the current block of samples is complete and the image size has not "
+                "changed");
         clock_.beginSetup();
         waves_.stop();
         samplesBefore_ = samples();

@@ -46,8 +46,8 @@ public:
         clock_.beginSetup();
         if (plan.coc.chromatic > 0 && (plan.usesCocControls || plan.usesOwnBlur))
             fail(
-                "method layered: axial chromatic aberration cannot be combined with controls of the blur; leave one "
-                "out or choose accumulation");
+                "method layered: axial chromatic aberration cannot be combined with blur controls, such as "
+                "--foreground-limit or --node-blur; leave one out or choose accumulation");
         if (plan.usesLens && plan.coc.aberrates())
             fail("method layered: astigmatism and coma are not supported; leave them out or choose accumulation");
         const auto total = static_cast<std::uint32_t>(plan.samples.size());

@@ -36,10 +36,9 @@ std::uint32_t beginOf(const ObjectPlan& object, const LevelDraw& level, bool coa
 
 void checkDrawable(const FramePlan& plan, const World& world, const std::string& method) {
     if (plan.coc.chromatic > 0)
-        fail("method {}: axial chromatic aberration is not supported; leave it out or use --method accumulation",
-             method);
+        fail("method {}: axial chromatic aberration is not supported; leave it out or choose accumulation", method);
     if (plan.usesLens && plan.view.lens.catEye > 0)
-        fail("method {}: a cat's eye is not supported; leave it out or use --method accumulation", method);
+        fail("method {}: cat's-eye bokeh (--cat-eye) is not supported; leave it out or choose accumulation", method);
     if (!plan.moments.empty() && world.shutter.perSample)
         fail("method {}: exact motion is not supported; give a number of motion segments or choose accumulation",
              method);

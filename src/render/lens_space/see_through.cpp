@@ -67,8 +67,8 @@ std::uint64_t SeeThrough::resolve(LensFront& front, const RecordShading& shading
     if (tests_.empty() || count == 0) return searches;
     if (currentIsSoftware() && front.statistics().largestTile > std::uint64_t{softwareIterations} * entriesAtOnce)
         fail(
-            "a tile of the image has {} triangles, but behind cut-outs and blended surfaces this driver can search "
-            "only {}; choose a larger image, or method accumulation",
+            "a block of pixels has {} triangles, but with cut-out or blended surfaces this driver supports at most {} "
+            "per block; choose a larger image, whose blocks have fewer triangles, or choose accumulation",
             front.statistics().largestTile, std::uint64_t{softwareIterations} * entriesAtOnce);
     while (const std::uint32_t goOn = raysThatGoOn(front, shading, count, firstRay, searches == 0)) {
         searches += goOn;

@@ -80,7 +80,9 @@ public:
         if (!plan.moments.empty()) fail("method line: motion blur is not supported; choose stochastic or accumulation");
         imageSize_ = {plan.view.width, plan.view.height};
         if (plan.usesLens && plan.coc.aberrates())
-            fail("method line: astigmatism and coma bend the lines; leave them out or choose stochastic");
+            fail(
+                "method line: astigmatism and coma are not supported, because they bend the lines through the lens; "
+                "leave both out or choose stochastic");
         const LineSets lines = lineSets(plan, turned_, linesPerPosition_);
         bounds_.clear();
         for (std::uint32_t line = 0; line < rays.rays; ++line)
@@ -123,8 +125,8 @@ public:
             if (counters.records > RecordBuffer::maxRecords()) {
                 if (wave.count == 1)
                     fail(
-                        "method line: one line per pixel needs {} records, but this driver's limit is {} per buffer; "
-                        "choose a smaller image or a larger shading step",
+                        "method line: the image needs {} shaded points with one line per pixel, but a buffer of this "
+                        "driver holds at most {}; choose a smaller image or a larger --shading-step",
                         counters.records, RecordBuffer::maxRecords());
                 wave.count /= 2;
                 continue;

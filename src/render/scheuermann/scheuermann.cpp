@@ -59,8 +59,8 @@ public:
     void start(const FramePlan& plan, const FrameUniforms& frame) override {
         if (plan.usesCocControls && !thinLens_)
             fail(
-                "method scheuermann: coc=published ignores the controls of the blur; use coc=thin-lens or leave the "
-                "controls out");
+                "method scheuermann: coc=published ignores blur controls, such as --foreground-limit or --node-blur; "
+                "use coc=thin-lens or leave them out");
         const PlanesByHand byHand = planesByHand(plan.view);
         makeTextures(plan.view.width, plan.view.height);
         if (!blurriness_ || defines_ != frame.defines()) makePrograms(frame);
@@ -230,8 +230,8 @@ BlurrinessPlanes withPlanesByHand(const BlurrinessPlanes& planes, const PlanesBy
     if (byHand.cutoff > 0) result.cutoff = byHand.cutoff;
     if (!(result.near < result.focus && result.focus < result.far))
         fail(
-            "method scheuermann: full blur in front at {:g} m, focus at {:g} m and full blur behind at {:g} m must "
-            "increase in this order",
+            "method scheuermann: the distances of full blur in front ({:g} m), focus ({:g} m) and full blur behind "
+            "({:g} m) must increase in this order",
             result.near, result.focus, result.far);
     return result;
 }

@@ -68,7 +68,7 @@ std::string settingsDifference(const Metadata& first, const Metadata& second) {
         const std::string_view setting = std::string_view(name).substr(prefix.size());
         const std::string one = valueText(value), two = valueText(other->second);
         if (one == two || named == maxNamed || std::ranges::find(ignored, setting) != std::end(ignored)) continue;
-        text += fmt::format("{}{} is {} and {}", named++ == 0 ? "" : ", ", setting, one, two);
+        text += fmt::format("{}{} differs ({} and {})", named++ == 0 ? "" : ", ", setting, one, two);
     }
     return named == 0 ? "their settings differ" : text;
 }

@@ -61,8 +61,8 @@ std::optional<int> commonCount(const std::vector<RowFile>& tiles) {
         for (int i = 0; i < *count; ++i)
             if (const RowRange rows = rowsOfPart(height, i, *count);
                 rows.first <= missing.first && missing.first < rows.end)
-                fail("tile {}/{} of the frame is missing: {} of {} (--tile {}/{})", i, *count, rowsText(rows), height,
-                     i, *count);
+                fail("a tile of the frame is missing: {} of {}; render it with --tile {}/{}", rowsText(rows), height, i,
+                     *count);
     fail("{} of the frame's {} rows are missing", rowsText(missing), height);
 }
 

@@ -144,7 +144,7 @@ public:
 
     void check() const {
         if (prim().specifier != "def")
-            fail("{}: the camera is only {} '{}', without a definition{}", where_,
+            fail("{}: the camera is declared only as {} '{}'; the file has no 'def' of it{}", where_,
                  prim().specifier == "over" ? "an" : "a", prim().specifier, arcsAdvice(*layer_));
         if (const std::string projection = usdText(prim(), "projection");
             !projection.empty() && projection != "perspective")
@@ -168,8 +168,8 @@ public:
             lines.push_back(fmt::format("{}: clippingPlanes are ignored", where_));
         if (tenthMillimetres_)
             lines.push_back(
-                fmt::format("{}: by USD's rule the sensor would be {:.3g} m wide; the lens lengths are read "
-                            "as millimetres instead",
+                fmt::format("{}: in USD's unit, a tenth of a scene unit, the sensor would be {:.3g} m wide; focal "
+                            "length and apertures are read as millimetres instead",
                             where_, number("horizontalAperture", 0, 20.955) * stage_.metresPerUnit / 10));
         if (number("fStop", 0, 0) == 0)
             lines.push_back(fmt::format(

@@ -58,7 +58,7 @@ TextureUse textureUse(Source& source, const nlohmann::json& owner, const char* n
         uvSet = transform->value("texCoord", uvSet);
     }
     if (uvSet > 1) {
-        ignore(source, fmt::format("texture with texture coordinates {}", uvSet), "only sets 0 and 1 are used");
+        ignore(source, fmt::format("texture with texture coordinate set {}", uvSet), "only sets 0 and 1 are used");
         return use;
     }
     if (source.model.textures[static_cast<std::size_t>(texture)].source < 0) {

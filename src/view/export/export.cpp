@@ -39,7 +39,8 @@ std::string writeShot(const Document& document, ViewState& state) {
     writeFile(state.shotPath, shotJson({state.options, frame.cameraLens, state.shotKeys, state.animationSpeed,
                                         writeOptions(state), frame.scene->metresPerUnit}));
     std::string command = captureCommand(state.shotPath, state.options);
-    say(state, fmt::format("{} is written. Render it with this command (copied): {}", state.shotPath, command));
+    say(state, fmt::format("{} is written. Render it with this command, which is on the clipboard: {}", state.shotPath,
+                           command));
     return command;
 }
 

@@ -128,7 +128,7 @@ std::string samplesLabel(const ViewPicture& picture) {
     std::string text =
         fmt::format("{} {}{}", samples, samples == 1 ? "sample" : "samples", picture.finished() ? " ✓" : "");
     if (const std::optional<double> error = picture.estimatedError())
-        text += fmt::format("{} error about {:.2g}", picture.converged() ? " converged," : ",", *error);
+        text += fmt::format("{} RMSE about {:.2g}", picture.converged() ? " converged," : ",", *error);
     return text;
 }
 

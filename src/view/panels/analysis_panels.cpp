@@ -69,7 +69,7 @@ void performancePanel(const Ui& ui) {
     rowLabel("Frame budget", "Target time of a frame while the view changes; resolution and samples are adapted to it");
     slider("##budget", state.budget.milliseconds, 4, 250, "%.0f ms");
     const FrameQuality& quality = state.budget.quality();
-    textRow("While moving", fmt::format("{} at {:.0f} % size",
+    textRow("While moving", fmt::format("{} at {:.0f} % resolution",
                                         quality.samples == 1 ? "no blur" : fmt::format("{} samples", quality.samples),
                                         100 * quality.resolution));
     rowLabel("Max samples", "Maximum number of samples while the view does not change");

@@ -147,7 +147,8 @@ void materialRows(const Material& material) {
         valueRow("Anisotropy", fmt::format("{:.3g}", material.anisotropyStrength), &material.anisotropy);
     if (material.isIridescent())
         valueRow("Thin film",
-                 fmt::format("{:.3g}, up to {:g} nm", material.iridescenceFactor, material.iridescenceThicknessMaximum),
+                 fmt::format("{:.3g}, up to {:g} nm thick", material.iridescenceFactor,
+                             material.iridescenceThicknessMaximum),
                  &material.iridescence);
     if (material.transmitsDiffusely())
         valueRow("Diffuse transmission", fmt::format("{:.3g}", material.diffuseTransmissionFactor),

@@ -119,7 +119,7 @@ TEST_F(Merge, whatDoesNotFitTogetherIsRefused) {
     refused({"a.exr", "c.exr"}, "samples 64:128 of 150 are missing; the next part is c.exr");
     refused({"b.exr", "c.exr"}, "samples 0:64");
     refused({"a.exr", "b.exr"}, "samples 128:150 are missing");
-    refused({"a.exr", "b.exr", "other.exr"}, "different frames: seed is 0 and 1");
+    refused({"a.exr", "b.exr", "other.exr"}, "different frames: seed differs (0 and 1)");
     refused({"a.exr", "whole.exr"}, "whole.exr: not an EXR file with layers");
     refused({"quads.gltf"}, "quads.gltf");
     expectOneLine(part("32:64", "x.exr"), 2);

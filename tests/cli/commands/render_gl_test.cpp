@@ -110,7 +110,7 @@ TEST_F(Render, targetErrorSaysWhatBecameOfIt) {
     Metadata metadata;
 
     std::string line = rendered({"--target-error", "0.2"});
-    EXPECT_NE(line.find("128 samples (error about 0.0"), std::string::npos) << line;
+    EXPECT_NE(line.find("128 samples (RMSE about 0.0"), std::string::npos) << line;
     EXPECT_NE(line.find("the estimated error is below the target)"), std::string::npos) << line;
     readImage(folder() / "a.exr", metadata);
     EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), 128);
@@ -121,11 +121,11 @@ TEST_F(Render, targetErrorSaysWhatBecameOfIt) {
     EXPECT_EQ(facts().at("samples"), 128);
 
     line = rendered({"--target-error", "1e-6", "--samples", "200"});
-    EXPECT_NE(line.find("200 samples (error about"), std::string::npos) << line;
+    EXPECT_NE(line.find("200 samples (RMSE about"), std::string::npos) << line;
     EXPECT_EQ(facts().at("stopped"), "all requested samples are drawn");
 
     line = rendered({"--time-limit", "0.001"});
-    EXPECT_NE(line.find("64 samples (error not estimated; the time limit is reached)"), std::string::npos) << line;
+    EXPECT_NE(line.find("64 samples (RMSE not estimated; the time limit is reached)"), std::string::npos) << line;
     EXPECT_TRUE(facts().at("estimatedError").is_null());
 
     line = rendered({"--samples", "64"});

@@ -8,7 +8,7 @@ namespace defocus::engine {
 namespace {
 
 TEST(ProgressLine, fitsEveryTerminal) {
-    for (const std::string stage : {"samples", "frame 1234, 3400 ms and 18.20 M triangles each"})
+    for (const std::string stage : {"samples", "frame 1234, 3400 ms and 18.20 M triangles per frame"})
         for (int columns = 1; columns < 240; ++columns)
             for (const double share : {0.0, 0.004, 0.5, 1.0})
                 EXPECT_LT(static_cast<int>(progressLine(stage, share, 3599, columns).size()), std::max(columns, 2))

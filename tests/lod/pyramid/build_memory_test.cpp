@@ -86,7 +86,7 @@ TEST(BuildMemory, tooLowALimitIsRefusedWithTheMinimum) {
         for (const char* part : {"mesh 'Globe'", "57,120 triangles", "allow ", "--lod off"})
             EXPECT_NE(text.find(part), std::string::npos) << text;
         const std::size_t begin = text.find("allow ") + 6;
-        options.memoryLimit = parseBytes(text.substr(begin, text.find(", or use") - begin)) + (4u << 20);
+        options.memoryLimit = parseBytes(text.substr(begin, text.find(" with --memory") - begin)) + (4u << 20);
         EXPECT_NO_THROW(static_cast<void>(buildPyramid(mesh, options)));
     }
 }

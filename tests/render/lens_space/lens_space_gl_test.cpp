@@ -117,7 +117,7 @@ TEST_P(LensSpace, refusesByName) {
     expectRefusal(GetParam(), *coloured, "axial chromatic aberration");
     const auto barrel = twoSpheres();
     barrel->view.lens.catEye = 0.5;
-    expectRefusal(GetParam(), *barrel, "cat's eye");
+    expectRefusal(GetParam(), *barrel, "cat's-eye bokeh");
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, LensSpace, testing::Values("stochastic", "line"));
