@@ -18,8 +18,8 @@ METHODS = choices(("auto", "Automatic", "Multirate where a visible part of the i
                   ("accumulation", "Accumulation", "Mean of one image for each lens sample"),
                   ("multirate", "Multirate", "Each lens sample stands for a part of the lens; needs fewer samples for wide blurs"),
                   ("layered", "Layered", "Lens rays through the depth layers of one pinhole image"),
-                  ("circular", "Circular", "Separable circular kernels over one pinhole image"),
-                  ("scheuermann", "Scheuermann", "Poisson disk over one pinhole image"),
+                  ("circular", "Circular", "Blur of one pinhole image with separable circular kernels"),
+                  ("scheuermann", "Scheuermann", "Blur of one pinhole image with the samples of a Poisson disk"),
                   ("stochastic", "Stochastic", "Stochastic lens samples for each pixel"),
                   ("line", "Line", "Line samples on the lens"))
 LEVELS = choices(("auto", "Automatic", "Full detail if building the levels of a still image takes longer than they save, else fractional"),
@@ -31,10 +31,10 @@ POSITIONS = choices(("start", "Start on Frame", "The shutter opens at the frame"
                     ("centre", "Center on Frame", "The shutter is half open at the frame"),
                     ("end", "End on Frame", "The shutter closes at the frame"))
 PRESETS = choices(("none", "None", "No preset"),
-                  ("jeong2011", "Jeong 2011", "Accumulation with levels of detail by size"),
+                  ("jeong2011", "Jeong 2011", "Accumulation with levels of detail by the ratio of blur to object size"),
                   ("tzeng2012", "Tzeng 2012", "Line samples with a buffer of fixed size"),
-                  ("scheuermann2004", "Scheuermann 2004", "Poisson disk over one pinhole image"),
-                  ("garcia2018", "Garcia 2018", "Separable circular kernels over one pinhole image"),
+                  ("scheuermann2004", "Scheuermann 2004", "Blur of one pinhole image with the samples of a Poisson disk"),
+                  ("garcia2018", "Garcia 2018", "Blur of one pinhole image with separable circular kernels"),
                   ("lee2010", "Lee 2010", "Lens rays through the depth layers of one pinhole image"),
                   ("munkberg2012", "Munkberg 2012", "Stochastic lens samples for each pixel"))
 

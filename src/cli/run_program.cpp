@@ -48,7 +48,7 @@ void addGlobalOptions(CLI::App& program, GlobalOptions& global) {
     program.add_flag("--quiet", global.quiet, "Print errors only, without progress, warnings and summary");
     program.add_flag(
         "--verbose", global.verbose,
-        "Also print details: use of the cache, parts of the drawing that are left out, and the time of each step");
+        "Also print details: the device, use of the cache, what is left out of the drawing and why, and times");
     advanced(program
                  .add_option("--shader-dir", global.shaderDir,
                              "Folder from which to read the shaders instead of the built-in ones, for live editing")

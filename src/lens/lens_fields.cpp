@@ -42,8 +42,8 @@ const LensField fields[] = {
     {"exposureTime", "--exposure-time", LensSection::lens, "S", 0, 1e6, &Lens::exposureTime,
      &LensSettings::exposureTime,
      "Exposure time in seconds for PNG, JPEG and video, such as 0.008 or 1/125. With --fstop and --iso, it sets the "
-     "brightness as on a camera; radiance is read as cd/m2. Does not blur motion (see --shutter). 0: not used (see "
-     "--exposure). Default: from the camera, else 0",
+     "brightness as on a camera; a radiance of 1 counts as a luminance of 1 cd/m2. Does not blur motion (see "
+     "--shutter). 0: --exposure sets the brightness. Default: from the camera, else 0",
      "0.02", LensFeature::exposure},
     {"iso", "--iso", LensSection::lens, "N", 1, 1e7, &Lens::iso, &LensSettings::iso,
      "ISO sensitivity, used with --exposure-time. Default: from the camera, else 100", "400", LensFeature::exposure},
@@ -72,8 +72,8 @@ const LensField fields[] = {
      "0.3", LensFeature::shape},
     {"sphericalAberration", "--spherical-aberration", LensSection::aperture, "R", -1, 1, &Lens::sphericalAberration,
      &LensSettings::sphericalAberration,
-     "Spherical aberration: above 0, blurred points are brighter at the rim (soap bubbles); below 0, in the middle "
-     "(creamy). Default: from the camera, else 0",
+     "Strength of the spherical aberration. Above 0, blurred points are brighter at the rim, like soap bubbles; below "
+     "0, they are brighter in the middle, with soft rims. Default: from the camera, else 0",
      "0.5", LensFeature::shape},
     {"catEye", "--cat-eye", LensSection::aperture, "R", 0, 1, &Lens::catEye, &LensSettings::catEye,
      "Cat's-eye bokeh: fraction of the aperture's radius that the lens barrel cuts off in the corners of the image; 0: "
@@ -87,8 +87,8 @@ const LensField fields[] = {
     {"astigmatism", "--astigmatism", LensSection::aperture, "MM", -100, 100, &Lens::astigmatism,
      &LensSettings::astigmatism,
      "Astigmatism: length, in mm on the sensor, of the radial streak that a point in focus becomes at the left and "
-     "right edges. At one other depth, points become tangential streaks: in front of the focus plane for a positive "
-     "length, behind it for a negative one. Default: from the camera, else 0",
+     "right edges. For a positive value, points at a certain depth in front of the focus plane become tangential "
+     "streaks; for a negative value, points at a certain depth behind it. Default: from the camera, else 0",
      "0.2", LensFeature::lensPoint},
     {"coma", "--coma", LensSection::aperture, "MM", -100, 100, &Lens::coma, &LensSettings::coma,
      "Coma: length of the tail, in mm on the sensor, that a point gets at the left and right edges. Above 0, the tail "
@@ -96,10 +96,10 @@ const LensField fields[] = {
      "0.2", LensFeature::lensPoint},
     {"foregroundLimit", "--foreground-limit", LensSection::lens, "PX", 0, 1e6, &Lens::foregroundLimit,
      &LensSettings::foregroundLimit,
-     "Maximum blur in front of the focus plane, in px. Default: from the camera, else unlimited", "20"},
+     "Maximum blur diameter in front of the focus plane, in px. Default: from the camera, else unlimited", "20"},
     {"backgroundLimit", "--background-limit", LensSection::lens, "PX", 0, 1e6, &Lens::backgroundLimit,
      &LensSettings::backgroundLimit,
-     "Maximum blur behind the focus plane, in px. Default: from the camera, else unlimited", "40"},
+     "Maximum blur diameter behind the focus plane, in px. Default: from the camera, else unlimited", "40"},
     {"focusRangeFront", "--focus-range-front", LensSection::focus, "M", 0, 1e12, &Lens::focusRangeFront,
      &LensSettings::focusRangeFront,
      "Length in m of the range in front of the focus distance in which everything stays sharp. Default: from the "
@@ -112,8 +112,9 @@ const LensField fields[] = {
      "1"},
     {"focusRangeRefocuses", "--focus-range-refocuses", LensSection::focus, "", 0, 1, &Lens::focusRangeRefocuses,
      &LensSettings::focusRangeRefocuses,
-     "Behind the sharp range (--focus-range-behind), blur as if the lens were focused at the range's far end. Without "
-     "this option, the blur at infinity is the same as without a sharp range. Default: from the camera, else off",
+     "Blur everything behind the sharp range (--focus-range-behind) as if the lens were focused at the range's far "
+     "end. "
+     "If off, the blur at infinity is the same as without a sharp range. Default: from the camera, else off",
      "true"},
     {"focusTilt", "--focus-tilt", LensSection::focus, "DEG", -89.9, 89.9, &Lens::focusTilt, &LensSettings::focusTilt,
      "Tilt of the focus plane about the horizontal axis, in degrees; above 0, its top is nearer. Default: from the "

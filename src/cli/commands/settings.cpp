@@ -105,15 +105,16 @@ std::string markdown() {
         "# Settings\n\n"
         "All settings of an image. `defocus settings --markdown` prints this page from the table that the\n"
         "program uses (`src/frame/settings/rows.cpp`).\n\n"
-        "- **Option**: the option of `render`, `capture`, `view`, `plan` and the benches.\n"
+        "- **Option**: the option of `render`, `capture`, `view`, `plan` and `bench`.\n"
         "- **Python**: the keyword of `defocus.render` and related functions. `defocus::Request` in C++ has the same "
         "names.\n"
-        "- **Shot**: the JSON pointer of the setting in a shot file, and whether it can have keyframes. The extras of\n"
-        "  a camera in a glTF file can set lens values by the last part of this pointer.\n"
-        "- **Range**: lengths in mm or m also accept a suffix mm, cm or m, such as 50cm. A boolean option needs no "
-        "value: `--dof`\n"
-        "  is `--dof true`, and `--no-dof` is `--dof false`.\n"
-        "- **Default**: empty if the scene, its camera or the number of samples decides.\n";
+        "- **Shot**: the JSON pointer of the setting in a shot file ([shots](shots.md)). *keyframes* marks settings\n"
+        "  that can be animated. The extras of a glTF camera can hold lens values, too, under the last part of this\n"
+        "  pointer, such as `fStop`.\n"
+        "- **Range**: the permitted values. Lengths in mm or m also accept a suffix mm, cm or m, such as 50cm. A\n"
+        "  boolean option needs no value: `--dof` is `--dof true`, and `--no-dof` is `--dof false`. The opposite of\n"
+        "  `--no-cache` is `--cache`.\n"
+        "- **Default**: empty if there is no fixed default. The meaning then says what decides, if anything does.\n";
     SettingGroup group = SettingGroup::developer;
     bool first = true;
     for (const Setting& setting : settings()) {
@@ -131,6 +132,8 @@ std::string markdown() {
     page +=
         "\n"
         "## Settings of methods\n\n"
+        "Each setting is an option of `render`, `capture` and `view` (`--method scheuermann --coc thin-lens`). It can\n"
+        "also follow the name of the method (`--method scheuermann:coc=thin-lens`).\n\n"
         "| method | option | range | default | meaning |\n"
         "| --- | --- | --- | --- | --- |\n";
     for (const Method& method : methods())

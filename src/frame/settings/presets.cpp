@@ -14,7 +14,7 @@ std::span<const Preset> presets() {
         // Jeong, Kim and Lee 2011 give no constant of proportionality for their rule "level ∝ blur / object size". The
         // constant, blurThreshold, is this program's choice (proportionalLevels in level_selection.h).
         {"jeong2011",
-         "accumulation with levels of detail by size (Jeong et al. 2011)",
+         "accumulation with levels of detail by the ratio of blur to object size (Jeong et al. 2011)",
          {{"method", "accumulation"},
           {"sequence", "halton"},
           {"lod", "fractional"},
@@ -36,10 +36,10 @@ std::span<const Preset> presets() {
           {"lodCoc", "smallest"},
           {"levelVertices", "quarters"}}},
         {"scheuermann2004",
-         "Poisson disk over one pinhole image (Scheuermann 2004)",
+         "blur of one pinhole image with the samples of a Poisson disk (Scheuermann 2004)",
          {{"method", "scheuermann:bits=8,multisampling=4,pinholes=1"}, {"lod", "off"}}},
         {"garcia2018",
-         "separable circular kernels over one pinhole image (Garcia 2018)",
+         "blur of one pinhole image with separable circular kernels (Garcia 2018)",
          {{"method",
            "circular:near-components=1,resolution=quarter,kernel=published,max-coc=published,kernel-taps=eight,"
            "storage=r10g10b10a2,transparency-buckets=0,pinholes=1"},

@@ -201,8 +201,8 @@ Rows focusRows() {
             .excludes({"focusDistance", "focusNode"})
             .unused(withoutBlur),
         rows::other("focusPoints", "--focus-points", "X,Y,X,Y,X,Y", setFocusPoints, focusPointsText,
-                    "Tilt the focus plane so that it passes through the surfaces at three pixels. With 4 to 16 pixels, "
-                    "fit a curved focus surface that minimizes the sum of their squared blur")
+                    "Tilt the focus plane so that it passes through the surfaces at three pixels. With 4 to 16 "
+                    "pixels, fit a curved focus surface that minimizes the sum of the squared blur at these pixels")
             .clears(clearFocus<FocusPoints>)
             .excludes({"focusDistance", "focusNode", "focusPixel"})
             .unused(withoutBlur),
@@ -225,8 +225,8 @@ Rows lensRows() {
     }
     rows.push_back(rows::words(SettingKind::path, "apertureImage", "--aperture-image", "FILE",
                                MEMBER(lens.apertureImage),
-                               "Image of the aperture; bright pixels transmit light. Its longer side is as long as the "
-                               "aperture's diameter. Replaces --blades and --obstruction")
+                               "Image of the aperture; bright pixels transmit light. The longer side of the image "
+                               "spans the aperture's diameter. Replaces --blades and --obstruction")
                        .unused(unusedLensField(LensFeature::shape)));
     rows.push_back(rows::other("nodeBlur", "--node-blur", "NAME=SCALE", addNodeBlur, nodeBlurText,
                                "Scale the blur of a node, given by name or number, and of its children; 0 keeps them "

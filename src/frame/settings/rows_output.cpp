@@ -83,7 +83,9 @@ Rows methodRows() {
     for (const Method& method : methods()) names.push_back(method.name);
     return {
         rows::other("method", "--method", "NAME", setMethod, methodText,
-                    fmt::format("Rendering method: {}. NAME:SETTING=VALUE,… also sets the method's settings",
+                    fmt::format("Rendering method: {}. auto: multirate if a visible part of the image has a wide "
+                                "blur, else accumulation. NAME:SETTING=VALUE,… also sets the method's settings. "
+                                "docs/methods.md explains the methods",
                                 fmt::join(names, ", ")))
             .clears(clearMethod)
             .everyday()
@@ -93,8 +95,9 @@ Rows methodRows() {
                                    {"rgba16f", LayerFormat::rgba16f},
                                    {"rgba32f", LayerFormat::rgba32f}},
                                   MEMBER(layerFormat),
-                                  "Pixel format of the image rendered for each lens sample, before accumulation; use "
-                                  "rgba32f for reference images")
+                                  "Pixel format of the image rendered for each lens sample, before accumulation. "
+                                  "automatic: rgba32f if the radiance may exceed the range of rgba16f, else rgba16f. "
+                                  "Use rgba32f for reference images")
             .inShot("/layerFormat"),
     };
 }
@@ -104,8 +107,9 @@ Rows displayRows() {
         rows::other(
             "exrLayers", "--exr-layers", "LAYER,…", setLayers, layersText,
             "Data layers to add to .exr files: depth (mean and nearest, in m), position, normal, albedo, emission, "
-            "motion (in px while the shutter is open), coc (in px), the Cryptomattes objects and materials, or all. "
-            "They have the same lens blur as the image and are premultiplied by the coverage")
+            "motion (in px, from the shutter's opening to its closing), coc (in px), objects and materials "
+            "(Cryptomatte). all: all of these. The layers have the lens blur of the image and are premultiplied by "
+            "the coverage of the surfaces")
             .clears(MEMBER(layers))
             .example("depth,normal,albedo"),
         rows::choice<ExrNames>("exrNames", "--exr-names", {{"nuke", ExrNames::nuke}, {"blender", ExrNames::blender}},
@@ -122,8 +126,8 @@ Rows displayRows() {
             .effect(SettingEffect::display)
             .inShot("/toneMap"),
         Row(SettingKind::number, "exposure", "--exposure", "EV|auto",
-            "Exposure in EV for PNG, JPEG and video. auto: meter the scene once. Default: from --exposure-time if "
-            "given, else auto for scenes with lights, else 0")
+            "Exposure in EV for PNG, JPEG and video. auto: metered from the scene, for a film once in its first "
+            "frame. Default: from --exposure-time if given, else auto for scenes with lights, else 0")
             .range(-60, 60)
             .choices({"auto"})
             .clears(MEMBER(exposure))
@@ -148,11 +152,12 @@ Rows developerRows() {
              {"proportional", LodMetric::proportional},
              {"score", LodMetric::score}},
             MEMBER(lodMetric),
-            "Rule that chooses the levels of detail. measured: by the measured error of the blurred shading (most "
-            "accurate). size: by the length of triangle edges in the image. error: by how far, in px, the simplified "
-            "surface lies from the full mesh in the image. proportional: by the ratio of blur to the size of the "
-            "object's bounding box (Jeong et al. 2011). score: by the ratio of blur to edge length (Tzeng et al. "
-            "2012). automatic: size if --blur-threshold or --size-threshold is given, else measured")
+            "Rule that chooses the levels of detail. measured: by the error that remains after the blur, measured "
+            "when the levels are built (most accurate). size: by the length of triangle edges in the image. error: by "
+            "the distance in the image, in px, between the simplified surface and the full mesh. proportional: by the "
+            "ratio of blur to the size of the object's bounding box (Jeong et al. 2011). score: by the ratio of blur "
+            "to edge length (Tzeng et al. 2012). automatic: size if --blur-threshold or --size-threshold is given, "
+            "else measured")
             .inShot("/lodMetric")
             .unused(withoutLevels),
         rows::choice<LevelVertices>(
@@ -161,15 +166,15 @@ Rows developerRows() {
              {"surviving", LevelVertices::surviving},
              {"quarters", LevelVertices::quarters}},
             MEMBER(levelVertices),
-            "Vertices of the simplified levels. fitted: moved to match the original surface best. surviving: a subset "
-            "of the original vertices. quarters: as surviving, but only three levels, with 100, 75 and 50 % of the "
-            "vertices")
+            "How the vertices of a level of detail are made. fitted: moved to match the original surface best. "
+            "surviving: a subset of the original vertices, unchanged. quarters: like surviving, but with only three "
+            "levels: the full mesh, and 75 and 50 % of its vertices")
             .inShot("/levelVertices")
             .unused(withoutLevels),
         rows::choice<LodCoc>("lodCoc", "--lod-coc", {{"smallest", LodCoc::smallest}, {"centre", LodCoc::centre}},
                              MEMBER(lodCoc),
-                             "Blur that decides an object's level: the smallest within its bounding box (safe), or the "
-                             "blur at the box's centre (coarser and faster)")
+                             "Blur that decides an object's level: the smallest within its bounding box "
+                             "(conservative), or the blur at the box's centre (coarser and faster)")
             .unused([](const SettingContext& context) {
                 return firstOf(context, {methodWithoutSamples, withoutLevels, withMeasuredLevels});
             }),
@@ -179,8 +184,9 @@ Rows developerRows() {
             .unit("px")
             .unused(methodWithoutSamples),
         rows::boolean("keepAll", "--keep-all", MEMBER(keepAll),
-                      "Turn off two shortcuts: hidden parts are drawn, too (slower, same image), and all lens samples "
-                      "are drawn even without visible blur, motion or shadows (changes the image slightly)")
+                      "Turn off two shortcuts. Objects and triangles that no lens sample sees are drawn, too (slower, "
+                      "same image). All lens samples are drawn even without visible blur, motion or shadows (changes "
+                      "the image slightly)")
             .effect(SettingEffect::run),
         rows::other(
             "memory", "--memory", "SIZE",
@@ -189,16 +195,15 @@ Rows developerRows() {
                 if (!request.memory) return std::nullopt;
                 return fmt::format("{}B", *request.memory);
             },
-            "Maximum memory that the program may use, such as 2GiB. With less memory it draws fewer samples at once, "
-            "or "
-            "the image in tiles; the result is the same. With this option, --method auto chooses accumulation, because "
-            "multirate cannot draw tiles. Default: three quarters of the free memory")
+            "Maximum memory that the program may use, such as 2GiB. With less memory, it draws fewer samples at once, "
+            "or the image in tiles; neither changes the image if --samples is given. However, --memory makes --method "
+            "auto choose accumulation, because multirate cannot draw tiles. Default: three quarters of the free memory")
             .clears(MEMBER(memory))
             .effect(SettingEffect::run),
         rows::integer(
             "wave", "--wave", 1, 64, MEMBER(wave),
-            "Maximum number of samples drawn at once; does not affect the image. Default: as many as fit into "
-            "memory, at most 16 for each thread")
+            "Maximum number of samples that all threads together draw at once; does not affect the image. Default: as "
+            "many as fit into memory, at most 16 for each thread")
             .effect(SettingEffect::run),
         rows::integer(
             "threads", "--threads", 1, 64, MEMBER(threads),

@@ -70,8 +70,8 @@ Row samplesRow() {
 Row positionsRow() {
     return rows::integer("positions", "--positions", 1, 4, MEMBER(positions),
                          "Number of positions in each pixel at which a lens sample draws the scene: 1, or 4 in a grid "
-                         "of 2 x 2, which smooths edges like 2 to 4 times as many samples. auto: 4 for still images of "
-                         "many triangles and little blur if --samples and --method are auto, else 1")
+                         "of 2 x 2, which smooths edges as well as 2 to 4 times as many samples would. auto: 4 for "
+                         "still images of many triangles and little blur if --samples and --method are auto, else 1")
         .metavar("1|4|auto")
         .choices({"auto"})
         .values(
@@ -113,13 +113,14 @@ Rows sampleRows() {
                 return firstOf(context, {methodWithoutSamples, withFixedSamples});
             }),
         rows::number("targetError", "--target-error", "R", 1e-6, 1, MEMBER(targetError),
-                     "Add blocks of 64 samples until the estimated error is below this value: the RMSE of "
-                     "display-encoded values from 0 to 1 at EV 0")
+                     "Add blocks of 64 samples until the estimated error is below this value. The error is the RMSE "
+                     "of the display-encoded image (values from 0 to 1, exposure 0 EV)")
             .example("0.003")
             .inShot("/targetError"),
         rows::number("timeLimit", "--time-limit", "S", 1e-3, 1e6, MEMBER(timeLimit),
-                     "Add blocks of 64 samples for this time, or until --target-error is reached. The time to load the "
-                     "scene does not count. With capture: start no further frame after this time")
+                     "Add blocks of 64 samples for this time, or until --target-error is reached. The time to load "
+                     "the scene does not count. With capture, the limit is for the whole film: no further frame is "
+                     "started after this time")
             .unit("s")
             .effect(SettingEffect::run)
             .recorded(),
@@ -142,33 +143,34 @@ Rows sampleRows() {
             "take more time than they save")
             .inShot("/lod"),
         rows::number("blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(blurThreshold),
-                     "How much blurred objects are simplified; larger values are coarser and faster. With --lod-metric "
-                     "size or score: permitted length of triangle edges, in px per px of blur. With error: permitted "
-                     "error, in px per px of blur. With proportional: number of the level of an object whose blur is "
-                     "as large as its bounding box. Default: 10 for proportional, else depends on the number of "
-                     "samples")
+                     "How much blurred objects are simplified; larger values are coarser and faster. Selects "
+                     "--lod-metric size unless another metric is given; measured ignores it. With size or score: "
+                     "permitted length of triangle edges, as a multiple of the blur diameter. With error: permitted "
+                     "error, as a multiple of the blur diameter. With proportional: the level that an object gets "
+                     "when its blur is as large as its bounding box. Default: 10 for proportional, else depends on "
+                     "the number of samples")
             .example("0.2")
             .inShot("/blurThreshold")
             .unused(withoutLevels),
         rows::number(
             "sizeThreshold", "--size-threshold", "K", 0, 1e6, MEMBER(sizeThreshold),
             "Permitted length of triangle edges (--lod-metric size) or permitted error (--lod-metric error), in px, "
-            "where nothing is blurred. Default: depends on the number of samples")
+            "for objects without blur. Default: depends on the number of samples")
             .unit("px")
             .example("1")
             .inShot("/sizeThreshold")
             .unused(withoutLevels),
         rows::number(
             "lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(lightThreshold),
-            "With --lod-metric measured: how much error simplified levels may have; larger values are coarser and "
-            "faster. Limits the product of a level's edge length in the image, in px, and the relative error of its "
-            "blurred shading (docs/reference.md). Default: depends on the number of samples")
+            "With --lod-metric measured: maximum error of a level of detail, times its edge length in the image in "
+            "px; larger values are coarser and faster. The error is relative to the variation of the light within a "
+            "blurred patch (docs/reference.md has the formula). Default: depends on the number of samples")
             .unit("px")
             .example("0.1")
             .inShot("/lightThreshold")
             .unused(withoutLevels),
         rows::words(SettingKind::path, "cacheFolder", "--cache-dir", "FOLDER", MEMBER(cacheFolder),
-                    "Folder of the cache of simplified meshes. Default: $XDG_CACHE_HOME/defocus, else ~/.cache/defocus")
+                    "Folder for cached simplified meshes. Default: $XDG_CACHE_HOME/defocus, else ~/.cache/defocus")
             .effect(SettingEffect::run),
         rows::boolean("noCache", "--no-cache", MEMBER(noCache), "Neither read nor write the cache of simplified meshes")
             .excludes({"cacheFolder"})

@@ -92,9 +92,9 @@ std::optional<std::string> sizeText(const Request& request) {
 
 Row unitsRow() {
     return Row(SettingKind::number, "units", "--units", "m|cm|mm|METRES|auto",
-               "Length of one unit of the scene: m, cm, mm or a number of metres. auto: the unit stored in the "
-               "file's extras; without it, 1 m if the camera has a physical lens or an option sets a distance or a "
-               "position, else an estimate from the scene's size")
+               "Length of one unit of the scene: m, cm, mm or a number of metres. auto: the unit stored in the file's "
+               "extras. Without it, 1 m if the camera has a focal length or a focus distance, if --camera-from is "
+               "given, or if an option gives a distance or a position in m; else an estimate from the scene's size")
         .range(1e-9, 1e9)
         .choices({"auto", "m", "cm", "mm"})
         .clears(MEMBER(units))
@@ -188,7 +188,8 @@ Rows sceneRows() {
             .inShot("/fish/triangles"),
         unitsRow().inShot("/units"),
         rows::number("time", "--time", "S", -1e9, 1e9, MEMBER(time),
-                     "Time in the animation in seconds. Outside its range, the animation holds its first or last frame")
+                     "Time in the animation in seconds. Outside the animation's time range, its first or last frame "
+                     "is held, unless --loop is given")
             .unit("s")
             .inShot("/animation/start")
             .unused(withoutAnimation),
@@ -219,7 +220,8 @@ Rows sceneRows() {
         rows::words(SettingKind::path, "environment", "--environment", "studio|overcast|sunset|FILE",
                     MEMBER(environment),
                     "Environment map: studio, overcast, sunset, or an equirectangular .hdr or .exr file. Replaces the "
-                    "default lights; lights in the file are kept")
+                    "default lights, but keeps the lights of the glTF file. Default: the environment of the glTF "
+                    "file, else a soft sky")
             .everyday()
             .example("studio")
             .inShot("/environment"),
@@ -257,8 +259,8 @@ Rows sceneRows() {
             .inShot("/lightAngle")
             .unused(withoutShadows),
         rows::number("lightRadius", "--light-radius", "M", 0, 1e6, MEMBER(lightRadius),
-                     "Radius of point and spot lights in m; larger lights give softer shadows. Default: 0.03. "
-                     "The default lights are directional")
+                     "Radius of point and spot lights in m; larger lights give softer shadows. Has no effect on the "
+                     "default lights, which are directional. Default: 0.03")
             .unit("m")
             .example("0.1")
             .inShot("/lightRadius")
@@ -277,17 +279,19 @@ Rows cameraRows() {
             .inShot("/camera/name"),
         rows::words(
             SettingKind::path, "cameraFrom", "--camera-from", "FILE[:CAMERA]", MEMBER(cameraFrom),
-            "Camera from another file, with lens, animation and shutter: a USD text file (.usda), a glTF file, or "
-            "the JSON of 'defocus export-camera'. CAMERA is a path such as /World/cam or a name; default: the "
-            "file's only camera")
+            "Camera from another file, with lens, animation and shutter: a USD text file (.usda), a glTF file, or the "
+            "JSON of 'defocus export-camera'. CAMERA is a path such as /World/cam or a name; not needed if the file "
+            "has only one camera")
             .excludes({"camera"})
             .example("shot.usda:/World/cam"),
         pointRow(
             "cameraPosition", "--camera-position", MEMBER(cameraPosition),
-            "Position of the camera in m. Does not move the default lights. Default: the position of the file's camera")
+            "Position of the camera in m. Does not move the default lights, which are placed relative to the file's "
+            "camera. Default: the position of the file's camera")
             .unit("m"),
         pointRow("cameraTarget", "--camera-target", MEMBER(cameraTarget),
-                 "Point in m that the camera looks at. Default: the viewing direction of the file's camera")
+                 "Point in m that the camera looks at. Without it, the camera keeps the viewing direction of the "
+                 "file's camera")
             .unit("m"),
         pointRow("cameraUp", "--camera-up", MEMBER(cameraUp),
                  "Direction that points up in the image. Default: 0,1,0 with --camera-target, else the camera's own"),

@@ -241,32 +241,33 @@ std::vector<MethodSetting> circularSettings() {
     return {
         {.name = "near-components",
          .defaultValue = "2",
-         .description = "Number of components of the kernel for the foreground; more give a rounder, more even disk "
-                        "and take longer",
+         .description = "Number of components of the kernel for the foreground; more components give a rounder, more "
+                        "even disk but take longer",
          .choices = {},
          .min = 1,
          .max = 5},
         {.name = "far-components",
          .defaultValue = "2",
-         .description = "Number of components of the kernel for the background; more give a rounder, more even disk "
-                        "and take longer",
+         .description = "Number of components of the kernel for the background; more components give a rounder, more "
+                        "even disk but take longer",
          .choices = {},
          .min = 1,
          .max = circularKernelLimit},
         {.name = "resolution",
          .defaultValue = "full",
-         .description = "Resolution of the blurred foreground and background. Garcia's slides use half with one "
-                        "component for the background, or quarter with two",
+         .description = "Resolution of the blurred foreground and background. Garcia's slides combine half with "
+                        "--far-components 1, and quarter with --far-components 2",
          .choices = {"full", "half", "quarter"}},
         {.name = "kernel",
          .defaultValue = "fitted",
          .description = "Constants of the kernel. fitted: fitted to a disk. published: as printed in Garcia's slides. "
-                        "rescaled: the published ones, for 1 to 5 components, scaled to the size of the disk",
+                        "rescaled: the published constants, scaled so that the kernel is as large as the blur disk. "
+                        "published and rescaled exist for 1 to 5 components only",
          .choices = {"fitted", "rescaled", "published"}},
         {.name = "max-coc",
          .defaultValue = "unlimited",
-         .description = "Maximum blur diameter. published: 17 px at --resolution, as in Garcia's slides (68 px of the "
-                        "image with --resolution quarter)",
+         .description = "Maximum blur diameter. published: 17 px of the blurred foreground or background, as in "
+                        "Garcia's slides; with --resolution quarter, these are 68 px of the image",
          .choices = {"unlimited", "published"}},
         {.name = "kernel-taps",
          .defaultValue = "exact",
@@ -276,19 +277,19 @@ std::vector<MethodSetting> circularSettings() {
         {.name = "storage",
          .defaultValue = "half",
          .description =
-             "Pixel format of the sums between the horizontal and the vertical pass. With r10g10b10a2, as "
-             "in Garcia's slides, the sharp and the blurred images also have ten bits per channel, and radiance "
+             "Pixel format of the intermediate images between the horizontal and the vertical pass. With r10g10b10a2, "
+             "as in Garcia's slides, the sharp and the blurred images also have ten bits per channel, and radiance "
              "above 1 is clipped",
          .choices = {"float", "half", "r10g10b10a2"}},
         {.name = "near-field",
          .defaultValue = "premultiplied",
-         .description = "Weight of a pixel in the near field: its coverage times its blur (premultiplied, as in "
-                        "Garcia's slides), or its coverage",
+         .description = "Weight of a foreground pixel in the blur: its coverage times its blur size (premultiplied, "
+                        "as in Garcia's slides), or its coverage alone (coverage)",
          .choices = {"premultiplied", "coverage"}},
         {.name = "blend-bias",
          .defaultValue = "1",
-         .description = "Multiplier for the opacity of the blurred foreground. Above 1, less of a sharp ghost of the "
-                        "foreground shows through, but edges become wider",
+         .description = "Multiplier for the opacity of the blurred foreground. Above 1, the sharp foreground shows "
+                        "less through its own blur, but blurred edges become wider",
          .choices = {},
          .min = 1,
          .max = 4,

@@ -170,7 +170,8 @@ MethodSetting shadingSetting() {
         .name = "shading",
         .defaultValue = "surfaces",
         .description =
-            "Where surfaces are shaded: at the points that rays hit (surfaces), or at their vertices, as in the paper",
+            "Where surfaces are shaded: at the points that rays hit (surfaces), or at the vertices of the mesh, as in "
+            "Tzeng et al. 2012 (vertices)",
         .choices = {"surfaces", "vertices"}};
 }
 
@@ -179,7 +180,7 @@ MethodSetting cocInterpolationSetting() {
             .defaultValue = "divided",
             .description =
                 "Circle of confusion inside a triangle. divided: triangles in which it isn't linear are subdivided. "
-                "linear: interpolated between the corners, as in the paper",
+                "linear: interpolated between the corners, as in Munkberg et al. 2012",
             .choices = {"divided", "linear"}};
 }
 

@@ -301,8 +301,9 @@ Method lineMethod() {
     const std::vector<MethodSetting> settings = {
         {.name = "resolve",
          .defaultValue = "exact",
-         .description = "Visible segments of a line that are kept. exact: all. published: at most --segments; the "
-                        "others are dropped or merged by the paper's rules",
+         .description = "Visible segments that are stored for each line sample. exact: all. published: at most the "
+                        "number in --segments; further segments are dropped or merged by the rules of Tzeng et al. "
+                        "2012",
          .choices = {"exact", "published"}},
         {.name = "segments",
          .defaultValue = std::to_string(standardSegments),
@@ -314,22 +315,23 @@ Method lineMethod() {
         {.name = "shading-step",
          .defaultValue = "4",
          .description =
-             "Spacing of the shading points along a visible segment, in px of the blur that the segment contributes to "
-             "the image; a smaller value is more accurate and slower. 0: one point in the middle of each segment, as "
-             "in the paper (Tzeng et al. 2012)",
+             "Spacing of the shading points along a visible segment, in px. The length of a segment is the distance "
+             "that the surface moves in the image between the lens points at the segment's ends. Smaller values are "
+             "more accurate and slower. 0: one point in the middle of each segment, as in Tzeng et al. 2012",
          .choices = {},
          .min = 0,
          .max = 64},
         {.name = "interval-bits",
          .defaultValue = "64",
          .description =
-             "Number of bits for the two ends of a segment together, with --resolve published; 16 in the paper",
+             "Total number of bits that store both ends of a segment, with --resolve published; 16 in Tzeng et al. "
+             "2012",
          .choices = {"64", "16"},
          .onlyWith = "resolve=published"},
         {.name = "line-weights",
          .defaultValue = "area",
          .description = "Weight of each part of a line. area: the lens area that it represents (κ in Tzeng et al. "
-                        "2012). length: its length, which makes the middle of bokeh too bright",
+                        "2012). length: its length, which makes the middle of bokeh disks too bright",
          .choices = {"area", "length"}},
         {.name = "lines-per-position",
          .defaultValue = "1",
@@ -349,7 +351,7 @@ Method lineMethod() {
         {.name = "wheel",
          .defaultValue = "turned",
          .description = "Directions of the lines: rotated from pixel to pixel in an 8 x 8 pattern (turned), or the "
-                        "same in all pixels, as in the paper (shared)",
+                        "same in all pixels, as in Tzeng et al. 2012 (shared)",
          .choices = {"turned", "shared"}},
     };
     return {.name = "line",

@@ -161,8 +161,9 @@ MethodSetting pinholesSetting() {
     return {.name = "pinholes",
             .defaultValue = "4",
             .description =
-                "Number of sharp (pinhole) images per frame, with subpixel offsets for antialiasing; the papers use 1. "
-                "For layered, each image has its own layers and an equal share of the lens samples",
+                "Number of sharp (pinhole) images per frame, with subpixel offsets for antialiasing; the published "
+                "form of each method uses 1. With --method layered, each image has its own layers and an equal share "
+                "of the lens samples",
             .choices = {},
             .min = 1,
             .max = 64};

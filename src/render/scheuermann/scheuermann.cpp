@@ -283,7 +283,7 @@ Method scheuermannMethod() {
          .max = maxTaps},
         {.name = "max-coc",
          .defaultValue = "published",
-         .description = "Maximum blur: 10 px, as in Scheuermann's slides (published), or unlimited",
+         .description = "Maximum blur diameter: 10 px, as in Scheuermann's slides (published), or unlimited",
          .choices = {"published", "unlimited"}},
         {.name = "bits",
          .defaultValue = "16",
@@ -292,8 +292,9 @@ Method scheuermannMethod() {
          .choices = {"16", "8"}},
         {.name = "multisampling",
          .defaultValue = "1",
-         .description = "Samples per pixel of a multisampled sharp image. Its colour and blurriness are averaged "
-                        "before the blur; Scheuermann's slides use a multisampled image. 1: no multisampling",
+         .description = "Samples per pixel of the sharp image. Within each pixel, the colours and blur sizes of the "
+                        "samples are averaged before the blur is applied. Scheuermann's slides use a multisampled "
+                        "image. 1: no multisampling",
          .choices = {"1", "4"}},
         byHand("near-blur-depth", "Depth in m in front of which the blur is at its maximum; 0: computed from the lens",
                1e9),
