@@ -31,9 +31,9 @@ private:
     // that hit nothing (a miss).
     struct Surfaces {
         std::uint32_t miss = 0;                       // geometry id that stands for a miss
-        std::vector<std::int32_t> firstColor;         // by geometry: index of the first colour in cornerColors
-        std::vector<std::int32_t> colorsPerTriangle;  // by geometry: 3, or 0 if all triangles share three colours
-        std::vector<float> red, green, blue;          // by geometry: components of baseColorFactor
+        std::vector<std::int32_t> firstColor;         // for each geometry: index of the first colour in cornerColors
+        std::vector<std::int32_t> colorsPerTriangle;  // for each geometry: 3, or 0 if all triangles share three colours
+        std::vector<float> red, green, blue;          // for each geometry: components of baseColorFactor
         std::vector<glm::vec3> cornerColors;          // three vertex colours per triangle
     };
     // The sky's radiance for a ray at elevation e is horizon + |sin e|·(zenith − horizon). Below the horizon, nadir

@@ -82,8 +82,8 @@ double cameraPlaneError() {
     return largestError(floorFrom(-25), floorFrom(view.nearPlane));
 }
 
-// Returns the max error of three sharp boards at 0.02 m, 1,990 km and 2,000 km, each of which must hide the boards
-// behind it.
+// Returns the max error of an image of three sharp boards at 0.02 m, 1,990 km and 2,000 km. Each board must hide the
+// boards behind it.
 double depthRatioError() {
     View view = boardView();
     view.lens.dofEnabled = false;

@@ -7,7 +7,7 @@
 
 layout(binding = 2) uniform sampler2D farBlurred;
 layout(binding = 3) uniform sampler2D nearBlurred;
-layout(binding = 4) uniform sampler2D nearRadii;     // radius in field pixels within which the near field was gathered
+layout(binding = 4) uniform sampler2D nearRadii;     // radius of the near field's blur, in pixels of its image
 layout(location = 2) uniform float perNearDiameter;  // 1 / (largest CoC diameter in px in front of the focus plane)
 // 0: there is no near field. ≥ 1: factor by which the near field's coverage is multiplied.
 layout(location = 0) uniform float blendBias;

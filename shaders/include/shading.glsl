@@ -157,19 +157,19 @@ float meanSpread(Spread spread) { return 0.5 * (spread.along + spread.across); }
 // Beckmann's distribution has two widths. GGX and the weights use the mean of 2σ² over both directions.
 //
 // Masking: normals that only add to σ belong to other positions in the pixel, or to level 0, and don't mask each other
-// like microfacets. Masking therefore uses α. Beckmann's part is reflected by the normals at the half vector h, so its
-// masking term uses the cosine v·h for both the light and the eye. The masking term of GGX's part uses n·l and n·v.
+// like microfacets. Masking therefore uses α. In the Beckmann term, the normals that reflect light point along the half
+// vector h, so its masking uses the cosine v·h for both the light and the eye. The GGX term uses n·l and n·v.
 //
 // Coarse levels: normals that face the eye cover more pixels, so each is weighted by v·h divided by the mean of v·h. In
-// the masking term of Beckmann's part, the cosine to the eye is therefore this mean. Of the weight that the variance of
-// a coarse level gives to Beckmann's part, a fraction α stays with GGX's part, whose masking uses n·l and n·v.
+// the masking of the Beckmann term, the cosine to the eye is therefore this mean. The variance of a coarse level moves
+// weight from the GGX term to the Beckmann term. A fraction α of this weight stays with the masking of the GGX term.
 struct Lobe {
     float width;          // width α of the GGX distribution of microfacets
     float alpha2;         // squared GGX width α² + 2σ²; σ²: variance of the normals' slopes, mean of both directions
     vec3 axis;            // direction in which the normals' slopes vary more (Spread::axis)
     vec2 widths2;         // squared Beckmann widths α² + 2σ² along and across `axis`; σ²: variance of the slopes
     float share;          // weight of Beckmann's distribution
-    // Masking of Beckmann's part uses the cosine `shown` + `shownOfH` · (v·h) between its normals and the view
+    // Masking of the Beckmann term uses the cosine `shown` + `shownOfH` · (v·h) between its normals and the view
     // direction v, where h is the half vector.
     float shown;
     float shownOfH;       // factor of v·h in that cosine: 1 for full detail

@@ -40,7 +40,7 @@ vec4 clipAt(uint vertex, float fraction) {
 }
 
 // Returns q, the vertex relative to the image position `place` as seen from lens point `lens`. The circle of confusion
-// of a thin lens is linear in the depth w, C = a + b·w. The compiler then reduces the offset by the lens to one
+// of a thin lens is linear in the depth w: C = a + b·w. So the compiler can compute the lens offset with one
 // multiplication and one addition per coordinate.
 vec2 relativeTo(vec4 clip, vec2 lens, vec2 place) {
     precise vec2 q;

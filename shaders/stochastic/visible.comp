@@ -15,8 +15,8 @@ layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
 // End of each tile's triangle list, as an index into `entries`.
 layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };
 layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
-// Bounds of the lens points of each ray over all sets of rays (rays.glsl): min (u, k·v), max (u, k·v), with the aspect
-// ratio k.
+// For each index of a ray, the bounding box of its lens points (u, v) in all ray sets (rays.glsl): min (u, k·v), max
+// (u, k·v). k is the aspect ratio.
 layout(std140, binding = 7) uniform BoundBlock { vec4 lensBounds[maxRays]; };
 
 // Number of tests of a triangle against all rays of a workgroup; 64-bit, low word first.

@@ -2,7 +2,7 @@
 
 layout(binding = 0) uniform sampler2DArray images;
 layout(location = 0) uniform int imageCount;
-// For each lens image, xy: its texel that is added to pixel (0, 0) of the mean; z: its layer in `images`.
+// For each lens image, xy: the texel that is added to pixel (0, 0) of the mean; z: the image's layer in `images`.
 layout(location = 1) uniform ivec3 moves[blockSamples];
 
 layout(location = 0) out vec4 mean;

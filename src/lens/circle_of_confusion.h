@@ -111,7 +111,8 @@ struct CocBox {
 // conservative otherwise. They change continuously with the box.
 CocRange circleOfConfusionRange(const ClipCircleOfConfusion& coc, const CocBox& box, int width);
 
-// Returns the coefficients of the thin lens `coc` after it is focused at `focusDistance` (m; infinity is allowed).
+// Returns the coefficients of the CoC of a thin lens that `coc` describes, after the lens is refocused at
+// `focusDistance` (m; infinity is allowed).
 ClipCircleOfConfusion refocused(const ClipCircleOfConfusion& coc, double focusDistance);
 
 // Returns the largest |CoC| in px at infinite depth, over all positions in the image.

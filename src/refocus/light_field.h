@@ -29,7 +29,7 @@ struct LightFieldInfo {
     double focusDistance = 1;        // focus distance s of the rendered images, m
     double fStop = 1;                // f-number of the rendered aperture
     double pixelsPerDioptre = 0;     // shift P of the image seen from lens point (1, 1) per dioptre of focus, px
-    FocusRange range;                // focus distances for which margin and levels of detail suffice
+    FocusRange range;                // focus distances for which the images' margin and levels suffice
     bool disk = true;                // the rendered aperture is a uniform disk
     std::vector<glm::dvec2> points;  // lens point (u, v) of each image
     std::vector<glm::dvec2> pixels;  // position of each image's sample in its pixel: px right and up from the centre

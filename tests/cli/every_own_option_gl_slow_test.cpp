@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// ---- options with a case: a command line with the option, and one without it ----------------------------------------
+// ---- options that are tested by two command lines: one with the option, one without it -----------------------------
 
 class OwnOption : public OptionTest {
 protected:

@@ -1,6 +1,6 @@
 #pragma once
-// Writes a short shot of the two squares of two_quads.h with small frames: the focus moves from one square to the
-// other, and the camera orbits a square.
+// Writes a shot file with a few small frames of the two squares in two_quads.h: the focus moves from one square to the
+// other while the camera orbits a square.
 
 #include <filesystem>
 #include <fstream>

@@ -135,7 +135,7 @@ private:
     std::optional<std::vector<Band>> bands_;  // each band is a row of tiles; nullopt: frames are drawn untiled
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<Drawing> drawing_;
-    mutable double share_ = 0;  // largest result of share(), so that progress never falls
+    mutable double share_ = 0;  // largest result of share() so far, so that progress never goes back
 };
 
 // Returns the plan of a frame that is drawn in tiles. An automatic number of samples is derived from the size of the

@@ -67,7 +67,8 @@ void setGround(const Request& request, Scene& scene);
 // Returns the scene's own lights `own`, moved to the scene pose `pose` and with the light sizes that the request sets.
 std::vector<PlacedLight> sizedLights(const Request& request, const std::vector<PlacedLight>& own, const Pose& pose);
 
-// Sets camera and lens of a frame from placeFrame() for a request that differs in its camera. Lights stay unchanged.
+// Updates the camera and lens of a frame that placeFrame() returned, for a request that differs from the frame's only
+// in its camera. The lights stay unchanged.
 void placeCamera(PreparedFrame& frame, const Request& request);
 
 // Returns the request's environment. A default sky is scaled to the brightness of the scene's own lights. Throws Error

@@ -11,8 +11,8 @@ namespace defocus::engine {
 namespace {
 
 constexpr double referenceSamples = 64;
-constexpr LodThresholds referenceSize{0.25, 3.3};     // blur and size thresholds at 64 samples, metrics size, score
-constexpr LodThresholds referenceError{0.018, 0.18};  // blur and size thresholds at 64 samples, metric error
+constexpr LodThresholds referenceSize{0.25, 3.3};     // blur and size thresholds at 64 samples for `size`, `score`
+constexpr LodThresholds referenceError{0.018, 0.18};  // blur and size thresholds at 64 samples for `error`
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double sampleErrorExponent = 0.65;
 // Default LodThresholds::light for one lens sample: limit on a level's relative error times its edge length, px.

@@ -78,8 +78,8 @@ struct Simplifier {
     [[nodiscard]] VertexHandle& survivor(VertexHandle v) { return survivors[v]; }
 };
 
-// Builds the manifold of the mesh and its quadrics (setup.cpp); candidates for collapses are set later. If all
-// triangles are degenerate, Simplifier::mesh stays empty.
+// Converts the triangles to a manifold mesh (Simplifier::mesh) and computes its quadrics (setup.cpp). Candidates for
+// collapses are set later. If all triangles are degenerate, the mesh stays empty.
 void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPositions& positions,
                        const VertexGroups& smoothing, const TriangleSet<MeshVertexNumber>& triangles);
 

@@ -54,7 +54,8 @@ std::string reasonForNoCells(const FramePlan& plan);
 
 // Returns the lens cells of the plan's samples. A frame may consist of several blocks of samples, each with a plan. The
 // first block divides the lens into as many cells as the block has samples. Later blocks take their cells from a
-// common, finer division of the lens. The blur of a later block follows from the number of all samples up to its end.
+// common, finer division of the lens. The blur of a later block depends on the number of the frame's samples up to the
+// block's end.
 LensCells lensCells(const FramePlan& plan);
 
 // Moves each sample of the plan to the centre of its lens cell, and shifts its position in the pixel by

@@ -248,8 +248,8 @@ public:
 private:
     VisibleLevel* level_;
     std::vector<IndexRange>* runs_;
-    std::uint32_t away_ = 0;     // number of triangles after the last range in runs_ that face away
-    std::uint32_t outside_ = 0;  // number of triangles after the last range in runs_ that lie outside the image
+    std::uint32_t away_ = 0;     // number of triangles that face away, since the last range in runs_
+    std::uint32_t outside_ = 0;  // number of triangles outside the image, since the last range in runs_
 };
 
 VisibleLevel levelWithoutHidden(const ObjectViews& views, const ObjectPlan& object, std::uint32_t number,

@@ -60,13 +60,13 @@ private:
     // block of samples; the other attachments are layers of sums_.
     Target addingTargets_[2];
     GlTexture held_;  // per tile of 8 x 8 px: bit mask of the blur classes in the tile
-    // Per tile, two bit masks of blur classes: classes whose means over squares of pixels are read in the tile, and
-    // classes whose means are written in the tile.
+    // Per tile, two bit masks with one bit per blur class: classes whose averages over blocks of pixels the tile reads,
+    // and classes whose averages it writes.
     GlTexture spread_;
     Target spreadTarget_;
-    // Means over squares of pixels, for each blur class. shownMeans_: visible radiance; openMeans_: number of samples
-    // in which no nearer class covers the pixel. Layer 0 holds the classes in front of the focus plane, and layer 1 the
-    // classes behind it. The classes of a layer are side by side.
+    // Averages over square blocks of pixels, for each blur class. shownMeans_: visible radiance; openMeans_: number of
+    // samples in which no nearer class covers the pixel. Layer 0 holds the classes in front of the focus plane, and
+    // layer 1 the classes behind it. The classes of a layer are side by side.
     glm::ivec2 squares_;  // columns and rows of the finest grid, whose squares have the size of a pixel
     GlTexture shownMeans_, openMeans_;
     Target meanTargets_[2];

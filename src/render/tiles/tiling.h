@@ -14,7 +14,7 @@ struct TilingNeeds {
     int width = 1;  // size of the image in px
     int height = 1;
     RowRange rows;  // rows to draw
-    // Bytes per pixel of a layer, the image of one sample: colour, depth and copy for transmission.
+    // Bytes per pixel of a layer, the image of one sample: colour, depth, and a copy of both for transmission.
     std::uint64_t layerPixel = 12;
     std::uint64_t layerMaps = 0;     // bytes of the shadow maps of one sample
     std::uint64_t dataPixel = 0;     // GPU bytes per pixel of the sums of data layers; the host needs the same amount

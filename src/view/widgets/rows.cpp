@@ -101,7 +101,7 @@ bool settingRow(Request& request, const std::string& name, const std::string& fi
     const Setting& setting = *settingNamed(name);
     ImGui::PushID(name.c_str());
     rowLabel(fieldLabel(name), fmt::format("{} ({})", setting.help, setting.option));
-    // Some settings have either a number or a word such as "auto"; here the word counts as unset.
+    // Some settings accept either a number or a word such as "auto"; here the word counts as unset.
     const bool words = setting.kind != SettingKind::choice && !setting.choices.empty();
     const auto unset = [&](const std::string& text) { return words && text == setting.choices.front() ? "" : text; };
     const std::string before = unset(setting.text(request).value_or(""));

@@ -62,8 +62,8 @@ TEST(LevelNormals, ofASmoothBallStayWhole) {
     }
 }
 
-// Levels that lose the bumps of a ball have normals shorter than 1. Their length equals the mean cosine to the ball's
-// normals.
+// Levels that lose the bumps of a ball have normals shorter than 1. The length of a normal equals the mean cosine of
+// the angle between it and the ball's normals.
 TEST(LevelNormals, ofABumpyBallAreAsLongAsTheyAgree) {
     const Mesh ball = sphere(96, 48, 0.04);
     const Pyramid pyramid = buildPyramid(ball);
