@@ -189,11 +189,14 @@ def window():
     def waited(value):
         return "–" if value is None else f"{value:.1f} s"
 
+    results = run_of("llvmpipe-view")
     rows = [[f"`{row['method']}`", f"{row['framesPerSecond']:.1f}", f"{row['firstPictureMilliseconds']:.0f} ms",
              f"{row['movingSamples']}, {100 * row['movingResolution']:.0f} %", f"{row['movingPsnr']:.1f} dB", waited(row["stillPictureSeconds"]),
-             waited(row["convergedSeconds"]), row["stillSamples"], f"{row['stillPsnr']:.1f} dB"] for row in run_of("llvmpipe-view")["rows"]]
-    return run_table("llvmpipe-view", ["method", "moving: frames per second", "first picture after an input", "samples, size", "PSNR",
-                                       "at rest: first picture after", "converged after", "samples after 10 s", "PSNR"], rows)
+             waited(row["convergedSeconds"]), row["stillSamples"], f"{row['stillPsnr']:.1f} dB"] for row in results["rows"]]
+    header = ["method", "moving: frames per second", "moving: first image after an input", "moving: samples, resolution", "moving: PSNR",
+              "still: first image after", "still: complete after", "still: samples after 10 s", "still: PSNR after 10 s"]
+    held_equal = "scene, camera path, lens, image size and reference. The methods were measured one after another in one process"
+    return table(header, rows) + source(command_of("llvmpipe-view", results), held_equal, "llvmpipe-view.json", results["commit"])
 
 
 TABLES = {"window": window, "gpu speed": lambda: speed_table(H200, *SPEED, *PARTS, *RATIOS), "speed": speed_sentence, "demo": demo, "seeds": seeds,
