@@ -69,7 +69,7 @@ def memory():
     peaks = {line.split("  ")[0]: re.split(r"\s{2,}", line.strip())[-1] for line in lines_of("llvmpipe-demo")}
     rows = [[f"frame of the school, {mode}", peaks[mode], "demo", "scripts/demo"] for mode in ("full detail", "fractional levels")]
     large, bytes_each = pyramid_memory()
-    rows.append(["building pyramids", f"{large} bytes a triangle; {bytes_each['fish, flat-shaded']:.0f} with flat shading", "pyramids",
+    rows.append(["building pyramids", f"{large} bytes per mesh triangle; {bytes_each['fish, flat-shaded']:.0f} with flat shading", "pyramids",
                  "defocus_pyramid_bench --million MODEL…"])
     return table(["what", "peak memory", "command"], [
         [what, figure, f"`{command}` ([run](../bench/results/llvmpipe-{run}.txt))"] for what, figure, run, command in rows])
@@ -84,11 +84,11 @@ def pyramids(summary=False):
     if summary:
         every = dict(ending_in_numbers(distances, 5))["all"]
         gains = [values[4] - values[5] for _, values in ending_in_numbers(looks, 8)]
-        return table(["against", "what", "figure"], [
-            ["meshoptimizer", "PSNR under the blur that picks the level, equal triangles", f"{mean(gains):+.1f} dB in the mean"],
-            ["meshoptimizer", "distance to the mesh, equal triangles", f"{every[2]:.2f} times in the mean"],
-            ["DecimaterT", "speed of simplification, one thread", f"{span([values[10] for _, values in large], 1)} times as fast"],
-            ["DecimaterT", "speed of whole pyramids, one thread", f"{span([values[11] for _, values in large], 1)} times as fast"]
+        return table(["compared with", "what", "result"], [
+            ["meshoptimizer", "PSNR with equal triangles, at the blur for which the level is chosen", f"{mean(gains):.1f} dB higher on average"],
+            ["meshoptimizer", "distance to the full mesh, with equal triangles", f"{every[2]:.2f} times as large on average"],
+            ["OpenMesh's DecimaterT", "simplification, one thread", f"{span([values[10] for _, values in large], 1)} times as fast"],
+            ["OpenMesh's DecimaterT", "whole pyramids, one thread", f"{span([values[11] for _, values in large], 1)} times as fast"]
         ]) + source("defocus_pyramid_bench --million MODEL…", "mesh and number of triangles", "llvmpipe-pyramids.txt")
     memory_of_large, bytes_each = pyramid_memory()
     rows = [
@@ -121,7 +121,7 @@ def scenes_of(name):
 def ray_tracer():
     rows = [[scene["scene"], f"{scene['psnr']:.1f} dB", f"{scene['psnrAtEqualLensPoints']:.1f} dB", f"{scene['flip']:.4f}"]
             for scene in scenes_of("llvmpipe-truth")]
-    return table(["scene", "PSNR, other lens points", "PSNR, same lens points", "FLIP, other lens points"], rows) + source(
+    return table(["scene", "PSNR, different lens samples", "PSNR, same lens samples", "FLIP, different lens samples"], rows) + source(
         "defocus_truth_bench --sequence halton --samples 256 --size 512x384 [SCENE …]",
         "scene with painted light, camera, lens, number of samples", "llvmpipe-truth.txt")
 
@@ -168,7 +168,7 @@ def honesty(every_setting=True):
         worst = max((row["measuredDiameter"] - row["expectedDiameter"] for row in cases), key=abs)
         rows.append([f"`{method}`", f"{worst:+.2f} px", f"{sum(row['followsLens'] for row in cases)} of {len(cases)}"])
     return run_table("llvmpipe-stability", ["method", "largest error of the disk's diameter",
-                                            "cases within half a pixel and 5 % of the energy"], rows,
+                                            "cases: diameter within half a pixel, light within 5 %"], rows,
                      "a point of light; one value of the lens, the image or the sampling changes at a time")
 
 
@@ -182,7 +182,7 @@ def sequences():
     for line in lines[begin + 3:begin + 7]:
         name, values = line.split(maxsplit=1)
         rows.append([f"`{name}`", *(f"{value / 1000:.5f}" for value in numbers(values)[2:16:4])])
-    return table(["RMSE, school of fish", "16 samples", "64", "256", "1,024"], rows) + source(
+    return table(["school of fish", "RMSE, 16 samples", "64", "256", "1,024"], rows) + source(
         "defocus_sequence_bench", "scene, camera, lens, 160 × 120 px, full detail", "llvmpipe-sequences.txt")
 
 
@@ -213,12 +213,12 @@ def command_in(name, scene):
 def few_images():
     """Returns the table of errors of methods that draw few images, with published, default and best settings."""
     name = "llvmpipe-circular"
-    forms = {"published": "published", "best": "best", None: "default"}
+    settings = {"published": "published", "best": "best", None: "default"}
     rows = []
     for (method, images), (_, psnr, flip) in method_rows(name)["fish school"].items():
-        if setting := re.fullmatch(r"(\w+)(?: \((published|best)\), .+|, standard|, lod=off)", method):
-            rows.append([f"`{setting[1]}`", forms[setting[2]], images, f"{psnr:.1f}", f"{flip:.4f}"])
-    return table(["method", "form", "images or samples", "PSNR, dB", "FLIP"], rows) + source(
+        if parts := re.fullmatch(r"(\w+)(?: \((published|best)\), .+|, standard|, lod=off)", method):
+            rows.append([f"`{parts[1]}`", settings[parts[2]], images, f"{psnr:.1f}", f"{flip:.4f}"])
+    return table(["method", "settings", "images or samples", "PSNR, dB", "FLIP"], rows) + source(
         command_in(name, "--fish 10"), "scene, camera, lens, image size, reference, process", f"{name}.txt")
 
 
@@ -229,7 +229,7 @@ def layers():
     counts = sorted({count for _, count in scene})
     rows = [[count, *(f"{scene[method, count][0] / 1000:.1f}" for method in methods),
              *(f"{scene[method, count][1]:.1f}" for method in methods)] for count in counts]
-    return table(["lens samples", "accumulation, s", "`layered`, s", "accumulation, dB", "`layered`, dB"], rows) + source(
+    return table(["lens samples", "`accumulation`, s", "`layered`, s", "`accumulation`, PSNR", "`layered`, PSNR"], rows) + source(
         command_in("llvmpipe-layered", "--size 512x384"),
         "scene, camera, lens, full detail, image size, reference, process", "llvmpipe-layered.txt")
 
@@ -246,9 +246,9 @@ def parts(summary=False):
     out_of_view, sharp = (f"{numbers_after(elisions, beginning)[2]:.1f}" for beginning in
                           ("most fish out of view (culling)", "f/64: nothing blurred (lens samples)"))
     if summary:
-        return table(["what is left out: times as fast", "full detail", "levels"], [
-            ["clusters that face away or lie outside, school of fish", *(f"{row[6]:.2f}" for row in clusters)],
-            ["hidden parts, on the CPU, twenty FlightHelmets", *(f"{row[4]:.2f}" for row in hidden)],
+        return table(["what is culled", "times as fast, full detail", "times as fast, levels"], [
+            ["triangles that face away or lie outside, school of fish", *(f"{row[6]:.2f}" for row in clusters)],
+            ["hidden triangles, on the CPU, twenty FlightHelmets", *(f"{row[4]:.2f}" for row in hidden)],
             ["objects that no lens sample sees, most fish out of view", "", out_of_view],
             ["48 of 64 samples where no blur reaches half a pixel (f/64)", "", sharp]
         ]) + ("\nCommand: `defocus_cluster_bench` ([run](../bench/results/llvmpipe-clusters.txt)), `defocus_elision_bench` "

@@ -1,7 +1,7 @@
-"""Tables of docs/seeds.md: the claims of each publication, and the figures of the runs in bench/results.
+"""Tables of docs/seeds.md: the claims of each publication, and the results of the runs in bench/results.
 
-A row has the claim, our implementation, the test (`Suite.test`) or bench that checks it, the published figure, and
-ours. A dash means that there is no figure.
+A row has the claim, our implementation, the test (`Suite.test`) or bench that checks it, the published result, and
+ours. A dash means that there is no result.
 """
 
 import functools
@@ -16,7 +16,7 @@ from figures.results import (accumulation_rows, error_ratio, lines_of, numbers, 
 
 OWN = "llvmpipe-speedup-jeong2011"
 LEAK = "`PostProcesses.aSharpObjectDoesNotLeakIntoTheBlurredBackground`"
-HEADER = ["claim", "our form", "checked by", "their figure", "our figure"]
+HEADER = ["claim", "implementation", "checked by", "published result", "our result"]
 
 
 def lines_with(name, beginning):
@@ -54,26 +54,26 @@ def jeong():
     return [
         ["Accumulation over lens samples is the reference", "[accumulation.h](../src/render/accumulation/accumulation.h)",
          "`Truth.*` against a ray tracer that shares no code; `TruthBokeh.*` against the closed form of the bokeh", "–",
-         f"{fish['psnrAtEqualLensPoints']:.1f} dB against the ray tracer with the same lens points, {fish['psnr']:.1f} dB with others (fish)"],
+         f"PSNR {fish['psnrAtEqualLensPoints']:.1f} dB against the ray tracer with the same lens points, {fish['psnr']:.1f} dB with different ones (fish)"],
         ["Lens samples are Halton's points", "[lens_samples.h](../src/lens/lens_samples.h)", "`JeongPlan.samplesAreHaltonsPointsFrom1On`", "–",
          f"Sobol's points have a smaller error: RMSE {sobol:.5f} instead of {halton:.5f} with 64 samples"],
         ["The level grows in proportion to the CoC at the centre of an object's box, and to 1 / its projected size",
-         "λ = K · CoC / size, K = 10 ([level_selection.h](../src/lod/pyramid/level_selection.h)); K is ours",
+         "λ = K · CoC / size; we chose K = 10 ([level_selection.h](../src/lod/pyramid/level_selection.h))",
          "`JeongPlan.*`", "K isn't printed",
-         f"{theirs['fractional']['triangles'] / 1e6:.1f} million triangles instead of {drawn['off']['triangles'] / 1e6:.1f} at full detail "
-         f"(64 samples); {drawn['fractional']['triangles'] / 1e6:.1f} million with our measured levels"],
+         f"school with 64 samples: {theirs['fractional']['triangles'] / 1e6:.1f} million triangles instead of "
+         f"{drawn['off']['triangles'] / 1e6:.1f} at full detail; {drawn['fractional']['triangles'] / 1e6:.1f} million with our default levels"],
         ["Frames are several times as fast (Figure 2)", "`defocus bench speedup --preset jeong2011`", "the run in [Results](results.md)",
          "up to 3.5 times, on their GPU",
-         f"as published, {published[0]} times as fast at {published[1]} times the RMSE of full detail; with measured levels, {own[0]} times "
+         f"as published, {published[0]} times as fast at {published[1]} times the RMSE of full detail; with our default levels, {own[0]} times "
          f"at {own[1]} times the RMSE (16 to 512 samples)"],
         ["Layers (Lee and others 2010) are faster above some number of samples (Figure 2)",
          "`--methods layered:pinholes=1` beside the preset, both with levels", "the same run", "near 32 samples", layers_win()],
         ["Samples are split between two levels without popping", "[level_selection.h](../src/lod/pyramid/level_selection.h)",
          "`SplitSamples.*`, `Popping.oneSamplesStepIsASmallPartOfALevels`, `defocus bench popping`", "–",
-         f"the largest pop is {pops('fractional')} of the pop with one level per object; {pops('continuous')} with `--lod continuous`, which "
-         "also divides the pixels of the one sample between the two levels"],
-        ["Levels are built beforehand, from surviving vertices", "[pyramid.h](../src/lod/pyramid/pyramid.h)",
-         "`JeongPlan.levelsHaveTheValuesOfLevel0`", "–", f"fitted normals are {gain(fitted).split(' dB')[0]} dB better than surviving normals"],
+         f"the largest pop is {pops('fractional')} of the pop with one level per object; {pops('continuous')} with `--lod continuous`, in "
+         "which one of the samples draws both levels, each in some of its pixels"],
+        ["Levels are built beforehand; their vertices are vertices of the mesh", "[pyramid.h](../src/lod/pyramid/pyramid.h)",
+         "`JeongPlan.levelsHaveTheValuesOfLevel0`", "–", f"PSNR with fitted normals is {gain(fitted).split(' dB')[0]} dB higher than with the normals of the mesh's vertices"],
     ]
 
 
@@ -103,44 +103,44 @@ def munkberg():
     chess = [row for row in limited_work() if "chess" in row[0]][-1]
     total, away, outside, *rest = numbers_after(lines_of("llvmpipe-clusters")[:10], "off")
     return [
-        ["A limit of the foreground blur changes neither focus and background (Figure 3) nor the motion (Figure 4)",
+        ["Limiting the foreground blur leaves the sharp range, the background (Figure 3) and the motion blur (Figure 4) unchanged",
          "`--foreground-limit`, [circle_of_confusion.h](../src/lens/circle_of_confusion.h)",
          "`CircleOfConfusion.foregroundLimitHasItsKinkWhereThePaperSays`, `CocControls.limitInFrontLeavesFocusAndBackground`, "
          "`CocControls.limitInFrontLeavesTheMotion`", "images", "[images](../bench/results/lens/README.md)"],
-        ["A range of depths is in focus, and near and far blur stay (Figure 5)", "`--focus-range-front`, `--focus-range-behind`",
+        ["A range of depths is in focus, and near and far blur are preserved (Figure 5)", "`--focus-range-front`, `--focus-range-behind`",
          "`CircleOfConfusion.focusRangeIsSharpAndPreservesNearAndFarBlur`, `CocControls.focusRangePreservesNearAndFarBlur`, "
          "`CocControls.focusRangeIsSharpAsAPinhole`", "images", "images"],
         ["The focus plane is tilted (Figure 6)", "`--focus-tilt`",
          "`CircleOfConfusion.tiltedPlaneIsInFocus`, `CocControls.tiltedPlaneIsSharpAllAlong`", "images", "images"],
-        ["C is given per vertex and linear inside a triangle",
+        ["The blur function C ([Concepts](concepts.md#one-lens-sample)) is given per vertex and linear inside a triangle",
          "`coc-interpolation=linear` (preset), [clip_blur.glsl](../shaders/lens_space/clip_blur.glsl); by default, triangles in which C "
          "isn't linear are divided", "`CocInterpolation.bendsOnlyInDividedTriangles`", "–", "–"],
         ["C is given at both ends of the shutter time, and linear between them: C(t) = (1 − t)·c₀ + t·c₁",
          "glTF attributes `_COC`, `_COC_OFFSET`, `_COC_0` and `_COC_1`, `_COC_SCALE`, `--node-blur` ([lens](lens.md#blur-controls))",
          "`VertexBlurs.*`, `CocControls.scaleOfAnObjectIsItsOwn`", "images", "images"],
-        ["Example of a radial blur: C = (a + b·w)·(1 + x² + y²) in clip space", "`_COC_SCALE` as printed; `--radial-blur-gain` is our form, "
+        ["Example of a radial blur: C = (a + b·w)·(1 + x² + y²) in clip space", "`_COC_SCALE` as printed; `--radial-blur-gain` is our variant, "
          "which depends on the position in the image only", "`VertexBlurs.drawTheRadialExampleAsPrinted`", "–",
          "[images](../bench/results/lens/README.md#the-radial-example-of-the-text)"],
-        ["A limited foreground saves work (Figures 4 and 7)", "`defocus_foreground_bench --stochastic`",
-         "[the run](../bench/results/lens/figure-7.md)", "4 to 9 times; 3 times with motion",
-         f"thicket: {thicket[2]} times as fast, {thicket[3]} times fewer tests; chess board with motion: {chess[2]} times as fast, {chess[3]} "
-         "times fewer tests"],
+        ["A limited foreground saves work: tests of a triangle against a lens ray (Figures 4 and 7)", "`defocus_foreground_bench --stochastic`",
+         "[the run](../bench/results/lens/figure-7.md)", "the tests fall by a factor of 4 to 9, or 3 with motion",
+         f"thicket: {thicket[2]} times as fast, the tests fall by a factor of {thicket[3]}; chess board with motion: {chess[2]} times as "
+         f"fast, the tests fall by a factor of {chess[3]}"],
         ["Triangles that face away for every lens point and moment are culled (Equations 5, 7 and 8, Appendix A)",
          "[bin.comp](../shaders/lens_space/bin.comp)", "`LensSpaceAlone.movingBacksAreCulled`: the same image, bit for bit", "–", "–"],
         ["Our extension: Equation 6 for clusters of rigid triangles, in all methods",
          "[visibility.h](../src/plan/visible/visibility.h)",
          "`Visibility.*`: no triangle that a random lens point sees is lost", "–",
          f"culls {100 * (away + outside) / total:.0f} % of the school's triangles, including those outside the image; {rest[3]:.2f} times as fast"],
-        ["Aberrations vary over the lens, C = f(u, v) (future work)",
+        ["With aberrations, C varies over the lens: C = f(u, v) (named as future work)",
          "[aberrations.h](../src/lens/aberrations.h): Seidel's astigmatism and coma, `--astigmatism`, `--coma`, also in `stochastic`",
          "`Aberrations.*`: the moments of a point's blur in closed form, and the direction of each ray to the background; "
          "`LensSpaceAlone.stochasticPointsSeeAberrations`", "–", "[images](../bench/results/lens/README.md#beyond-the-paper-c--fu-v)"],
         ["A coverage test takes few multiply-adds",
          "`relativeTo` and `edgeFunctions` in [triangles.glsl](../shaders/lens_space/triangles.glsl)",
          "counted by hand: 2 operations per coordinate and corner, 2 per edge function; with motion, 2 for each interpolated component",
-         "thin lens 16, general C 18; with motion 25 and 30 (quoted from another paper)",
-         "thin lens 18, general C 18; with motion 36 and 42, because we interpolate between the positions at shutter open and close. With "
-         "stored differences, motion would take 27 and 30"],
+         "thin lens 16 (with motion 25), general C 18 (with motion 30); those with motion are quoted from another paper",
+         "thin lens 18 (with motion 36), general C 18 (with motion 42). We interpolate between the positions at shutter open and close; "
+         "with stored differences of these positions, motion would take 27 and 30"],
         ["Each pixel has its own points on the lens and in time", "[stochastic.h](../src/render/stochastic/stochastic.h)",
          "`LensSpaceAlone.stochasticPixelsHaveTheirOwnPoints`, `LensSpace.convergesToTheAccumulation`, "
          "`LensSpaceAlone.stochasticPointsBlurMotion`", "–", f"{times_longer()} times the time of the accumulation at equal error"],
@@ -170,14 +170,14 @@ def scheuermann():
         ["Eight taps around the pixel are enough; the centre gives depth only", "[scheuermann.h](../src/render/scheuermann/scheuermann.h)",
          "`PoissonDisk.keepsItsDistanceAndLeavesNoGap`", "8 taps",
          f"FLIP {fish[0]} as published, {fish[1]} with 64 taps, the blur of the lens and 16 pinholes (fish); {chess[0]} and {chess[1]} (chess)"],
-        ["Blur is linear in depth between three planes of the artist, with a cut-off behind",
+        ["Blur is linear in depth between three planes that the artist sets; behind the focus plane, it has its own maximum",
          "[blurriness.frag](../shaders/scheuermann/blurriness.frag)",
-         "`BlurrinessPlanes.*`; keyframes in shots: `FrameSequence.settingsOfAMethodHaveKeys`", "largest blur 10 px",
+         "`BlurrinessPlanes.*`; keyframes in shots: `FrameSequence.settingsOfAMethodHaveKeys`", "largest blur diameter 10 px",
          f"the diameter of a point's disk differs from the lens equation by up to {worst:.0f} px; within half a pixel in {right} of {cases} cases"],
         ["A small pre-blurred copy hides the gaps between the taps",
          "[preblur.frag](../shaders/scheuermann/preblur.frag). The printed code reads the tap of the copy from the full-size image, which we "
-         "take for a slip", "`ScheuermannImage.asPublishedReadsTheSmallImageAtItsOwnRadius` (in closed form)",
-         "a quarter of the width and height; radius 0.4 of the sharp image's", "the same"],
+         "take to be an error", "`ScheuermannImage.asPublishedReadsTheSmallImageAtItsOwnRadius` (in closed form)",
+         "a quarter of the width and height; tap radius in pixels of the copy: 0.4 times the radius in pixels of the sharp image", "the same"],
         ["Sharp foreground doesn't leak into the blurred background", "[gather.frag](../shaders/scheuermann/gather.frag)", LEAK, "–", "–"],
         ["Blended surfaces write their depth in a second pass", "[pinhole_pass.h](../src/render/post_process/pinhole_pass.h)",
          "`PostProcesses.whatLiesBehindABlendedSurfaceIsBlurredAsThatSurface`", "–", "–"],
@@ -225,27 +225,28 @@ def garcia():
     return [
         ["A sum of complex Gaussians is a disk, and separable", "[circular_kernel.h](../src/render/circular/circular_kernel.h)",
          "`CircularKernel.factorsOfTwoAxesMultiplyToACircle`, `ComplexBlurs.twoPassesGiveTheWholeKernel`", "constants of two components",
-         f"RMS distance from a disk of height 1, over its square: Niemitalo's one and two components {theirs1[0]:.3f} and {theirs2[0]:.3f}, ours "
-         f"{ours1[0]:.3f} and {ours2[0]:.3f} ([the run](../bench/results/llvmpipe-circular-kernels.txt) of commit 45c048f6ba08); outside the disk, ours with "
-         f"two components fall to −{-ours2[1]:.2f} and his to −{-theirs2[1]:.2f}"],
-        ["The kernel at the eight taps has the printed constants", "`--kernel published`: exp(−a·x²) at x = tap / 8. The slide prints a sign with which exp would grow with x; the sign and x are our "
-         "reading. The constants of one component are from his public generator",
-         "`CircularKernel.*`", "the kernel is at 0.925 of its unit at the outermost tap", "the same"],
-        ["Our extension: the kernel has the shape of the aperture", "separable kernels are disks or, with two radii, ovals: `--anamorphic-ratio`",
+         f"RMS difference from the disk over the square around it, relative to the disk: {theirs1[0]:.3f} and {theirs2[0]:.3f} for Niemitalo's "
+         f"kernels of one and two components, {ours1[0]:.3f} and {ours2[0]:.3f} for ours ([the run](../bench/results/llvmpipe-circular-kernels.txt) of commit "
+         f"45c048f6ba08); outside the disk, the kernel of two components falls to −{-ours2[1]:.2f} (ours) and −{-theirs2[1]:.2f} (Niemitalo's)"],
+        ["The kernel at the eight taps has the printed constants", "`--kernel published`: exp(−a·x²) at x = tap / 8. With the printed sign, exp would grow with x; the sign and x = tap / 8 are our "
+         "reading. The constants of one component are from Garcia's public generator",
+         "`CircularKernel.*`", "the formula for two components gives 0.925 at the outermost tap, x = 1", "the same"],
+        ["Our extension: with `--anamorphic-ratio`, the kernel is an oval", "a separable kernel with two radii",
          "`ComplexBlurs.twoPassesGiveTheWholeOval`, `ComplexBlurs.aPointBecomesAnOvalOfItsAxes`", "–",
-         "other shapes are ignored, with a message"],
+         "other aperture shapes are ignored, with a message"],
         ["Time grows with the radius, not with its square", "[complex_blur.h](../src/render/circular/complex_blur.h)",
          "`defocus_post_process_bench`", "–",
-         f"exponent {separable:.2f}, and {direct:.2f} for the gather over the square; {times[64][1] / times[64][0]:.0f} times as fast at 64 px"],
+         f"time grows with radius^{separable:.2f}, for a gather over the square with radius^{direct:.2f}; at 64 px, "
+         f"{times[64][1] / times[64][0]:.0f} times as fast as the gather"],
         ["Performance: half size with one component, quarter size with two, and a brute-force baseline",
-         "the two forms, and a gather over the square at the same sizes and at full size",
+         "both settings, and a gather over the square at the same sizes and at full size",
          "`defocus_post_process_bench` ([the run](../bench/results/llvmpipe-post-process.txt))", "times of game consoles",
          f"half {slide[0]:.0f} ms, quarter {slide[1]:.0f} ms; gathers {slide[2]:.0f} and {slide[3]:.0f} ms, at full size {full_gather:.0f} ms"],
-        ["Sums of weights G are stored as (G − O) / S, with S = Σ(G − O), which lie in [0, 1]", "`bracketOf` in [complex_blur.h](../src/render/circular/complex_blur.h)",
+        ["Weighted sums are stored in [0, 1]: their weights G become (G − O) / S, with the smallest weight O and S = Σ(G − O)", "`bracketOf` in [complex_blur.h](../src/render/circular/complex_blur.h) returns O and S",
          "`Brackets.ofEightTapsAreGarcias`, `Brackets.ofEightTapsStoreAWhiteFieldAsOne`, `ComplexBlurs.publishedBracketsLoseLessThanRanges`",
          "offset −0.0387, scale 0.943 (real part, first of two components)",
-         f"−0.0387 and 0.943; with ten bits from the sharp image to the result (`PostProcessesAlone.tenBitsHoldTheWholeImage`), an "
-         f"image is {ten_bits:.1f} dB from one with 32-bit floats"],
+         f"−0.0387 and 0.943; with ten bits per channel from the sharp image to the result "
+         f"(`PostProcessesAlone.tenBitsHoldTheWholeImage`), PSNR {ten_bits:.1f} dB against 32-bit floats"],
         ["Eight taps on each side, quarter size, one near and two far components", "preset", "`bench convergence`", "–",
          f"FLIP {fish[0]} as published, {fish[1]} by default, {fish[2]} at its best ([fish](../bench/results/llvmpipe-circular.txt)); "
          f"{chess[0]}, {chess[1]}, {chess[2]} (chess)"],
@@ -255,12 +256,12 @@ def garcia():
          "`CircularNearField.lightsThatAreHardlyBlurredKeepOutOfWideBlurs`", "–",
          "FLIP, with and without: " + ", ".join(f"{ours} and {theirs} ({scene})" for (ours, theirs), scene in
                              zip(coverage, ("fish", "chess", "lights in front of the focus")))],
-        ["A bias that favours near pixels in the final blend follows luminance", "`bias-by=luminance`", "`PostProcessesAlone.biasByLuminanceLeavesEdges`", "–",
-         f"{bias[2]:.1f} instead of {bias[0]:.1f} dB on a scene made to show ghosting, where a constant bias gives {bias[1]:.1f} dB; worse on "
+        ["A bias that favours near pixels in the final blend depends on luminance", "`bias-by=luminance`", "`PostProcessesAlone.biasByLuminanceLeavesEdges`", "–",
+         f"PSNR {bias[2]:.1f} instead of {bias[0]:.1f} dB on a scene made to show ghosting, where a constant bias gives {bias[1]:.1f} dB; worse on "
          f"the fish (FLIP {by_luminance[0]} instead of {by_luminance[1]}), so off by default"],
-        ["Near and far field are blurred in one pass through several targets", "not implemented, because the number of taps would stay",
+        ["Near and far field are blurred in one pass through several targets", "not implemented, because it would not reduce the number of taps",
          "[the run](../bench/results/llvmpipe-circular-kernels.txt) of commit 45c048f6ba08", "–",
-         "if all work beside the taps were shared, at most " + ", ".join(f"{one_pass[512, radius]:.0f}" for radius in (2, 8, 32))
+         "if both fields shared all work except the taps, at most " + ", ".join(f"{one_pass[512, radius]:.0f}" for radius in (2, 8, 32))
          + " % less time at radii of 2, 8 and 32 px"],
         ["Transparent surfaces are blurred in depth buckets",
          "`transparency-buckets`, [bucket_pass.h](../src/render/post_process/bucket_pass.h)", "`BlendedSurfaces.*` (closed forms), "
@@ -270,15 +271,15 @@ def garcia():
 
 def buckets():
     """Returns the table of the error (FLIP) by the number of buckets for transparency."""
-    names = {"artefact-panes.gltf": "panes", "AlphaBlendModeTest.glb": "test of alpha modes", "FlightHelmet.gltf": "helmet with goggles",
-             "GlassVaseFlowers.glb": "flowers in a vase"}
+    names = {"artefact-panes.gltf": "panes of glass (`artefact-panes.gltf`)", "AlphaBlendModeTest.glb": "AlphaBlendModeTest",
+             "FlightHelmet.gltf": "FlightHelmet", "GlassVaseFlowers.glb": "GlassVaseFlowers"}
     counts = ["circular, transparency-buckets=0", "circular, standard", "circular, transparency-buckets=2"]
     rows = []
     for scene, name in names.items():
         found = {method: values for (method, _), values in method_rows("llvmpipe-circular")[scene].items()}
         first = found[counts[0]]
         rows.append([name] + [f"{found[count][2]:.4f} ({found[count][0] / first[0]:.1f})" for count in counts])
-    return table(["scene: FLIP (time relative to no buckets)", "without buckets", "one (default)", "two"], rows)
+    return table(["scene", "no buckets", "one (default)", "two"], rows)
 
 
 # ---- Tzeng and others -----------------------------------------------------------------------------------------------
@@ -288,7 +289,7 @@ def tzeng():
     rows = lens_space_rows()
     three = {row[1]: row[7] for row in next(iter(lens_levels().values())) if row[0] == 16}
     return [
-        ["Lines through the lens are weighted by κ, which is needed (Figure 4)",
+        ["Segments of a line through the lens must be weighted by κ, their share of the line's light (Figure 4)",
          "[weights.glsl](../shaders/line/weights.glsl), `--line-weights`",
          "`LensSpaceAlone.kappaMakesDisksUniform`, `LensSpace.convergesToTheAccumulation`", "images",
          "without κ, the middle of a blurred point is more than 1.5 times as bright as its rim"],
@@ -298,24 +299,25 @@ def tzeng():
          "`LensSpaceAlone.linesShareSpatialPositions`", "–", "–"],
         ["Tiles have bins of fixed size", "`--bin-size`; 65,536 triangles in the preset, our choice",
          "`LensSpaceAlone.binsOfFixedSizeCountTheirOverflow`", "–", "–"],
-        ["A segment is compressed to 16 bits", "`--interval-bits 16`: the interval has 16 bits; colour and depth stand beside it, which is our "
-         "division of the data", "`LensSpaceAlone.shortIntervalsChangeLittle`", "16 bits", "16 bits for the interval"],
+        ["A segment is compressed to 16 bits", "`--interval-bits 16`: 16 bits hold the interval; we chose to store colour and depth "
+         "separately", "`LensSpaceAlone.shortIntervalsChangeLittle`", "16 bits", "16 bits for the interval"],
         ["A full buffer drops occluded segments, merges similar ones, drops short ones, then evicts the shortest", "[segment_buffer.glsl](../shaders/line/segment_buffer.glsl); the thresholds "
          "are ours", "`LensSpaceAlone.segmentsOfDifferentColoursStayApart`", "–", "–"],
         ["A buffer of fixed size with heuristics keeps the quality", "`--resolve published`",
          "`LensSpaceAlone.exactLinesAreTheBuffersWhereNothingWasDropped`, `LensSpaceAlone.fullBuffersCountWhatTheyDrop`", "–",
-         f"{span([row[10] / row[8] for row in rows], 1)} times the RMSE of exact lines (five models, shaded alike)"],
+         f"{span([row[10] / row[8] for row in rows], 1)} times the RMSE of exact lines (five models, the same shading)"],
         ["16 lines are faster than 256 points (Table 1)", "`defocus_lens_space_bench`", "[the run](../bench/results/llvmpipe-lens-space.txt)",
          "4 to 5 times; 2.65 times for Teapot",
-         f"{span([row[6] for row in rows], 1)} times as published, {span([row[4] for row in rows], 1)} times with exact lines"],
+         f"{span([row[6] for row in rows], 1)} times as published, {span([row[4] for row in rows], 1)} times with exact lines (five models)"],
         ["16 lines have a better quality than 256 points", "as above", "as above", "better",
-         f"{span([row[8] / row[7] for row in rows], 1)} times the RMSE of 256 points with exact lines, {span([row[8] / row[11] for row in rows], 1)} times that of 64 points; "
-         f"on three teapots, {line_rows.quality_ratio(line_rows.EXACT):.2f} times the RMSE of 256 points with exact lines, "
-         f"{line_rows.quality_ratio(line_rows.PUBLISHED):.2f} times as published ([images](../bench/results/line-samples.md))"],
+         f"not confirmed: 16 exact lines have {span([row[8] / row[7] for row in rows], 1)} times the RMSE of 256 points, and "
+         f"{span([row[8] / row[11] for row in rows], 1)} times the RMSE of 64 points (five models); on three teapots, "
+         f"{line_rows.quality_ratio(line_rows.EXACT):.2f} times the RMSE of 256 points, "
+         f"and {line_rows.quality_ratio(line_rows.PUBLISHED):.2f} times as published ([images](../bench/results/line-samples.md))"],
         ["A choice of three levels by the score, blur over edge length, saves time at high blur (Figure 7)",
          "`--lod-metric score`; the constant of the score is ours",
          "`TzengPlan.drawsTheLevelNearestToTheScore`, `defocus_lens_space_bench --figure7`", "about 50 % of the time saved; twice as fast on teapots",
-         f"{three[0.1]:.2f} times as fast, so slower, at a blur of a tenth of the width; {three[0.2]:.2f} times at a fifth"],
+         f"slower ({three[0.1]:.2f} times as fast) at a blur of a tenth of the image's width; {three[0.2]:.2f} times as fast at a fifth"],
     ]
 
 
@@ -333,12 +335,12 @@ def lee():
     return [
         ["Depth layers leave out surfaces that no lens point sees", "[depth_layers.h](../src/render/layered/depth_layers.h)",
          "`Layered.aBlurredBarShowsWhatItHidesFromThePinhole`, `Layered.moreLayersComeCloserToTheAccumulation`", "–",
-         f"4 layers are enough for the fish; a thicket gains up to 8 (128 samples: {four:.1f}, {eight:.1f}, {sixteen:.1f} dB with 4, 8, 16)"],
+         f"the fish need 4 layers, the thicket 8 (PSNR with 128 samples: {four:.1f}, {eight:.1f} and {sixteen:.1f} dB with 4, 8 and 16 layers)"],
         ["Lens rays of each pixel are traced through the layers", "[trace.frag](../shaders/layered/trace.frag)",
          "`Layered.aPointOfLightBecomesADiskOfTheCircleOfConfusion`, `Layered.slopingAndRoundSurfacesAreAsTheAccumulationHasThem`",
          "“mostly indistinguishable from offline rendering”",
-         f"with 128 samples, {at_128['layered, pinholes=1 lod=off']:.1f} dB from one pinhole and {at_128['layered, lod=off']:.1f} dB from four; "
-         f"the accumulation has {at_128['accumulation, lod=off']:.1f} dB"],
+         f"PSNR with 128 samples: {at_128['layered, pinholes=1 lod=off']:.1f} dB with one pinhole, {at_128['layered, lod=off']:.1f} dB with "
+         f"four; the accumulation has {at_128['accumulation, lod=off']:.1f} dB"],
         ["N-buffers bound where a ray may hit a surface", "mipmaps: a fifth of the memory, slightly wider bounds "
          "([lens_rays.h](../src/render/layered/lens_rays.h))",
          "`Layered.everyLensShapeAndControlIsTheAccumulations`: RMSE at most 0.02 from the accumulation", "N-buffers", "–"],
@@ -349,8 +351,8 @@ def lee():
         ["The lens has aberrations", "[wavelengths.h](../src/lens/wavelengths.h), [aperture.h](../src/lens/aperture.h)",
          "`Layered.everyLensShapeAndControlIsTheAccumulations`", "spherical, chromatic", "the same"],
         ["Focus control: each pixel has its own focus, fitted by least squares to marks of the user",
-         "`--focus-points` with four to 16 pixels, for all methods that use C: a tilted and curved surface ([focus.h](../src/frame/setup/focus.h)); "
-         "theirs has a free form", "`FocusThrough.findsTheCurvedSurfaceOfManyPoints`, `FocusThrough.leavesTheMinBlur`", "images", "–"],
+         "`--focus-points`, for all methods that use C: a tilted plane through three pixels, or a tilted and curved surface fitted to 4 to 16 "
+         "([focus.h](../src/frame/setup/focus.h)); the published surface may have any shape", "`FocusThrough.findsTheCurvedSurfaceOfManyPoints`, `FocusThrough.leavesTheMinBlur`", "images", "–"],
     ]
 
 

@@ -26,6 +26,7 @@ PAGES = {"README.md": False, "docs/results.md": False, "docs/seeds.md": False, "
 BLOCK = re.compile(rf"(<!-- ({'|'.join(['methods', 'equal error', *TABLES])})(?:: ([^>]+))? -->\n).*?(<!-- end -->)", re.DOTALL)
 LEVELS = {"lod=off": "full detail", "lod=fractional metric=measured thresholds=1": "levels",
           "lod=fractional metric=size thresholds=1": "fractional levels"}
+AS_PUBLISHED = {("llvmpipe-methods-lens-space", "line"): "line as published"}  # methods that have published settings in a run
 PINHOLE_SETTINGS = ("standard", "coc=thin-lens taps=64 max-coc=unlimited", "resolution=quarter kernel-taps=eight", "pinholes=1")
 
 
@@ -47,7 +48,7 @@ def scene_of(results):
 
 def held_equal(results):
     runs = "one run" if results["runs"] == 1 else f"median of {results['runs']} interleaved runs"
-    return (f"{results['width']} × {results['height']}, f/{results['lens']['fStop']:g}, against "
+    return (f"{results['width']} × {results['height']}, f/{results['lens']['fStop']:g}; reference: "
             f"{results['reference']['samples']:,} lens samples at full detail; {results['device'].split(' (')[0]}, "
             f"{results['machine']['threads']} cores, {runs}")
 
@@ -63,9 +64,9 @@ def equal_error_table(names):
         methods = results["timesToErrors"]
         first = methods[0]["times"]
         rows.append([f"**{scene_of(results)}**, {held_equal(results)}"] + [""] * len(first))
-        rows += [[method["name"], *map(seconds_to_error, method["times"], first)] for method in methods]
+        rows += [[AS_PUBLISHED.get((name, method["name"]), method["name"]), *map(seconds_to_error, method["times"], first)] for method in methods]
     errors = [f"RMSE {time['rmse']:g}" for time in first]
-    return table([f"seconds a frame ({methods[0]['name']} = 1)", *errors], rows) + "".join(map(run_source, names))
+    return table([f"seconds per frame (relative to {methods[0]['name']})", *errors], rows) + "".join(map(run_source, names))
 
 
 def methods_table(name, everything):
@@ -92,10 +93,10 @@ def block_text(kind, paths, everything):
 def fitted_to(page, text):
     """Returns a table's text with links that resolve from a page in docs/ or in bench/results/.
 
-    The sentence "Held equal" is removed on docs/results.md, which contains it at the top.
+    docs/results.md has the sentence "Held equal" at the top, and leaves commits to the linked runs.
     """
     if page == "docs/results.md":
-        return re.sub(r" Held equal: .*\n", "\n", text)
+        return re.sub(r", commit \w+(?=\])", "", re.sub(r" Held equal: .*\n", "\n", text))
     return text.replace("](../bench/results/", "](") if page.startswith("bench/results/") else text
 
 
