@@ -391,6 +391,7 @@ void registerEmbree() {
                             .shadesAsLit = false,
                             .showsThrough = false,
                             .drawsMotion = false,
+                            .aperture = ApertureShown::shape,
                             .settings = {},
                             .make = [sampling](const World& world, const RendererOptions&) {
                                 return makeEmbreeRenderer(world, sampling);

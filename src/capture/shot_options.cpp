@@ -80,6 +80,7 @@ void applyShot(const Shot& shot, Request& request) {
 void settleShot(Shot& shot, Request& request, const GivenOptions& given) {
     if (given.camera || cameraPlaced(request)) shot.movement = {};
     if (shot.shutterAngle && !given.shutter) request.shutter = *shot.shutterAngle / 360 / shot.frameRate;
+    if (request.targetError && !given.samples && !shot.given.contains("samples")) request.samples.reset();
     scaleFocusPixels(shot, request);
     if (!std::holds_alternative<CameraFocus>(request.focus)) {
         shot.focus.reset();

@@ -19,11 +19,13 @@ void applyShot(const Shot& shot, Request& request);
 struct GivenOptions {
     bool camera = false;
     bool shutter = false;
+    bool samples = false;
 };
 
 // Merges shot and request after the command line is parsed. Removes overridden values from the shot: the lens fields
 // and the focus that `request` sets, and the movement if an option sets a camera or its position. Sets the lens values
-// of `request` to those of the shot's first keyframes, so that a frame can be prepared from `request`.
+// of `request` to those of the shot's first keyframes, so that a frame can be prepared from `request`. With a target
+// error, the number of samples has no limit unless the shot or an option sets it.
 void settleShot(Shot& shot, Request& request, const GivenOptions& given);
 
 SequenceBase sequenceBase(const PreparedFrame& frame, const Request& request);

@@ -44,8 +44,9 @@ struct RendererOptions {
     MethodSettings settings = {};             // values of Method::settings; missing settings have their default
 };
 
-// Features of the aperture that a method reproduces.
-enum class ApertureShown { oval, shape, all };  // oval: anamorphic ratio only; shape: all except cat's eye
+// Features of the aperture that a method reproduces. oval: anamorphic ratio only; shape: all except blur that differs
+// across the image or between colours, such as cat's-eye bokeh and axial chromatic aberration.
+enum class ApertureShown { oval, shape, all };
 
 struct Method {
     std::string name;

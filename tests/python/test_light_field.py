@@ -61,7 +61,7 @@ def test_wrong_use(path, tmp_path):
         field.refocus()
     with pytest.raises(defocus.Error, match="missing.exr"):
         defocus.LightField(tmp_path / "missing.exr")
-    with pytest.raises(defocus.UsageError, match="3 and 2 m"):
+    with pytest.raises(defocus.UsageError, match="3 to 2 m"):
         defocus.LightField.render(tmp_path / "b.exr", **SCHOOL, focus_range=(3, 2))
     assert not (tmp_path / "b.exr").exists()
 

@@ -101,7 +101,7 @@ TEST_F(LightFieldLibrary, refusesWrongUse) {
     other.method = "circular";
     EXPECT_NE(refusal(other, path_, {2, 2}).find("accumulation"), std::string::npos);
     EXPECT_NE(refusal(request_, folder_ / "a.png", {2, 2}).find("a.png"), std::string::npos);
-    EXPECT_NE(refusal(request_, path_, {3, 2}).find("3 and 2 m"), std::string::npos);
+    EXPECT_NE(refusal(request_, path_, {3, 2}).find("3 to 2 m"), std::string::npos);
     EXPECT_NE(refusal(request_, path_, {std::nan(""), 2}), "");
     EXPECT_FALSE(std::filesystem::exists(path_));
 

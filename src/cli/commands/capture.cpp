@@ -449,7 +449,11 @@ void addCaptureCommand(CLI::App& program, const GlobalOptions& global) {
         "  defocus capture shot.json --shard 2/8 --resume");
     command->callback([arguments, command, &global] {
         const auto given = [command](const char* name) { return command->get_option(name)->count() > 0; };
-        runCapture(*arguments, {given("--camera") || given("--camera-from"), given("--shutter")}, global);
+        runCapture(*arguments,
+                   {.camera = given("--camera") || given("--camera-from"),
+                    .shutter = given("--shutter"),
+                    .samples = given("--samples")},
+                   global);
     });
 }
 

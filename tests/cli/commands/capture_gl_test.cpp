@@ -374,6 +374,18 @@ TEST_F(Capture, filmsHaveTaggedColoursOfBt709) {
     }
 }
 
+TEST_F(Capture, targetErrorTakesAsManySamplesAsItNeeds) {
+    json document = shot();
+    document.erase("samples");
+    writeShot(document);
+    ASSERT_EQ(run({"capture", "shot.json", "--range", "5", "-o", "free/####.exr", "--target-error", "0.01"}).exitCode,
+              0);
+    Metadata metadata;
+    readImage(folder() / "free/0005.exr", metadata);
+    EXPECT_GT(std::get<int>(metadata.at("defocus:samples")), 64);  // the default of shots without a target error
+    EXPECT_LE(std::get<double>(metadata.at("defocus:estimatedError")), 0.01);
+}
+
 // With a target error, each frame gets the number of samples that its own error requires. The number is the same if
 // the frame is rendered alone, in the sequence, or in another shard of the sequence.
 TEST_F(Capture, targetErrorGivesAFrameTheSameSamplesHoweverItIsRendered) {

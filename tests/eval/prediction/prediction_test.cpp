@@ -19,8 +19,8 @@ TEST(Prediction, tableAndJsonTellTheSame) {
     EXPECT_FALSE(far.withinTwo());
     const std::vector rows{samples, near, far, unused};
     const std::string summary = predictionSummary(rows);
-    EXPECT_NE(summary.find("1 of 2 levels"), std::string::npos) << summary;
-    EXPECT_NE(summary.find("the largest factor is 3.00"), std::string::npos) << summary;
+    EXPECT_NE(summary.find("1 of the 2 levels"), std::string::npos) << summary;
+    EXPECT_NE(summary.find("largest factor is 3.00"), std::string::npos) << summary;
     EXPECT_NE(predictionLine(far).find("beyond 2"), std::string::npos);
     EXPECT_NE(predictionLine(unused).find("not used"), std::string::npos);
     const auto json = nlohmann::json::parse(predictionJson(rows, {}));
