@@ -9,9 +9,9 @@
 // of the mesh, including the result. --million adds a fish with a million triangles, smooth and flat-shaded.
 //
 // Distance. Held constant: the mesh, welded by position, and the triangle count of each level. meshoptimizer simplifies
-// level 0 directly to that count. The distance is the larger of the mean distances to and from level 0. The table is
-// about the distance of the pyramid's level divided by the distance of meshoptimizer's level. "mean" is the geometric
-// mean of this ratio over all levels.
+// level 0 directly to that count. The distance is the larger of the mean distances to and from level 0. The table lists
+// the ratio of two distances, the pyramid's to meshoptimizer's, so values below 1 favour the pyramid. "mean" is the
+// geometric mean of this ratio over all levels.
 //
 // Appearance. Held constant: the largest mesh of each scene, the triangle count of each level (meshoptimizer gets the
 // counts of the pyramid), camera, lens, 32 lens samples, 512 x 384 px. Each level is drawn at the blur at which the

@@ -60,8 +60,8 @@ LensRay refractedRay(const LensCamera& camera, const glm::dvec2& image, const Le
 // Selects a pair of sample dimensions: for the point on the lens, or for the point in the pixel.
 enum class SamplePair : std::uint32_t { lens, pixel };
 
-// Returns point `index` ∈ [0, 1)² of a scrambled Sobol' sequence. `stream` selects the scramble: a different value for
-// each pixel, or one value that all pixels share.
+// Returns the point with number `index` of a scrambled Sobol' sequence in [0, 1)². `stream` selects the scramble: a
+// different value for each pixel, or one value that all pixels share.
 glm::dvec2 scrambledPoint(std::uint32_t index, std::uint32_t stream, SamplePair pair, std::uint32_t seed);
 
 // Maps (r, s) ∈ [0, 1)² uniformly to the aperture: the unit disk, or the inscribed polygon with its first corner at the

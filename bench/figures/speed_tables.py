@@ -91,8 +91,8 @@ def speed_sentence():
     by_size, drawn = dict(samples_sweep(FISH))[64], dict(samples_sweep(OWN))[64]
     full, levels = drawn["off"], drawn["fractional"]
     return textwrap.fill(
-        f"With 64 lens samples at {run_of(OWN)['width']:,} × {run_of(OWN)['height']:,} px, the built-in scene is drawn with "
-        f"{levels['triangles'] / 1e6:.0f} million triangles. Full meshes would need {full['triangles'] / 1e6:.0f} million; culled "
+        f"Over 64 lens samples at {run_of(OWN)['width']:,} × {run_of(OWN)['height']:,} px, the built-in scene is drawn with "
+        f"{levels['triangles'] / 1e6:.0f} million triangles in all. Full meshes would need {full['triangles'] / 1e6:.0f} million; culled "
         f"triangles aren't counted. Against a converged image, the RMSE is {error_ratio(drawn):.2f} times the RMSE of full meshes, and the "
         f"perceptual error FLIP is {error_ratio(drawn, 'flip'):.2f} times as large. On {run_of(OWN)['machine']['threads']} CPU cores "
         f"without a GPU, a frame takes {seconds(levels):.1f} s instead of {seconds(full):.1f} s, {levels['speedUp']:.1f} times as fast. "

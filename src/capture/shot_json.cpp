@@ -361,7 +361,7 @@ Shot shotOf(const json& document, const fs::path& file) {
          lineBreak == std::string_view::npos ? before.size() + 1 : before.size() - lineBreak, message);
 }
 
-// Returns the offset of the first number that overflows a double, because json::parse doesn't report it.
+// Returns the offset of the first number that overflows a double; json::parse doesn't report this offset.
 std::size_t placeOfOverflow(std::string_view text) {
     bool inString = false;
     for (std::size_t i = 0; i < text.size(); ++i) {

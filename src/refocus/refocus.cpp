@@ -37,7 +37,7 @@ void checkRanges(const LightFieldInfo& info, const Refocusing& refocusing, const
     if (!info.disk && (refocusing.shape || refocusing.fStop > info.fStop * (1 + tolerance)))
         fail(
             "{}: the aperture was not rendered as a full disk, so its size and shape are fixed; render the file again "
-            "without blades and other shapes",
+            "without --blades, --aperture-image and other options of its shape",
             name);
 }
 

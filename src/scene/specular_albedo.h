@@ -16,7 +16,7 @@ struct SpecularAlbedoTable {
     std::array<glm::vec2, std::size_t{side} * side> table;
 };
 
-// Returns the table, which is computed in the first call. Its entries are integrals of the single-scattering GGX BRDF
+// Returns the table, which is computed on the first call. Its entries are integrals of the single-scattering GGX BRDF
 // over all directions of incidence, with height-correlated Smith masking and Schlick's Fresnel (Walter et al. 2007;
 // Heitz 2014, Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs).
 const SpecularAlbedoTable& specularAlbedoTable();

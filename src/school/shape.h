@@ -105,8 +105,8 @@ struct FishRelief {
 };
 FishRelief fishRelief(const FishShape& shape, const FishSkinPoint& point, float detail);
 
-// Spine of the swimming fish. bend() moves a point of the straight fish along with the spine. Points are in body
-// lengths; x is minus the position `a` along the body.
+// Spine of the swimming fish. bend() moves a point of the straight fish along with the spine. Coordinates
+// are in body lengths; x = −a, where `a` is the position along the body.
 class FishSpine {
 public:
     explicit FishSpine(const FishShape& shape);

@@ -125,7 +125,7 @@ TEST(Refocus, refusesWhatWasNotRendered) {
     EXPECT_EQ(faultOf(info, {2, 2, {}}), "");
     EXPECT_EQ(faultOf(info, {2, 4, {}}),
               "a.exr: the aperture was not rendered as a full disk, so its size and shape are fixed; render the file "
-              "again without blades and other shapes");
+              "again without --blades, --aperture-image and other options of its shape");
 }
 
 // Returns the message with which lens images (views from lens points) of `lens`, focused at 2 m, are rejected; empty if

@@ -93,8 +93,8 @@ std::optional<std::string> sizeText(const Request& request) {
 Row unitsRow() {
     return Row(SettingKind::number, "units", "--units", "m|cm|mm|METRES|auto",
                "Length of one unit of the scene: m, cm, mm or a number of metres. auto: the unit stored in the file's "
-               "extras. Without it, 1 m if the camera has a focal length or a focus distance, if --camera-from is "
-               "given, or if an option gives a distance or a position in m; else an estimate from the scene's size")
+               "extras; else 1 m if the camera has a focal length or a focus distance, if --camera-from is given, or "
+               "if an option gives a distance or a position in m; else an estimate from the scene's size")
         .range(1e-9, 1e9)
         .choices({"auto", "m", "cm", "mm"})
         .clears(MEMBER(units))

@@ -12,7 +12,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Minimum number of times that an image must draw an average triangle before levels of detail are worth building.
+// Levels of detail are worth building if an image draws each triangle at least this many times on average.
 // Building takes 8 to 28 µs of CPU time per triangle (bench/results/llvmpipe-cold.txt); drawing a triangle once takes
 // a fraction of a microsecond. A single image would need more draws to recover that time, but later images read the
 // levels from the cache. Images with fewer draws have little blur, so levels would save little.

@@ -339,7 +339,7 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
         sight.sum = reference.sum;
     });
 
-    // A black mesh keeps the error 0, because its mean radiance cannot serve as the unit of errors.
+    // The error of a black mesh stays 0: errors are relative to the mean radiance, which is 0 here.
     double covered = 0;
     double light = 0;
     for (const Sight& sight : sights) {

@@ -182,7 +182,7 @@ void collapseTo(Simplifier& s, std::size_t floor, std::size_t target, double sha
     }
 }
 
-// Returns the approximate cost of the `rank`-th cheapest good or poor collapse (classes of simplify.h).
+// Returns the approximate cost of the `rank`-th cheapest collapse among those rated good or poor (simplify.h).
 float costAtRank(const SurfaceMesh& mesh, std::size_t rank) {
     std::vector<float> costs;
     const std::size_t stride = 1 + mesh.n_vertices() / costSample;

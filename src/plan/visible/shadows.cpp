@@ -298,9 +298,9 @@ ShadowProjection mapProjection(const World& world, const glm::dvec3& camera, con
 
 // ---- size of the shadow maps ----------------------------------------------------------------------------------------
 
-// Returns the number of texels across the map that makes a texel at `seen` texelPixels times as wide as the smallest
-// visible detail. This detail is one pixel, or half the blur's diameter if that is larger. Returns 0 if the point is
-// outside the map.
+// Returns the resolution (texels per side) that the shadow map needs at the point `seen`: the width of a texel there is
+// texelPixels times the smallest visible detail, which is one pixel or half the blur's diameter, if that is larger.
+// Returns 0 if the point is outside the map.
 double texelsNeeded(const FramePlan& plan, const ShadowProjection& projection, int size, const SeenPoint& seen) {
     const glm::vec4 place(glm::vec3(seen.place), 1);
     const double w = glm::dot(projection.clipRows[3], place);

@@ -307,7 +307,7 @@ Method lineMethod() {
          .choices = {"exact", "published"}},
         {.name = "segments",
          .defaultValue = std::to_string(standardSegments),
-         .description = "Number of segments in the buffer of --resolve published",
+         .description = "With --resolve published: max number of segments that are stored for a line",
          .choices = {},
          .min = 2,
          .max = 64,

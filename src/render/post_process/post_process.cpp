@@ -161,9 +161,9 @@ MethodSetting pinholesSetting() {
     return {.name = "pinholes",
             .defaultValue = "4",
             .description =
-                "Number of sharp (pinhole) images per frame, with subpixel offsets for antialiasing; the published "
-                "form of each method uses 1. With --method layered, each image has its own layers and an equal share "
-                "of the lens samples",
+                "Number of sharp (pinhole) images per frame, with subpixel offsets for antialiasing; 1 in the "
+                "published methods. "
+                "With --method layered, each image has its own layers and an equal share of the lens samples",
             .choices = {},
             .min = 1,
             .max = 64};

@@ -31,7 +31,7 @@ SampleRange parseSampleRange(std::string_view text) {
     const auto number = [&](std::string_view part) {
         const std::optional<std::uint32_t> value = wholeText<std::uint32_t>(part);
         if (!value || *value > maxSamples)
-            fail("'{}' is not FIRST:END, with samples from 0 to {}, such as 64:128", text, maxSamples);
+            fail("'{}' is not a range of samples; give FIRST:END between 0 and {}, such as 64:128", text, maxSamples);
         return *value;
     };
     const std::size_t colon = std::min(text.find(':'), text.size());

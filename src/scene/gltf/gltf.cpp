@@ -20,7 +20,7 @@ namespace {
 
 // Adds each object's memory to the scene's memory budget. Instances share a mesh, but each needs memory of its own.
 void checkObjects(gltf::Source& source, const gltf::Hierarchy& hierarchy, const Scene& scene) {
-    constexpr std::uint64_t objectBytes = 2304;                   // measured memory of an object's pose and rendering
+    constexpr std::uint64_t objectBytes = 2304;  // measured memory of an object: its pose and its draw data
     constexpr std::uint64_t jointBytes = 4 * sizeof(glm::dmat4);  // memory of a joint's matrices in pose and frame plan
     constexpr std::uint64_t weightBytes = 4 * sizeof(double);
     for (const Node& node : hierarchy.nodes) {
