@@ -67,7 +67,7 @@ def convergence_section(results, folder, report):
     return [
         "<h2>Error against run time</h2>",
         '<p>Each line is a method with one setting; along it the number of lens samples grows. Rings: no other row is both '
-        'as fast and as close (the Pareto front). A dashed line at the right is a bias floor: however many more lens samples '
+        'as fast and as close (the Pareto front). A dashed line at the right is the bias of the levels of detail: however many more lens samples '
         'these thresholds get, the image comes no closer to full detail. Numbers: lens samples of accumulation at full '
         f'detail. Nothing can be read below the reference’s own error (RMSE {rmse(own):.5f}, FLIP {flip(own):.4f}).</p>',
         "<h3>RMSE</h3>", plot_figure(error_plot(results, series, rmse, "rmse", "RMSE from the reference", "front"),
@@ -79,7 +79,7 @@ def convergence_section(results, folder, report):
         f"<p>The frame of each line that is nearest to {time_text(time)}, and its FLIP map from 0 (black) to "
         f"{results['errorMapFullScale']:g} and more (pale yellow).</p>",
         overview(results, folder), *(crop_strip(results, nearest, folder, crop) for crop in results["crops"]),
-        equal_error_table(results["timesToErrors"]), artefact_strips(report), "<h3>Bias floors</h3>",
+        equal_error_table(results["timesToErrors"]), artefact_strips(report), "<h3>Bias of the levels of detail</h3>",
         "<p>The difference between the image with levels and the one at full detail, at the same lens samples, so that "
         "sampling noise cancels; at the largest number measured. The standard thresholds shrink as samples grow, so "
         "that the floor sinks with them; with these thresholds held, it stays.</p>",

@@ -1,7 +1,7 @@
 // Looks up the rays of each pixel. There are rayVariants sets of rays. Each set contains all rays of one pixel, well
 // distributed over lens and pixel. The pixels of a square of up to 8 × 8 pixels use different sets, in a different
-// order in each square (src/render/lens_space/ray_sets.h). Each pixel also scrambles its samples (lens
-// point, position in the pixel, time), so that no two pixels have the same ones.
+// order in each square (src/render/lens_space/ray_sets.h). Each pixel also scrambles its samples (lens point, position in
+// the pixel, time), so that no two pixels have the same ones.
 
 struct Ray {
     // xy: for a point sample, the lens point (u, k·v), where k is the image's aspect ratio; for a line sample, a line

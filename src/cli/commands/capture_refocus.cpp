@@ -46,6 +46,7 @@ std::string savedText(const FilmSettings& settings, const FilmFigures& figures) 
 
 std::string possibleSaving(const Shot& shot, const SequenceBase& base, const FilmSettings& settings,
                            const std::vector<FilmFrame>& film) {
+    if (shot.request.targetError) return {};  // --refocus needs a fixed number of samples
     std::uint64_t frames = 0;
     std::uint64_t images = 0;
     for (const RefocusRun& run : refocusRuns(shot, base, settings, shot.range, samplesOf(settings)).runs) {

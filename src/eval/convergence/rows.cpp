@@ -25,7 +25,7 @@ std::string faultOf(const std::vector<const ConvergenceRun*>& runs, int seeds) {
         const auto [min, max] = std::minmax(run->error.mse, (*other)->error.mse);
         if (max - min > maxDifference * min)
             return fmt::format(
-                "runs with the same seed should give the same image but their MSE ranges from {:.3g} to {:.3g}", min,
+                "runs with the same seed should give the same image, but their MSE ranges from {:.3g} to {:.3g}", min,
                 max);
     }
     return {};

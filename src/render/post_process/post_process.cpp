@@ -162,8 +162,8 @@ MethodSetting pinholesSetting() {
             .defaultValue = "4",
             .description =
                 "Number of sharp (pinhole) images per frame, with subpixel offsets for antialiasing; 1 in the "
-                "published methods. "
-                "With --method layered, each image has its own layers and an equal share of the lens samples",
+                "published methods. With --method layered, each image has its own layers and an equal share of the "
+                "lens samples",
             .choices = {},
             .min = 1,
             .max = 64};
