@@ -17,8 +17,8 @@ struct SequenceBase {
     std::shared_ptr<const Scene> scene;
     View view;
     RenderSettings settings;
-    std::vector<PlacedLight>
-        lights;  // lights with the request's light sizes; default lights if the scene has no lights
+    // Lights with the request's light sizes; default lights if the scene has no lights.
+    std::vector<PlacedLight> lights;
     CameraChoice camera;
     bool cameraStands = false;                     // true: the camera stays as in `view`; false: it follows its node
     std::set<std::string, std::less<>> fixedLens;  // lens fields that don't follow the camera's values

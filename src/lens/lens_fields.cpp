@@ -113,8 +113,7 @@ const LensField fields[] = {
     {"focusRangeRefocuses", "--focus-range-refocuses", LensSection::focus, "", 0, 1, &Lens::focusRangeRefocuses,
      &LensSettings::focusRangeRefocuses,
      "Blur everything behind the sharp range (--focus-range-behind) as if the lens were focused at the range's far "
-     "end. "
-     "If off, the blur at infinity is the same as without a sharp range. Default: from the camera, else off",
+     "end. If off, the blur at infinity is the same as without a sharp range. Default: from the camera, else off",
      "true"},
     {"focusTilt", "--focus-tilt", LensSection::focus, "DEG", -89.9, 89.9, &Lens::focusTilt, &LensSettings::focusTilt,
      "Tilt of the focus plane about the horizontal axis, in degrees; above 0, its top is nearer. Default: from the "

@@ -226,7 +226,8 @@ Rows lensRows() {
     rows.push_back(rows::words(SettingKind::path, "apertureImage", "--aperture-image", "FILE",
                                MEMBER(lens.apertureImage),
                                "Image of the aperture; bright pixels transmit light. The longer side of the image "
-                               "spans the aperture's diameter. Replaces --blades, --obstruction and --spherical-aberration")
+                               "spans the aperture's diameter. Replaces --blades, --obstruction and "
+                               "--spherical-aberration")
                        .unused(unusedLensField(LensFeature::shape)));
     rows.push_back(rows::other("nodeBlur", "--node-blur", "NAME=SCALE", addNodeBlur, nodeBlurText,
                                "Scale the blur of a node, given by name or number, and of its children; 0 keeps them "

@@ -52,7 +52,8 @@ Row samplesRow() {
                "samples", "--samples", 1, maxSamples, MEMBER(samples),
                fmt::format("Number of lens samples. If the image has no visible blur, no motion and no shadows, at "
                            "most {} are drawn, unless --keep-all is given. auto: the number that --quality needs, at "
-                           "most {}. With --target-error, or with --time-limit of a single image: the maximum number, {} by default",
+                           "most {}. With --target-error, or with --time-limit of a single image: the maximum "
+                           "number, {} by default",
                            antialiasingSamples, maxAutomaticSamples, maxSamples))
         .metavar("N|auto")
         .choices({"auto"})

@@ -36,8 +36,8 @@ void checkSampleRange(const SampleRange& range, std::uint32_t samples);
 // Parses "index/count", a share of a frame's rows. Throws Error unless both are integers and 0 ≤ index < count.
 Share parseTileShare(std::string_view text);
 
-// Returns the settings that differ between two parts' metadata, such as "seed differs (0 and 1)": at most three, separated by
-// commas. Returns "their settings differ" if no differing setting can be named from the metadata.
+// Returns the settings that differ between two parts' metadata, such as "seed differs (0 and 1)": at most three,
+// separated by commas. Returns "their settings differ" if no differing setting can be named from the metadata.
 std::string settingsDifference(const Metadata& first, const Metadata& second);
 
 // Removes attributes that describe the file (compression, windows, …) instead of the frame.
