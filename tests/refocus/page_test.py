@@ -134,7 +134,7 @@ def main(program):
         run(*rendering, scene, "--camera-position", "0,0,0", "--camera-target", "0,0,-1", "--fstop", "0.95", "--focus-distance", "4",
             "--focus-range", "2:4", "--lens-images", lens, "--exposure", "0")
         run(program, "refocus", lens, "--html", page, "--quiet")
-        screenshot(chromium, page, shown, "&focus=3.2&fstop=1.4&shape=2")
+        screenshot(chromium, page, shown, "&focus=3.2&fstop=1.4&shape=3")
         run(program, "refocus", lens, "--focus-distance", "3.2", "--fstop", "1.4", "--blades", "6", "--no-fill-gaps", "-o", reference,
             "--quiet")
         compare(program, reference, shown, "lamp")

@@ -264,11 +264,7 @@ std::vector<MethodSetting> circularSettings() {
                         "rescaled: the published constants, scaled so that the kernel is as large as the blur disk. "
                         "published and rescaled exist for 1 to 5 components only",
          .choices = {"fitted", "rescaled", "published"}},
-        {.name = "max-coc",
-         .defaultValue = "unlimited",
-         .description = "Maximum blur diameter. published: 17 px of the blurred foreground or background, as in "
-                        "Garcia's slides; with --resolution quarter, these are 68 px of the image",
-         .choices = {"unlimited", "published"}},
+        maxCocSetting("unlimited"),
         {.name = "kernel-taps",
          .defaultValue = "exact",
          .description = "Number of kernel samples on each side of the centre. exact: one per pixel. eight: 8, as in "

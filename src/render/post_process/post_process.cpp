@@ -180,6 +180,16 @@ MethodSetting transparencyBucketsSetting(const char* defaultValue) {
             .max = 8};
 }
 
+MethodSetting maxCocSetting(const char* defaultValue) {
+    return {.name = "max-coc",
+            .defaultValue = defaultValue,
+            .description =
+                "Maximum blur diameter. published: 10 px with --method scheuermann, as in Scheuermann's slides; with "
+                "--method circular, 17 px of the blurred foreground or background, as in Garcia's slides, which are "
+                "68 px of the image with --resolution quarter",
+            .choices = {"published", "unlimited"}};
+}
+
 std::unique_ptr<Renderer> makePostProcessRenderer(const World& world, const RendererOptions& options,
                                                   std::unique_ptr<PostProcess> process) {
     return std::make_unique<PostProcessRenderer>(world, options, std::move(process));

@@ -30,6 +30,7 @@ public:
 // Each of these functions returns a setting that several post-process methods share.
 MethodSetting pinholesSetting();
 MethodSetting transparencyBucketsSetting(const char* defaultValue);
+MethodSetting maxCocSetting(const char* defaultValue);
 
 // Returns a renderer that blurs with `process`. `options.settings` must be complete. With a transparent background,
 // each pinhole image is blurred twice: its premultiplied radiance and its coverage. Each bucket of alpha-blended

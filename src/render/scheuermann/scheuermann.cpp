@@ -281,10 +281,7 @@ Method scheuermannMethod() {
          .choices = {},
          .min = 8,
          .max = maxTaps},
-        {.name = "max-coc",
-         .defaultValue = "published",
-         .description = "Maximum blur diameter: 10 px, as in Scheuermann's slides (published), or unlimited",
-         .choices = {"published", "unlimited"}},
+        maxCocSetting("published"),
         {.name = "bits",
          .defaultValue = "16",
          .description = "Bits per channel of the stored images: 16 for half floats, 8 for display-encoded bytes, as in "
