@@ -103,7 +103,7 @@ std::string stabilityJson(std::span<const StabilityRow> rows, std::span<const Ho
                                            {"energy", jsonNumber(row.energy)},
                                            {"followsLens", row.followsLens()}});
     }
-    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return documentText(document);
 }
 
 }  // namespace defocus::engine

@@ -1,7 +1,5 @@
 #include "eval/seed_errors.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -29,13 +27,6 @@ nlohmann::ordered_json seedErrorsJson(std::span<const SeedError> errors) {
     return {{"seeds", errors.size()},
             {"rmse", endsJson(endsOf(errors, &SeedError::rmse))},
             {"flip", endsJson(endsOf(errors, &SeedError::flip))}};
-}
-
-std::string seedErrorsCsv(std::span<const SeedError> errors) {
-    if (errors.empty()) return ",,,,";
-    const Ends rmse = endsOf(errors, &SeedError::rmse);
-    const Ends flip = endsOf(errors, &SeedError::flip);
-    return fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g}", errors.size(), rmse.low, rmse.high, flip.low, flip.high);
 }
 
 }  // namespace defocus::engine

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
-#include <string>
 
 namespace defocus::engine {
 
@@ -18,9 +17,5 @@ struct SeedError {
 // Returns the min and max error over the seeds as {"seeds": 5, "rmse": {"low": …, "high": …}, "flip": {…}}. Needs at
 // least one error.
 nlohmann::ordered_json seedErrorsJson(std::span<const SeedError> errors);
-
-// CSV header, and CSV fields with the min and max error over the seeds. The fields are empty if there are no errors.
-inline constexpr const char* seedErrorsColumns = "seeds,rmseLow,rmseHigh,flipLow,flipHigh";
-std::string seedErrorsCsv(std::span<const SeedError> errors);
 
 }  // namespace defocus::engine

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "eval/convergence/equal_error.h"
+#include "eval/csv.h"
 #include "eval/seed_errors.h"
 #include "eval/spread.h"
 #include "frame/report/json_values.h"
@@ -145,24 +146,7 @@ std::string errorMapName(std::string_view method, std::string_view setting, std:
 }
 
 std::string convergenceCsv(std::span<const ConvergenceRow> rows) {
-    std::string text =
-        "method,form,setting,samples,runs,milliseconds,low,high,setupMilliseconds,pyramidMilliseconds,gpuMilliseconds,"
-        "mse,"
-        "psnr,ssim,flip,biasMse,biasFlip,triangles,peakBytes,front,frontOfMethod,frontByFlip,mseBelowReference,"
-        "flipBelowReference,fault,";
-    text += std::string(seedErrorsColumns) + "\n";
-    for (const ConvergenceRow& row : rows) {
-        const std::string bias = row.bias ? fmt::format("{:.6g},{:.6g}", row.bias->mse, row.bias->flip) : ",";
-        text += fmt::format(
-            "{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{},{:d},{:d},"
-            "{:d},{:d},{:d},{},{}\n",
-            row.method, row.form, row.setting, row.samples, row.runs, row.milliseconds.median, row.milliseconds.low,
-            row.milliseconds.high, row.setupMilliseconds.median, row.pyramidMilliseconds, row.gpuMilliseconds,
-            row.error.mse, row.error.psnr(), row.error.ssim, row.error.flip, bias, row.triangles, row.peakBytes,
-            row.front, row.frontOfMethod, row.frontByFlip, row.mseBelowReference, row.flipBelowReference, row.fault,
-            seedErrorsCsv(seedErrors(row)));
-    }
-    return text;
+    return csvText(rows, rowJson);
 }
 
 std::string convergenceJson(std::span<const ConvergenceRow> rows, const ReferenceImage& reference,

@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "eval/csv.h"
 #include "eval/spread.h"
 #include "frame/report/json_values.h"
 
@@ -77,6 +78,16 @@ ordered_json rowJson(const PoppingRow& row) {
 ordered_json stepJson(const SampleStep& step) {
     return {{"samples", step.samples},     {"object", step.object},     {"level", step.level},      {"coc", step.coc},
             {"edgeError", step.edgeError}, {"expected", step.expected}, {"measured", step.measured}};
+}
+
+ordered_json frameJson(const PoppingFrame& frame) {
+    ordered_json json = {{"movement", movementName(frame.movement)},
+                         {"samples", frame.samples},
+                         {"lod", poppingModeName(frame.mode)},
+                         {"frame", frame.frame},
+                         {"speed", frame.speed}};
+    for (const NamedMeasure& measure : measures) json[measure.name] = jsonNumber(measure.of(frame));
+    return json;
 }
 
 }  // namespace
@@ -167,16 +178,7 @@ std::string poppingSummary(std::span<const PoppingRow> rows) {
 }
 
 std::string poppingCsv(std::span<const PoppingFrame> frames) {
-    std::string text = "movement,samples,lod,frame,speed";
-    for (const NamedMeasure& measure : measures) text += fmt::format(",{}", measure.name);
-    text += '\n';
-    for (const PoppingFrame& frame : frames) {
-        text += fmt::format("{},{},{},{},{:.6g}", movementName(frame.movement), frame.samples,
-                            poppingModeName(frame.mode), frame.frame, frame.speed);
-        for (const NamedMeasure& measure : measures) text += fmt::format(",{:.6g}", measure.of(frame));
-        text += '\n';
-    }
-    return text;
+    return csvText(frames, frameJson);
 }
 
 std::string poppingJson(std::span<const PoppingFrame> frames, std::span<const SampleStep> steps,
@@ -197,7 +199,7 @@ std::string poppingJson(std::span<const PoppingFrame> frames, std::span<const Sa
     for (const char* list : {"rows", "sampleSteps"}) document[list] = ordered_json::array();
     for (const PoppingRow& row : poppingRows(frames)) document["rows"].push_back(rowJson(row));
     for (const SampleStep& step : steps) document["sampleSteps"].push_back(stepJson(step));
-    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return documentText(document);
 }
 
 }  // namespace defocus::engine

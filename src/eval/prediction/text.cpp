@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "eval/csv.h"
 #include "frame/report/json_values.h"
 
 namespace defocus::engine {
@@ -17,6 +18,16 @@ using nlohmann::ordered_json;
 // Returns the larger of the predicted and the rendered error divided by the smaller one, ≥ 1.
 double factorOff(const PredictionRow& row) {
     return std::max(row.predicted / row.rendered, row.rendered / row.predicted);
+}
+
+ordered_json rowJson(const PredictionRow& row) {
+    return {{"mesh", row.mesh},
+            {"coc", row.coc},
+            {"level", row.level},
+            {"triangles", row.triangles},
+            {"predicted", jsonNumber(row.predicted)},
+            {"rendered", jsonNumber(row.rendered)},
+            {"used", row.used}};
 }
 
 }  // namespace
@@ -55,11 +66,7 @@ std::string predictionSummary(std::span<const PredictionRow> rows) {
 }
 
 std::string predictionCsv(std::span<const PredictionRow> rows) {
-    std::string text = "mesh,coc,level,triangles,predicted,rendered,used\n";
-    for (const PredictionRow& row : rows)
-        text += fmt::format("{},{:.6g},{},{},{:.6g},{:.6g},{}\n", row.mesh, row.coc, row.level, row.triangles,
-                            row.predicted, row.rendered, row.used ? 1 : 0);
-    return text;
+    return csvText(rows, rowJson);
 }
 
 std::string predictionJson(std::span<const PredictionRow> rows, const BenchSubject& subject) {
@@ -68,14 +75,7 @@ std::string predictionJson(std::span<const PredictionRow> rows, const BenchSubje
         "mesh, level, lens, lens samples, patches of the blur; level 0 of a row is the error of 64 "
         "lens samples at full detail";
     document["rows"] = ordered_json::array();
-    for (const PredictionRow& row : rows)
-        document["rows"].push_back({{"mesh", row.mesh},
-                                    {"coc", row.coc},
-                                    {"level", row.level},
-                                    {"triangles", row.triangles},
-                                    {"predicted", jsonNumber(row.predicted)},
-                                    {"rendered", jsonNumber(row.rendered)},
-                                    {"used", row.used}});
+    for (const PredictionRow& row : rows) document["rows"].push_back(rowJson(row));
     return documentText(document);
 }
 

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "eval/csv.h"
+#include "frame/report/json_values.h"
+
 namespace defocus::engine {
 
 namespace {
@@ -175,16 +178,7 @@ std::string scalingSummary(std::span<const ScalingRow> rows) {
 }
 
 std::string scalingCsv(std::span<const ScalingRow> rows) {
-    std::string text =
-        "axis,value,lod,samples,width,height,milliseconds,low,high,layersMilliseconds,verticesMilliseconds,"
-        "fillMilliseconds,largestPart,triangles,gpuBytes,pyramidBytes,runs\n";
-    for (const ScalingRow& row : rows)
-        text += fmt::format("{},{:.8g},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{}\n",
-                            scalingAxisName(row.axis), row.value, lodModeName(row.mode), row.samples, row.width,
-                            row.height, row.milliseconds.median, row.milliseconds.low, row.milliseconds.high,
-                            row.layers.median, row.vertices.median, row.fill.median, largestText(row), row.triangles,
-                            row.gpuBytes, row.pyramidBytes, row.runs);
-    return text;
+    return csvText(rows, rowJson);
 }
 
 std::string scalingJson(std::span<const ScalingRow> rows, std::span<const ScalingLeftOut> leftOut,
@@ -202,7 +196,7 @@ std::string scalingJson(std::span<const ScalingRow> rows, std::span<const Scalin
         document["leftOut"].push_back(
             {{"axis", scalingAxisName(entry.point.axis)}, {"value", entry.point.value}, {"reason", entry.reason}});
     for (const LargeSceneRow& row : scenes) document["scenes"].push_back(sceneJson(row));
-    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return documentText(document);
 }
 
 }  // namespace defocus::engine

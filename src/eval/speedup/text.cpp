@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "eval/csv.h"
 #include "eval/seed_errors.h"
 #include "eval/spread.h"
 #include "frame/driver/reference_image.h"
@@ -57,16 +58,6 @@ ordered_json rowJson(const SpeedupRow& row) {
     return json;
 }
 
-std::string csvDifference(const Difference& d) {
-    return fmt::format("{:.8g},{:.6g},{:.6g},{:.6g}", d.rmse, d.psnr, d.ssim, d.flip);
-}
-
-std::string csvPart(const std::optional<SpeedupPart>& part) {
-    if (!part) return ",,,";
-    return fmt::format("{:.3f},{:.4f},{},{:.6g}", part->milliseconds, part->speedUp, part->triangles,
-                       part->fromFullDetail.psnr);
-}
-
 std::string partText(const std::optional<SpeedupPart>& part) {
     return part ? fmt::format("{:.2f}", part->speedUp) : std::string();
 }
@@ -109,24 +100,7 @@ std::string speedupLine(const SpeedupRow& row) {
 }
 
 std::string speedupCsv(std::span<const SpeedupRow> rows) {
-    std::string text =
-        "sweep,samples,fStop,focusDistance,lod,milliseconds,low,high,gpuMilliseconds,speedUp,triangles,gpuBytes,"
-        "rmseFull,psnrFull,ssimFull,flipFull,rmseReference,psnrReference,ssimReference,flipReference,"
-        "runs,setupMilliseconds,pyramidMilliseconds,referenceSamples,referenceRmse,referenceFlip,preset,method,"
-        "sizeOnlyMilliseconds,sizeOnlySpeedUp,sizeOnlyTriangles,sizeOnlyPsnr,"
-        "blurOnlyMilliseconds,blurOnlySpeedUp,blurOnlyTriangles,blurOnlyPsnr,";
-    text += std::string(seedErrorsColumns) + "\n";
-    for (const SpeedupRow& row : rows)
-        text += fmt::format(
-            "{},{},{:.8g},{:.8g},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.4f},{},{},{},{},{},{:.3f},{:.3f},{},"
-            "{:.6g},{:.6g},{},{},{},{},{}\n",
-            row.sweep, row.samples, row.fStop, row.focusDistance, lodModeName(row.mode), row.milliseconds.median,
-            row.milliseconds.low, row.milliseconds.high, row.gpuMilliseconds.median, row.speedUp, row.triangles,
-            row.gpuBytes, csvDifference(row.fromFullDetail),
-            row.fromReference ? csvDifference(*row.fromReference) : ",,,", row.runs, row.setupMilliseconds,
-            row.pyramidMilliseconds, row.referenceSamples, row.referenceRemaining.rmse, row.referenceRemaining.flip,
-            row.preset, row.method, csvPart(row.sizeOnly), csvPart(row.blurOnly), seedErrorsCsv(row.ofSeeds));
-    return text;
+    return csvText(rows, rowJson);
 }
 
 std::string speedupJson(std::span<const SpeedupRow> rows, const BenchSubject& subject) {

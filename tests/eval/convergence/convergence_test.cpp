@@ -250,7 +250,7 @@ TEST(ConvergenceJournal, ofAnotherSubjectOrNoneIsAnError) {
 TEST(ConvergenceFiles, csvAndJsonHoldEveryRow) {
     const std::vector<ConvergenceRow> rows = convergenceRows(threeRuns());
     const std::string csv = convergenceCsv(rows);
-    EXPECT_TRUE(csv.starts_with("method,form,setting,samples,runs,milliseconds,low,high,setupMilliseconds,"));
+    EXPECT_TRUE(csv.starts_with("method,form,setting,samples,takesLensSamples,runs,milliseconds.median,"));
     ASSERT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
     const auto commas = std::count(csv.begin(), csv.begin() + static_cast<std::ptrdiff_t>(csv.find('\n')), ',');
     EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 4 * commas);

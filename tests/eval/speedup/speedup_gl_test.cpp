@@ -170,7 +170,7 @@ TEST(Speedup, measuresFormsAndMethodsBesideEachOther) {
     EXPECT_EQ(rows[2].pyramidMilliseconds, 5);
     EXPECT_EQ(rows[5].pyramidMilliseconds, 7);
     EXPECT_EQ(rows[6].method.substr(0, 9), "circular:");
-    EXPECT_EQ(rows[6].method.find(','), std::string::npos);  // the name is a CSV field, so it has no comma
+    EXPECT_EQ(rows[6].method.find(','), std::string::npos);
     // the mode is off, since a pinhole image has no blur that could hide coarse levels
     EXPECT_EQ(rows[6].mode, LodMode::off);
     EXPECT_GT(rows[6].fromFullDetail.rmse, 0);
