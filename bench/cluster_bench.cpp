@@ -22,6 +22,7 @@
 
 #include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
+#include "render/accumulation/accumulation.h"
 #include "render/methods.h"
 #include "run_bench.h"
 
@@ -41,7 +42,7 @@ struct Variant {
 };
 
 void renderOnce(const World& world, Variant& variant) {
-    const auto renderer = methodNamed("accumulation").make(world, {});
+    const auto renderer = makeAccumulationRenderer(world, {});
     const std::clock_t before = std::clock();
     drawAllSamples(*renderer, variant.plan);
     variant.seconds.push_back(renderer->stats().renderMilliseconds / 1000);

@@ -30,6 +30,7 @@
 #include "core/error.h"
 #include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
+#include "render/accumulation/accumulation.h"
 #include "render/aov/work.h"
 #include "render/methods.h"
 #include "run_bench.h"
@@ -52,7 +53,7 @@ struct Row {
 };
 
 void renderOnce(const World& world, Row& row) {
-    const auto renderer = methodNamed("accumulation").make(world, {});
+    const auto renderer = makeAccumulationRenderer(world, {});
     renderer->start(row.plan);
     const std::clock_t before = std::clock();
     while (renderer->advance()) {

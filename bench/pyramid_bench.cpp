@@ -52,6 +52,7 @@
 #include "lod/pyramid/surface_distance.h"
 #include "lod/simplify/simplify.h"
 #include "lod/simplify/weld.h"
+#include "render/accumulation/accumulation.h"
 #include "render/methods.h"
 #include "run_bench.h"
 #include "scene/defaults.h"
@@ -323,7 +324,7 @@ Image drawn(const Stage& stage, std::uint32_t level) {
         object.fine.triangleCount = stage.world.pyramids[0].levels[level].triangleCount;
         plan.levelsUsed[0][level] = true;
     }
-    const auto renderer = methodNamed("accumulation").make(stage.world, {});
+    const auto renderer = makeAccumulationRenderer(stage.world, {});
     return imageOf(*renderer, plan);
 }
 
@@ -470,7 +471,7 @@ void blurredRows(const std::string& name, const Scene& scene) {
         view.lens.fStop = view.lens.focalLength / (1000 * aperture);
         const auto image = [&](std::uint32_t samples, LodMode mode) {
             const RenderSettings settings{.sampleCount = samples, .lod = mode};
-            const auto renderer = methodNamed("accumulation").make(world, {});
+            const auto renderer = makeAccumulationRenderer(world, {});
             return imageOf(*renderer, planFrame(world, view, settings));
         };
         const Image reference = image(1024, LodMode::off);

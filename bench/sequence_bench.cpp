@@ -29,6 +29,7 @@
 #include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
 #include "image/metrics.h"
+#include "render/accumulation/accumulation.h"
 #include "render/methods.h"
 #include "run_bench.h"
 
@@ -284,7 +285,7 @@ Errors errorsOf(const Pattern& pattern, Renderer& renderer, const PreparedFrame&
 
 void measureImages(const Request& options) {
     const PreparedFrame frame = prepareFrame(options);
-    const auto renderer = methodNamed("accumulation").make(frame.world, precise());
+    const auto renderer = makeAccumulationRenderer(frame.world, precise());
     RenderSettings settings = fullDetailSettings(frame, referenceSamples);
     settings.sequence = referenceSequence;
     settings.firstSample = referenceOffset;

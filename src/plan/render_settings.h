@@ -11,6 +11,8 @@
 
 namespace defocus::engine {
 
+inline constexpr std::uint32_t blockSamples = 64;  // lens samples per block; the frame's sum is the sum of its blocks
+
 // Effects that make the simplification of a level invisible. Normal rendering selects levels by both effects;
 // benchmarks can isolate one effect.
 enum class LodCause {

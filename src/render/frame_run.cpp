@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "core/stopwatch.h"
-#include "render/gpu_scene/frame_uniforms.h"
+#include "plan/render_settings.h"
 #include "render/sampling/automatic_samples.h"
 
 namespace defocus::engine {

@@ -14,6 +14,7 @@
 #include "gl_conduct.h"
 #include "image/boxes.h"
 #include "models.h"
+#include "render/accumulation/accumulation.h"
 #include "render/frame_run.h"
 
 namespace defocus::engine {
@@ -45,7 +46,7 @@ protected:
         RenderSettings settings = frame_.settings;
         settings.sampleCount = 64;
         settings.lod = lod;
-        const auto renderer = methodNamed("accumulation").make(frame_.world, {});
+        const auto renderer = makeAccumulationRenderer(frame_.world, {});
         FrameRun run(frame_.world, *renderer);
         run.start(frame_.view, settings, {});
         while (run.advance()) {

@@ -18,6 +18,7 @@
 #include "gl_conduct.h"
 #include "image/metrics.h"
 #include "models.h"
+#include "render/accumulation/accumulation.h"
 #include "render/frame_run.h"
 
 namespace defocus::engine {
@@ -59,7 +60,7 @@ protected:
         if (!request.scene.empty() && !std::filesystem::exists(request.scene))
             GTEST_SKIP() << request.scene << " does not exist";
         frame_ = prepareFrame(request);
-        renderer_ = methodNamed("accumulation").make(frame_.world, {});
+        renderer_ = makeAccumulationRenderer(frame_.world, {});
     }
 
     std::unique_ptr<GlContext> context_;

@@ -7,6 +7,7 @@
 #include "plan/frame_plan.h"
 #include "refocus/focal_stack.h"
 #include "refocus/lens_images.h"
+#include "render/accumulation/accumulation.h"
 #include "render/rendered.h"
 
 namespace defocus::engine {
@@ -27,7 +28,7 @@ TEST_F(LightFieldTest, atTheRenderedFocusHasTheBitsOfAccumulation) {
     RenderSettings settings = frame.settings;
     settings.refocus = info.range;
     const FramePlan plan = planFrame(frame.world, withMargin(frame.view, info.size.margin), settings);
-    const Image image = imageOf(*methodNamed("accumulation").make(frame.world, {}), plan);
+    const Image image = imageOf(*makeAccumulationRenderer(frame.world, {}), plan);
     EXPECT_EQ(refocused(field, asRendered(info)).pixels, within(image, info.size.margin).pixels);
 }
 
@@ -51,7 +52,7 @@ TEST_F(LightFieldTest, stoppingDownIsARenderOfTheRemainingSamples) {
     settings.sampleCount = static_cast<std::uint32_t>(remaining.size());
     FramePlan plan = planFrame(frame.world, withMargin(frame.view, field.info().size.margin), settings);
     plan.samples = remaining;
-    const Image image = imageOf(*methodNamed("accumulation").make(frame.world, {}), plan);
+    const Image image = imageOf(*makeAccumulationRenderer(frame.world, {}), plan);
     EXPECT_NEAR(static_cast<double>(remaining.size()), 64, 3);
     EXPECT_GT(compareImages(within(image, field.info().size.margin), stopped).psnr, 60);
 }

@@ -10,6 +10,7 @@
 #include "gl_conduct.h"
 #include "gl_context_test.h"
 #include "lens/aberrations.h"
+#include "render/accumulation/accumulation.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
@@ -151,7 +152,7 @@ TEST_F(Aberrations, skyIsSeenThroughThem) {
     const World world = flatWorld(empty, gradient);
     const FramePlan plan = planFrame(world, view, fullDetail(64));
     const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
-    const auto renderer = methodNamed("accumulation").make(world, options);
+    const auto renderer = makeAccumulationRenderer(world, options);
     const Image image = imageOf(*renderer, plan);
     const double tanX = tanHalfHorizontalFov(view.lens);
     double moved = 0;

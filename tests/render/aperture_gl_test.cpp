@@ -6,6 +6,7 @@
 #include "bokeh.h"
 #include "gl_conduct.h"
 #include "gl_context_test.h"
+#include "render/accumulation/accumulation.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
@@ -36,7 +37,7 @@ Image bokehOf(const View& view) {
     world.pyramids.push_back(fullDetail(scene.meshes.front()));
     const RenderSettings settings{.sampleCount = 1024, .lod = LodMode::off};
     const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
-    const auto renderer = methodNamed("accumulation").make(world, options);
+    const auto renderer = makeAccumulationRenderer(world, options);
     return imageOf(*renderer, planFrame(world, view, settings));
 }
 

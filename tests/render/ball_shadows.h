@@ -14,6 +14,7 @@
 #include "gl_conduct.h"
 #include "image/metrics.h"
 #include "likeness.h"
+#include "render/accumulation/accumulation.h"
 #include "render/rendered.h"
 #include "small_world.h"
 
@@ -50,7 +51,7 @@ protected:
 
     static void expectTheSameShadows(const SmallWorld& small, std::uint32_t samples, double minPsnr) {
         const auto context = createHeadlessContext();
-        const auto accumulation = methodNamed("accumulation").make(small.world, {});
+        const auto accumulation = makeAccumulationRenderer(small.world, {});
         const auto tracer = makeEmbreeRenderer(small.world, EmbreeSampling::planned);
         const Image open = drawn(small, *tracer, Shadows::off, samples);
         const Image traced = drawn(small, *tracer, Shadows::on, samples);

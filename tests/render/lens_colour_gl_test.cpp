@@ -6,6 +6,7 @@
 #include "bokeh.h"
 #include "gl_conduct.h"
 #include "gl_context_test.h"
+#include "render/accumulation/accumulation.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
@@ -51,7 +52,7 @@ Image renderedPoint(const View& view, double column, double row, double depth, c
     world.pyramids = buildPyramids(scene.meshes);
     const RenderSettings settings{.sampleCount = 4096, .lod = LodMode::off};
     const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
-    const auto renderer = methodNamed("accumulation").make(world, options);
+    const auto renderer = makeAccumulationRenderer(world, options);
     return imageOf(*renderer, planFrame(world, view, settings));
 }
 
@@ -111,7 +112,7 @@ TEST_F(LensColour, greyStaysGrey) {
             (catEye ? view.lens.catEye : view.lens.axialChromaticAberration) = 0.7;
             const RenderSettings settings{.sampleCount = samples, .keepAll = true};
             const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
-            const auto renderer = methodNamed("accumulation").make(world, options);
+            const auto renderer = makeAccumulationRenderer(world, options);
             const Image image = imageOf(*renderer, planFrame(world, view, settings));
             for (std::size_t i = 0; i < image.pixels.size(); i += 4)
                 for (std::size_t c = 0; c < 3; ++c)

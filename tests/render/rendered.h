@@ -2,6 +2,7 @@
 // Functions that render images with all samples of a plan.
 
 #include "plan/frame_plan.h"
+#include "render/accumulation/accumulation.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
@@ -17,7 +18,7 @@ inline Image imageByMethod(const char* method, const World& world, const FramePl
 // Renders an image with method "accumulation" and 32-bit float layers.
 inline Image imageInFloats(const World& world, const FramePlan& plan) {
     const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
-    return imageOf(*methodNamed("accumulation").make(world, options), plan);
+    return imageOf(*makeAccumulationRenderer(world, options), plan);
 }
 
 }  // namespace defocus::engine

@@ -5,6 +5,7 @@
 
 #include "gl/context.h"
 #include "gl_conduct.h"
+#include "render/accumulation/accumulation.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"
@@ -67,7 +68,7 @@ TEST(Sliver, noSampleHasAColorThatItsCornersDoNotAllow) {
     small.world.environment.type = EnvironmentType::none;
 
     const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
-    const auto renderer = methodNamed("accumulation").make(small.world, options);
+    const auto renderer = makeAccumulationRenderer(small.world, options);
     int covered = 0;
     for (std::uint32_t seed = 0; seed < 16; ++seed) {
         const RenderSettings settings{.sampleCount = 1, .seed = seed, .lod = LodMode::off};

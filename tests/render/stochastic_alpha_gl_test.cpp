@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "render/accumulation/accumulated.h"
+#include "render/accumulation/accumulation.h"
 
 namespace defocus::engine {
 namespace {
@@ -108,7 +109,7 @@ TEST_F(StochasticAlpha, pixelsDoNotDependOnTheWave) {
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(24));
     const auto imageInWavesOf = [&](std::uint32_t wave) {
         const RendererOptions options{.wave = wave};
-        return imageOf(*methodNamed("accumulation").make(small->world, options), plan);
+        return imageOf(*makeAccumulationRenderer(small->world, options), plan);
     };
     const Image first = imageInWavesOf(1);
     const Image other = imageInWavesOf(8);

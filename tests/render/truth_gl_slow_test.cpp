@@ -13,6 +13,7 @@
 #include "image/image_io.h"
 #include "image/metrics.h"
 #include "models.h"
+#include "render/accumulation/accumulation.h"
 #include "render/methods.h"
 #include "truth_scene.h"
 
@@ -21,7 +22,7 @@ namespace {
 
 Image rasterised(const World& world, const View& view, const RenderSettings& settings) {
     const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
-    const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(world, options);
+    const std::unique_ptr<Renderer> renderer = makeAccumulationRenderer(world, options);
     return imageOf(*renderer, planFrame(world, view, settings));
 }
 

@@ -8,6 +8,7 @@
 #include "gl_conduct.h"
 #include "image/metrics.h"
 #include "lens/circle_of_confusion.h"
+#include "render/accumulation/accumulation.h"
 #include "render/methods.h"
 #include "truth_scene.h"
 
@@ -30,8 +31,7 @@ std::unique_ptr<TruthScene> nearSchool() {
 
 Image rasterised(const TruthScene& baked, const RenderSettings& settings) {
     const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
-    return imageOf(*methodNamed("accumulation").make(baked.world, options),
-                   planFrame(baked.world, baked.view, settings));
+    return imageOf(*makeAccumulationRenderer(baked.world, options), planFrame(baked.world, baked.view, settings));
 }
 
 Image traced(const TruthScene& baked, const RenderSettings& settings, EmbreeSampling sampling) {

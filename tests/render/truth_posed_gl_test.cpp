@@ -9,6 +9,7 @@
 #include "image/metrics.h"
 #include "models.h"
 #include "posed_world.h"
+#include "render/accumulation/accumulation.h"
 #include "render/rendered.h"
 
 namespace defocus::engine {
@@ -30,7 +31,7 @@ TEST_P(PosedTruth, rasteriserAndRayTracerSeeTheSamePose) {
     small->scene = bakedUnlit(std::move(small->scene));
     small->world.pyramids = buildPyramids(small->scene.meshes);
     small->view.lens.fStop = 0.1;
-    const Image raster = rendered(*small, *methodNamed("accumulation").make(small->world, {}));
+    const Image raster = rendered(*small, *makeAccumulationRenderer(small->world, {}));
     const Image traced = rendered(*small, *makeEmbreeRenderer(small->world, EmbreeSampling::planned));
     EXPECT_GT(compareImages(traced, raster).psnr, 45);
 }

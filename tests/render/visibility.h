@@ -10,6 +10,7 @@
 #include "gl_context_test.h"
 #include "models.h"
 #include "posed_world.h"
+#include "render/accumulation/accumulation.h"
 #include "render/aov/work.h"
 #include "render/methods.h"
 #include "small_world.h"
@@ -26,7 +27,7 @@ protected:
 
     static Image rendered(const SmallWorld& small, const FramePlan& plan, std::uint32_t wave) {
         const RendererOptions options{.wave = wave};
-        const auto renderer = methodNamed("accumulation").make(small.world, options);
+        const auto renderer = makeAccumulationRenderer(small.world, options);
         drawAllSamples(*renderer, plan);
         EXPECT_EQ(renderer->stats().trianglesDrawn, plan.trianglesDrawn);
         return renderer->image();

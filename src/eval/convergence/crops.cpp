@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/accumulation/accumulation.h"
 #include "render/aov/aov.h"
 
 namespace defocus::engine {
@@ -52,7 +53,7 @@ Image errorOfFewSamples(const World& world, const View& view, const ReferenceIma
     const RenderSettings settings{.sampleCount = fewSamples, .lod = LodMode::off};
     RendererOptions own = options;
     own.settings.clear();
-    const auto renderer = methodNamed("accumulation").make(world, own);
+    const auto renderer = makeAccumulationRenderer(world, own);
     return flipErrorMap(reference.image, imageOf(*renderer, planFrame(world, view, settings)));
 }
 

@@ -9,6 +9,7 @@
 
 #include "image/metrics.h"
 #include "image/tone_map.h"
+#include "render/accumulation/accumulation.h"
 #include "render/aov/aov.h"
 #include "render/pops/level_change.h"
 
@@ -230,8 +231,7 @@ void measurePopping(World& world, const View& view, const PoppingOptions& option
                     const Progress& progress) {
     RendererOptions precise = options.renderer;
     if (precise.layerFormat == LayerFormat::automatic) precise.layerFormat = LayerFormat::rgba32f;
-    const Renderers renderers{methodNamed("accumulation").make(world, precise),
-                              methodNamed("multirate").make(world, precise)};
+    const Renderers renderers{makeAccumulationRenderer(world, precise), methodNamed("multirate").make(world, precise)};
     const MovementFrame own{view, world.pose};
     // Compute all movements first, so that an invalid movement throws before any image is rendered.
     std::vector<std::vector<MovementFrame>> movements;

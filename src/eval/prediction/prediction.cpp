@@ -12,6 +12,7 @@
 #include "lod/pyramid/finish.h"
 #include "lod/pyramid/picture.h"
 #include "plan/lens_cells/blurred_patches.h"
+#include "render/accumulation/accumulation.h"
 #include "scene/defaults.h"
 
 namespace defocus::engine {
@@ -111,7 +112,7 @@ Views viewsOf(Stand& stand, std::uint32_t samples, std::uint32_t level, std::uin
     Views views;
     for (const glm::dvec3& towards : blurredErrorViews()) {
         turnTo(stand, towards);
-        const auto renderer = methodNamed("accumulation").make(stand.world, options);
+        const auto renderer = makeAccumulationRenderer(stand.world, options);
         views.push_back(imageOf(*renderer, planOf(stand, samples, level, seed)));
     }
     return views;

@@ -8,6 +8,7 @@
 #include "core/memory_limits.h"
 #include "core/stopwatch.h"
 #include "eval/scaling/worlds.h"
+#include "render/accumulation/accumulation.h"
 
 namespace defocus::engine {
 
@@ -43,7 +44,7 @@ LargeSceneRow measureLargeScene(const LargeScene& scene, const LargeSceneOptions
 
     // Time the first image, then a second frame, when all resources are ready.
     const Clock::time_point start = Clock::now();
-    const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(world.world, options.renderer);
+    const std::unique_ptr<Renderer> renderer = makeAccumulationRenderer(world.world, options.renderer);
     renderer->start(plan);
     bool more = renderer->advance();
     static_cast<void>(renderer->image());

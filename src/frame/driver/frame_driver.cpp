@@ -9,9 +9,9 @@
 #include "core/memory.h"
 #include "core/stopwatch.h"
 #include "gl/context.h"
+#include "plan/render_settings.h"
 #include "plan/sample_range.h"
 #include "render/frame_run.h"
-#include "render/gpu_scene/frame_uniforms.h"
 #include "render/sampling/automatic_samples.h"
 #include "render/tiles/tile_walk.h"
 #include "scene/ground.h"
@@ -161,9 +161,7 @@ public:
         if (count() == 0) return false;
         const bool more = renderer_.advance();
         if (more && renderer_.samples() % blockSamples != 0) return true;
-        std::optional<BlockSum> block = renderer_.blockSum();
-        if (!block) fail("--sample-range requires --method accumulation");
-        part_.blocks.push_back(std::move(*block));
+        part_.blocks.push_back(renderer_.blockSum().value());
         return more;
     }
     [[nodiscard]] std::uint32_t samples() const override { return count() == 0 ? 0 : renderer_.samples(); }
@@ -311,6 +309,13 @@ void FrameDriver::fitTiles(const FrameOrder& order, const FramePlan& plan, const
 
 namespace {
 
+// Throws UsageError if a range of samples is requested from a method that does not sum samples in blocks.
+void checkSampleRange(const FrameOrder& order, const Method& method) {
+    if (order.samples && !method.sumsBlocks)
+        throw UsageError(
+            fmt::format("method '{}' cannot add lens samples in blocks, which --sample-range requires", method.name));
+}
+
 // Throws UsageError if RenderSettings::layers contains data layers that the method does not support, or that cannot be
 // written for this frame. Examples of such frames are partial sums, a part of the rows, and images of single lens
 // samples. If any layers are requested, forbids tiles. `perSample`: Shutter::perSample.
@@ -332,6 +337,7 @@ void checkLayers(FrameOrder& order, const Method& method, bool perSample) {
 }  // namespace
 
 void FrameDriver::start(FrameOrder order) {
+    checkSampleRange(order, *options_.method.method);
     checkLayers(order, *options_.method.method, world_->shutter.perSample);
     drawing_.reset();
     share_ = 0;

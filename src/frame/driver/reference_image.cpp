@@ -11,6 +11,7 @@
 #include "core/hash.h"
 #include "frame/setup/world_hash.h"
 #include "image/image_io.h"
+#include "render/accumulation/accumulation.h"
 
 namespace defocus::engine {
 
@@ -104,7 +105,7 @@ Part rendered(const World& world, const View& view, const ReferenceOptions& opti
     RendererOptions precise = options.renderer;
     precise.layerFormat = LayerFormat::rgba32f;
     precise.settings.clear();
-    const auto renderer = methodNamed("accumulation").make(world, precise);
+    const auto renderer = makeAccumulationRenderer(world, precise);
     renderer->start(planFrame(world, view, settings));
     do {
         report(progress, "reference", half.first + renderer->samples(), options.samples);

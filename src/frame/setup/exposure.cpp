@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lens/photographic_exposure.h"
+#include "render/accumulation/accumulation.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
@@ -85,7 +86,7 @@ double meteredExposure(World& world, const View& view, const RenderSettings& set
     few.sampleCount = meterSamples;
     few.positions = 1;
     const RendererOptions options{.layerFormat = LayerFormat::rgba32f, .shaderFolder = shaderFolder};
-    const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(world, options);
+    const std::unique_ptr<Renderer> renderer = makeAccumulationRenderer(world, options);
     const auto rendered = [&](bool withEnvironment) {
         const ShownEnvironment shown(world, withEnvironment);
         return imageOf(*renderer, planFrame(world, small, few));

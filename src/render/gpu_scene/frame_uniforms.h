@@ -12,8 +12,6 @@
 
 namespace defocus::engine {
 
-inline constexpr std::uint32_t blockSamples = 64;  // lens samples per block; the frame's sum is the sum of its blocks
-
 // Lens sample as per-instance vertex attributes.
 struct GpuSample {
     glm::vec4 lensAndJitter;  // xy: lens point (u, k·v), k = image width / height; zw: subpixel jitter (NDC)

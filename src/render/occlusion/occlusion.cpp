@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "core/parallel.h"
-#include "render/gpu_scene/frame_uniforms.h"
 #include "render/occlusion/lens_sight.h"
 
 namespace defocus::engine {

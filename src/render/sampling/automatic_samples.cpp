@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/gpu_scene/frame_uniforms.h"
+#include "plan/render_settings.h"
 
 namespace defocus::engine {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/gpu_scene/frame_uniforms.h"
+#include "plan/render_settings.h"
 #include "render/sampling/automatic_samples.h"
 
 namespace defocus::engine {

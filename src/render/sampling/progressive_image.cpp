@@ -6,7 +6,7 @@
 #include <chrono>
 
 #include "core/stopwatch.h"
-#include "render/gpu_scene/frame_uniforms.h"
+#include "plan/render_settings.h"
 
 namespace defocus::engine {
 

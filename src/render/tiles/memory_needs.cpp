@@ -7,8 +7,8 @@
 #include "core/parallel.h"
 #include "gl/context.h"
 #include "gl/device_memory.h"
+#include "plan/render_settings.h"
 #include "render/accumulation/lens_layers.h"
-#include "render/gpu_scene/frame_uniforms.h"
 #include "render/gpu_scene/shadow_maps.h"
 #include "render/layer_format.h"
 

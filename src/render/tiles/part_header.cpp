@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "defocus/settings.h"
-#include "render/gpu_scene/frame_uniforms.h"
+#include "plan/render_settings.h"
 
 namespace defocus::engine {
 

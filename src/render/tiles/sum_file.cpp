@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "core/error.h"
+#include "plan/render_settings.h"
 #include "render/accumulation/layer_sum.h"
-#include "render/gpu_scene/frame_uniforms.h"
 
 namespace defocus::engine {
 

@@ -10,6 +10,7 @@
 #include "gl/timer.h"
 #include "plan/sample_range.h"
 #include "refocus/kept_lens_images.h"
+#include "render/accumulation/accumulation.h"
 
 namespace defocus::engine {
 
@@ -97,7 +98,7 @@ bool KeptImages::grow(double milliseconds) {
 
 void KeptImages::drawImage() {
     if (!stack_.allocated()) stack_.allocate(info_.size.fullWidth(), info_.size.fullHeight(), planned());
-    if (!renderer_) renderer_ = methodNamed("accumulation").make(*world_, options_);
+    if (!renderer_) renderer_ = makeAccumulationRenderer(*world_, options_);
     drawAllSamples(*renderer_, samplesOf(plan_, drawn_, 1));
     stack_.store(drawn_, *renderer_->imageTexture());
     waitForGpu();

@@ -305,6 +305,11 @@ TEST_F(Render, theNumberOfSamplesIsAutomatic) {
     const Outcome part = run({"render", "quads.gltf", "--sample-range", "0:64"});
     expectOneLine(part, 2);
     EXPECT_NE(part.err.find("give --samples"), std::string::npos) << part.err;
+
+    const Outcome other = run({"render", "quads.gltf", "--samples", "128", "--sample-range", "0:64", "--method",
+                               "stochastic", "-o", "other.exr"});
+    expectOneLine(other, 2);
+    EXPECT_NE(other.err.find("'stochastic' cannot add"), std::string::npos) << other.err;
 }
 
 TEST_F(Render, statsHaveTheStatedKeys) {

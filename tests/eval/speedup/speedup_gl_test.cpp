@@ -83,7 +83,6 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
     EXPECT_EQ(json[8]["referenceSamples"], 40);
     EXPECT_EQ(json[0]["errorsOverSeeds"]["seeds"], 2);
     EXPECT_LT(json[0]["errorsOverSeeds"]["rmse"]["low"], json[0]["errorsOverSeeds"]["rmse"]["high"]);
-    EXPECT_EQ(csv.substr(0, csv.find('\n')).substr(csv.find(",seeds")), ",seeds,rmseLow,rmseHigh,flipLow,flipHigh");
 }
 
 TEST(Speedup, hasNoReferenceWhereNoneIsWanted) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "gl_context_test.h"
+#include "render/accumulation/accumulation.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"
@@ -18,7 +19,7 @@ protected:
 
     static Image rendered(const SmallWorld& small, const RenderSettings& settings,
                           const RendererOptions& options = {}) {
-        const auto renderer = methodNamed("accumulation").make(small.world, options);
+        const auto renderer = makeAccumulationRenderer(small.world, options);
         return imageOf(*renderer, planFrame(small.world, small.view, settings));
     }
 };
@@ -33,7 +34,7 @@ protected:
 
     static Image renderedPlan(const SmallWorld& small, const FramePlan& plan, RendererOptions options = {}) {
         if (options.layerFormat == LayerFormat::automatic) options.layerFormat = LayerFormat::rgba32f;
-        const auto renderer = methodNamed("accumulation").make(small.world, options);
+        const auto renderer = makeAccumulationRenderer(small.world, options);
         return imageOf(*renderer, plan);
     }
 };

@@ -8,6 +8,7 @@
 #include "image/metrics.h"
 #include "likeness.h"
 #include "render/accumulation/accumulated.h"
+#include "render/accumulation/accumulation.h"
 #include "render/aov/aov.h"
 
 namespace defocus::engine {
@@ -296,7 +297,7 @@ TEST_F(Accumulation, statsCountWhatThePlanSays) {
     const auto small = fiveSpheres();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(100));
     const RendererOptions options{.wave = 7};
-    const auto renderer = methodNamed("accumulation").make(small->world, options);
+    const auto renderer = makeAccumulationRenderer(small->world, options);
     drawAllSamples(*renderer, plan);
     EXPECT_EQ(renderer->stats().trianglesDrawn, plan.trianglesDrawn);
     EXPECT_EQ(renderer->stats().samples, 100u);

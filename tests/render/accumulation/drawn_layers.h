@@ -2,6 +2,7 @@
 // Fixture that draws an image together with its data layers, such as depth and normals.
 
 #include "render/accumulation/accumulated.h"
+#include "render/accumulation/accumulation.h"
 
 namespace defocus::engine {
 
@@ -26,7 +27,7 @@ protected:
 
     static Drawn drawnBy(const SmallWorld& small, FramePlan plan, std::uint32_t wave = 0) {
         const RendererOptions options{.layerFormat = LayerFormat::rgba32f, .wave = wave};
-        const auto renderer = methodNamed("accumulation").make(small.world, options);
+        const auto renderer = makeAccumulationRenderer(small.world, options);
         Drawn result;
         result.plan = std::move(plan);
         result.picture = imageOf(*renderer, result.plan);

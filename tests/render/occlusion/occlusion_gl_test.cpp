@@ -6,6 +6,7 @@
 #include "gl_context_test.h"
 #include "models.h"
 #include "posed_world.h"
+#include "render/accumulation/accumulation.h"
 #include "render/methods.h"
 #include "small_world.h"
 
@@ -109,7 +110,7 @@ TEST_F(OccludedSurfaces, ofAPinholeChangeNoBit) {
     FramePlan plan = planFrame(small->world, small->view, sharpLevels(16));
     ASSERT_FALSE(plan.usesLens);
     const auto imageOf = [&](double minHidden) {
-        const auto renderer = methodNamed("accumulation").make(small->world, {});
+        const auto renderer = makeAccumulationRenderer(small->world, {});
         drawAllSamples(*renderer, plan);
         const RenderStats stats = renderer->stats();
         EXPECT_GE(static_cast<double>(stats.trianglesHidden), minHidden * static_cast<double>(stats.trianglesDrawn));

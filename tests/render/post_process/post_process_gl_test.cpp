@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "gl_context_test.h"
 #include "models.h"
+#include "render/accumulation/accumulation.h"
 #include "render/post_process/boards.h"
 #include "render/rendered.h"
 #include "small_world.h"
@@ -47,7 +48,7 @@ TEST_P(PostProcesses, apertureZeroIsThePinhole) {
     // If only one pinhole sample is drawn, the image equals a single sample of method "accumulation".
     RenderSettings one = settingsWithTheLens();
     one.sampleCount = 1;
-    const auto accumulation = methodNamed("accumulation").make(small->world, {});
+    const auto accumulation = makeAccumulationRenderer(small->world, {});
     accumulation->start(planFrame(small->world, small->view, one));
     accumulation->advance();
     const std::string single =

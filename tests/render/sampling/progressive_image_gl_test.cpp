@@ -11,6 +11,7 @@
 #include "image/metrics.h"
 #include "image/tone_map.h"
 #include "likeness.h"
+#include "render/accumulation/accumulation.h"
 #include "render/display/display_pass.h"
 #include "render/rendered.h"
 #include "render/sampling/progressive_image.h"
@@ -34,7 +35,7 @@ protected:
 
     Image renderedAtOnce(std::uint32_t samples, LodMode lod) const {
         const RenderSettings settings{.sampleCount = samples, .lod = lod};
-        const auto renderer = methodNamed("accumulation").make(small_->world, options());
+        const auto renderer = makeAccumulationRenderer(small_->world, options());
         return imageOf(*renderer, planFrame(small_->world, small_->view, settings));
     }
 
@@ -114,7 +115,7 @@ TEST_F(Growing, movingFramesAndStillOnesTakeTurns) {
 TEST_F(Growing, continuingIsRefusedWithinABlock) {
     const RenderSettings settings{.sampleCount = 32};
     const FramePlan plan = planFrame(small_->world, small_->view, settings);
-    const auto renderer = methodNamed("accumulation").make(small_->world, options());
+    const auto renderer = makeAccumulationRenderer(small_->world, options());
     drawAllSamples(*renderer, plan);
     EXPECT_THROW(renderer->continueWith(plan), std::exception);
 }

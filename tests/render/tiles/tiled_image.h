@@ -10,6 +10,7 @@
 #include "gl_context_test.h"
 #include "likeness.h"
 #include "plan/visible/tiles.h"
+#include "render/accumulation/accumulation.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"
@@ -50,9 +51,9 @@ protected:
 
     static void expectTheBitsOfOnePiece(const SmallWorld& small, const FramePlan& plan, const char* what) {
         RendererOptions options;
-        const auto full = methodNamed("accumulation").make(small.world, options);
+        const auto full = makeAccumulationRenderer(small.world, options);
         options.wave = 3;
-        const auto parts = methodNamed("accumulation").make(small.world, options);
+        const auto parts = makeAccumulationRenderer(small.world, options);
         const Image expected = imageOf(*full, plan);
         const Image found = joined(*parts, plan, unevenTiles(plan));
         std::size_t others = 0, first = found.pixels.size();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/accumulation/accumulation.h"
 #include "render/tiles/tiled_image.h"
 
 namespace defocus::engine {
@@ -77,7 +78,7 @@ TEST_F(Tiles, ofSeveralCellsJoinWithoutASeam) {
         halves.push_back({{cell.left, cell.top, cell.width, 20}, cell});
         halves.push_back({{cell.left, cell.top + 20, cell.width, cell.height - 20}, cell});
     }
-    const auto renderer = methodNamed("accumulation").make(small->world, {});
+    const auto renderer = makeAccumulationRenderer(small->world, {});
     const Image full = imageOf(*renderer, plan);
     const Image parts = joined(*renderer, plan, tiles);
     EXPECT_TRUE(joined(*renderer, plan, halves).pixels == parts.pixels) << "tiles of a cell";

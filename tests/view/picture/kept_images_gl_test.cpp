@@ -16,7 +16,7 @@
 #include "gl/read_back.h"
 #include "image/metrics.h"
 #include "refocus/kept_lens_images.h"
-#include "render/gpu_scene/frame_uniforms.h"
+#include "render/accumulation/accumulation.h"
 #include "render/rendered.h"
 #include "view/picture/kept_images.h"
 #include "view/picture/view_picture.h"
@@ -163,8 +163,7 @@ protected:
         RenderSettings settings = frame_.settings;
         settings.sampleCount = samples;
         settings.firstSample = firstSample;
-        return imageOf(*methodNamed("accumulation").make(frame_.world, {}),
-                       planFrame(frame_.world, request_.view, settings));
+        return imageOf(*makeAccumulationRenderer(frame_.world, {}), planFrame(frame_.world, request_.view, settings));
     }
 
     FrameBudget budget_;
