@@ -109,9 +109,7 @@ void TracedScene::addObject(const World& world, const Object& object, const glm:
     for (const Primitive& primitive : mesh.primitives) {
         if (primitive.indices.empty()) continue;
         geometry.primitive = &primitive;
-        geometry.material = primitive.material < 0
-                                ? &defaultMaterial_
-                                : &world.scene->materials[static_cast<std::size_t>(primitive.material)];
+        geometry.material = &materialAt(*world.scene, primitive.material);
         addPrimitive(geometry, positions_.back());
     }
 }

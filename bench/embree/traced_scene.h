@@ -63,7 +63,6 @@ private:
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;
     TraceOptions options_;
-    Material defaultMaterial_;
     std::deque<TracedGeometry> geometries_;         // keyed by Embree geometry id; a deque, so addresses stay valid
     std::deque<std::vector<glm::vec4>> positions_;  // in camera space, one array per object; Embree doesn't copy them
     std::deque<std::vector<glm::vec3>> normals_;    // in world space, one array per deformed object

@@ -50,19 +50,14 @@ void checkRequest(const View& view, const RenderSettings& settings) {
              measured ? "--light-threshold" : "--blur-threshold and --size-threshold");
 }
 
-const Material& materialOf(const Scene& scene, const Primitive& primitive) {
-    static const Material gltfDefault;
-    return primitive.material >= 0 ? scene.materials[static_cast<std::size_t>(primitive.material)] : gltfDefault;
-}
-
 bool transmits(const Scene& scene, const Mesh& mesh) {
     return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
-                       [&](const Primitive& primitive) { return materialOf(scene, primitive).transmits(); });
+                       [&](const Primitive& primitive) { return materialAt(scene, primitive.material).transmits(); });
 }
 
 bool hasTextures(const Scene& scene, const Mesh& mesh) {
     return std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [&](const Primitive& primitive) {
-        const auto uses = textureUses(materialOf(scene, primitive));
+        const auto uses = textureUses(materialAt(scene, primitive.material));
         return std::any_of(uses.begin(), uses.end(), [](const TextureUse* use) { return use->used(); });
     });
 }
@@ -328,7 +323,8 @@ void noteUnusedPaths(FramePlan& plan, const World& world) {
     }
     for (const BlendRun& run : plan.blendOrder) {
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(plan.objects[run.object].mesh)];
-        plan.sortsBlending |= !run.stochastic && !materialOf(scene, mesh.primitives[run.primitive]).transmits();
+        plan.sortsBlending |=
+            !run.stochastic && !materialAt(scene, mesh.primitives[run.primitive].material).transmits();
     }
     if (plan.settings.lod == LodMode::off)
         plan.leftOut.push_back({"levels of detail", "the image is drawn at full detail (--lod)"});
@@ -361,7 +357,7 @@ void addUnseen(FramePlan& plan, const World& world, std::vector<ObjectPlan> unse
         object.coc = {};  // an unseen object must not raise the maximum CoC that renderers use
         const std::vector<Primitive>& primitives = world.scene->meshes[mesh].primitives;
         for (std::uint32_t p = 0; p < primitives.size(); ++p) {
-            const Material& material = materialOf(*world.scene, primitives[p]);
+            const Material& material = materialAt(*world.scene, primitives[p].material);
             if (material.alphaMode == AlphaMode::blend && !material.transmits())
                 plan.blendOrder.insert(plan.blendOrder.begin(),
                                        {static_cast<std::uint32_t>(plan.objects.size()), p, 0, {}, true});

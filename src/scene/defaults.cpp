@@ -148,8 +148,7 @@ bool everythingSelfLit(const Scene& scene, const Pose& pose) {
     for (const Object& object : pose.objects)
         for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(object.mesh)].primitives) {
             anything = true;
-            if (primitive.material < 0 || !selfLit(scene.materials[static_cast<std::size_t>(primitive.material)]))
-                return false;
+            if (!selfLit(materialAt(scene, primitive.material))) return false;
         }
     return anything;
 }

@@ -133,8 +133,30 @@ struct Material {
 
 inline constexpr std::size_t materialTextureCount = 19;
 
-// Returns pointers to all textures of a material (const or not) in the order of the texture slots in
-// shaders/include/material_textures.glsl.
+// Texture slots of a material, in the order of shaders/include/material_textures.glsl.
+enum class TextureSlot : std::size_t {
+    baseColor,
+    metallicRoughness,
+    normal,
+    occlusion,
+    emissive,
+    specular,
+    specularColor,
+    transmission,
+    thickness,
+    clearcoat,
+    clearcoatRoughness,
+    clearcoatNormal,
+    sheenColor,
+    sheenRoughness,
+    anisotropy,
+    iridescence,
+    iridescenceThickness,
+    diffuseTransmission,
+    diffuseTransmissionColor,
+};
+
+// Returns pointers to all textures of a material (const or not), one per TextureSlot.
 auto textureUses(auto& m) -> std::array<decltype(&m.baseColor), materialTextureCount> {
     return {&m.baseColor,
             &m.metallicRoughness,
@@ -284,5 +306,11 @@ struct Scene {
     std::vector<Ignored> ignored;
     std::shared_ptr<const CameraTrack> cameraTrack;  // camera of another file; null: the scene's own cameras
 };
+
+// Returns the material with this index; for −1, glTF's default material.
+inline const Material& materialAt(const Scene& scene, int index) {
+    static const Material gltfDefault;
+    return index < 0 ? gltfDefault : scene.materials[static_cast<std::size_t>(index)];
+}
 
 }  // namespace defocus::engine

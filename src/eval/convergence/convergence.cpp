@@ -156,10 +156,9 @@ std::string faultOf(const Image& image, const FramePlan& plan, const RenderStats
     return {};
 }
 
-// Returns true unless the primitive is unlit and opaque. glTF's default material is lit.
+// Returns true unless the primitive is unlit and opaque.
 bool needsShading(const Scene& scene, const Primitive& primitive) {
-    if (primitive.material < 0) return true;
-    const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+    const Material& material = materialAt(scene, primitive.material);
     return !material.unlit || material.alphaMode != AlphaMode::opaque;
 }
 

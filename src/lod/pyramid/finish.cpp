@@ -120,7 +120,7 @@ FinishMap Finishes::mapOf(const TextureUse& use, bool srgb) const {
 }
 
 Finish Finishes::of(int material) const {
-    const Material& m = material >= 0 ? scene_.materials[static_cast<std::size_t>(material)] : Material{};
+    const Material& m = materialAt(scene_, material);
     return {.unlit = m.unlit,
             .baseColor = glm::vec3(m.baseColorFactor),
             .metallic = m.metallicFactor,

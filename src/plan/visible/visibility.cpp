@@ -218,10 +218,6 @@ bool clusterOutside(const Bounds& box, const ObjectViews& views, const FramePlan
     return outsideWidenedFrustum(box, plan, views.own, largest);
 }
 
-bool doubleSided(const Scene& scene, const Primitive& primitive) {
-    return primitive.material >= 0 && scene.materials[static_cast<std::size_t>(primitive.material)].doubleSided;
-}
-
 // Collects index ranges of a primitive's visible clusters, and counts the culled triangles between them.
 class Runs {
 public:
@@ -262,7 +258,7 @@ VisibleLevel levelWithoutHidden(const ObjectViews& views, const ObjectPlan& obje
     auto cluster = level.clusters.begin();
     for (std::size_t p = 0; p < level.primitives.size(); ++p) {
         Runs runs(visible);
-        const bool oneSided = !doubleSided(*world.scene, mesh.primitives[p]);
+        const bool oneSided = !materialAt(*world.scene, mesh.primitives[p].material).doubleSided;
         const std::uint32_t end = level.primitives[p].first + level.primitives[p].count;
         for (; cluster != level.clusters.end() && cluster->indices.first < end; ++cluster) {
             const Bounds box = viewBoxOf(*cluster, views);

@@ -26,12 +26,45 @@ GLenum minificationFilter(const Texture& texture) {
     return texture.minification == Filter::linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
 }
 
-}  // namespace
-
-const Material& GpuScene::material(int index) const {
-    static const Material gltfDefault;
-    return index >= 0 ? world_->scene->materials[static_cast<std::size_t>(index)] : gltfDefault;
+// Returns whether the texture in this slot has sRGB-encoded colours; false: linear values.
+bool isColor(TextureSlot slot) {
+    using enum TextureSlot;
+    return slot == baseColor || slot == emissive || slot == specularColor || slot == sheenColor ||
+           slot == diffuseTransmissionColor;
 }
+
+// Returns whether the material has the property that the texture in this slot modulates.
+bool isUsed(const Material& material, TextureSlot slot) {
+    using enum TextureSlot;
+    if (material.unlit) return slot == baseColor;
+    switch (slot) {
+        case specular:
+        case specularColor:
+            return material.hasOwnReflectance();
+        case transmission:
+        case thickness:
+            return material.transmits();
+        case clearcoat:
+        case clearcoatRoughness:
+        case clearcoatNormal:
+            return material.hasClearcoat();
+        case sheenColor:
+        case sheenRoughness:
+            return material.hasSheen();
+        case anisotropy:
+            return material.isAnisotropic();
+        case iridescence:
+        case iridescenceThickness:
+            return material.isIridescent();
+        case diffuseTransmission:
+        case diffuseTransmissionColor:
+            return material.transmitsDiffusely();
+        default:
+            return true;
+    }
+}
+
+}  // namespace
 
 void GpuScene::prepare(const FramePlan& plan) {
     meshes_.resize(world_->pyramids.size());
@@ -92,37 +125,11 @@ const GlTexture* GpuScene::texture(const TextureUse& use, bool srgb, float cutof
 GpuMaterialTextures GpuScene::texturesOf(const Material& m) {
     GpuMaterialTextures result;
     const float cutoff = m.alphaMode == AlphaMode::mask ? m.alphaCutoff / std::max(m.baseColorFactor.a, 1e-3f) : 0;
-    result.slots[0] = texture(m.baseColor, true, cutoff);
-    if (m.unlit) return result;
-    result.slots[1] = texture(m.metallicRoughness, false);
-    result.slots[2] = texture(m.normal, false);
-    result.slots[3] = texture(m.occlusion, false);
-    result.slots[4] = texture(m.emissive, true);
-    if (m.hasOwnReflectance()) {
-        result.slots[5] = texture(m.specular, false);
-        result.slots[6] = texture(m.specularColor, true);
-    }
-    if (m.transmits()) {
-        result.slots[7] = texture(m.transmission, false);
-        result.slots[8] = texture(m.thickness, false);
-    }
-    if (m.hasClearcoat()) {
-        result.slots[9] = texture(m.clearcoat, false);
-        result.slots[10] = texture(m.clearcoatRoughness, false);
-        result.slots[11] = texture(m.clearcoatNormal, false);
-    }
-    if (m.hasSheen()) {
-        result.slots[12] = texture(m.sheenColor, true);
-        result.slots[13] = texture(m.sheenRoughness, false);
-    }
-    if (m.isAnisotropic()) result.slots[14] = texture(m.anisotropy, false);
-    if (m.isIridescent()) {
-        result.slots[15] = texture(m.iridescence, false);
-        result.slots[16] = texture(m.iridescenceThickness, false);
-    }
-    if (m.transmitsDiffusely()) {
-        result.slots[17] = texture(m.diffuseTransmission, false);
-        result.slots[18] = texture(m.diffuseTransmissionColor, true);
+    const auto uses = textureUses(m);
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        const auto slot = static_cast<TextureSlot>(i);
+        if (isUsed(m, slot))
+            result.slots[i] = texture(*uses[i], isColor(slot), slot == TextureSlot::baseColor ? cutoff : 0);
     }
     return result;
 }

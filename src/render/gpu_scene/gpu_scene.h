@@ -41,7 +41,7 @@ public:
     [[nodiscard]] const GpuMaterialTextures& textures(int material) const {
         return *materialTextures_[static_cast<std::size_t>(material + 1)];
     }
-    [[nodiscard]] const Material& material(int index) const;
+    [[nodiscard]] const Material& material(int index) const { return materialAt(*world_->scene, index); }
     [[nodiscard]] std::size_t bytes() const;
 
 private:

@@ -25,8 +25,7 @@ bool tintsLight(const Scene& scene, const FramePlan& plan) {
     return std::ranges::any_of(plan.shadows.casters, [&](const ObjectPlan& caster) {
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(caster.mesh)];
         return std::ranges::any_of(mesh.primitives, [&](const Primitive& primitive) {
-            if (primitive.material < 0) return false;
-            const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+            const Material& material = materialAt(scene, primitive.material);
             return material.transmits() &&
                    (!mesh.vertices.colors.empty() || material.baseColor.used() ||
                     !isGrey(glm::vec3(material.baseColorFactor)) || !isGrey(material.attenuationColor));

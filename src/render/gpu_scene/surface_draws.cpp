@@ -74,9 +74,7 @@ std::vector<IndexRun> indexRuns(const World& world, const ObjectPlan& object, co
 
 ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int materialIndex, std::uint32_t level,
                              SurfaceLook look) {
-    constexpr std::size_t tangentSlots[] = {2, 11, 14};
-    constexpr std::size_t transmissionSlots[] = {7, 8};
-    constexpr std::size_t metallicSlot = 1;
+    using enum TextureSlot;
     const bool shaded = look == SurfaceLook::lit || look == SurfaceLook::seenThrough;
     const Material& material = scene.material(materialIndex);
     ShaderDefines defines;
@@ -95,10 +93,12 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
     bool transformed = false;
     bool bumped = false;
     for (std::size_t i = 0; i < uses.size(); ++i) {
-        const bool ofTangents = std::ranges::count(tangentSlots, i) > 0;
-        const bool ofTransmission = std::ranges::count(transmissionSlots, i) > 0;
-        const bool wanted = shaded ? transmits || !ofTransmission
-                                   : (i == 0 && masked) || ((i == metallicSlot || ofTransmission) && letsLightPass);
+        const auto slot = static_cast<TextureSlot>(i);
+        const bool ofTangents = slot == normal || slot == clearcoatNormal || slot == anisotropy;
+        const bool ofTransmission = slot == transmission || slot == thickness;
+        const bool wanted =
+            shaded ? transmits || !ofTransmission
+                   : (slot == baseColor && masked) || ((slot == metallicRoughness || ofTransmission) && letsLightPass);
         const bool used = textures.slots[i] != nullptr && hasUv && wanted && (!ofTangents || mesh.has(tangentLocation));
         bumped |= used && ofTangents;
         textured |= used;

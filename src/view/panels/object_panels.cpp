@@ -200,8 +200,7 @@ void materialPanel(const Ui& ui) {
         if (std::ranges::find(materials, primitive.material) == materials.end())
             materials.push_back(primitive.material);
     for (const int index : materials) {
-        static const Material defaultMaterial;
-        const Material& material = index < 0 ? defaultMaterial : scene.materials[static_cast<std::size_t>(index)];
+        const Material& material = materialAt(scene, index);
         const std::string name = !material.name.empty() ? material.name
                                  : index < 0            ? "glTF's default"
                                                         : fmt::format("material {}", index);
