@@ -32,9 +32,9 @@ inline Held heldBy(pid_t process) {
 
 // Returns the number of rounds that an environment variable sets, or `standard` if the variable is not set.
 // scripts/soak sets higher numbers.
-inline int roundsOr(const char* variable, int standard) {
+inline int roundsOr(const char* variable, int fallback) {
     const char* const text = std::getenv(variable);
-    return text != nullptr ? std::atoi(text) : standard;
+    return text != nullptr ? std::atoi(text) : fallback;
 }
 
 }  // namespace defocus::engine

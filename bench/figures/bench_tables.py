@@ -216,7 +216,7 @@ def few_images():
     settings = {"published": "published", "best": "best", None: "default"}
     rows = []
     for (method, images), (_, psnr, flip) in method_rows(name)["fish school"].items():
-        if parts := re.fullmatch(r"(\w+)(?: \((published|best)\), .+|, standard|, lod=off)", method):
+        if parts := re.fullmatch(r"(\w+)(?: \((published|best)\), .+|, default|, lod=off)", method):
             rows.append([f"`{parts[1]}`", settings[parts[2]], images, f"{psnr:.1f}", f"{flip:.4f}"])
     return table(["method", "settings", "images or samples", "PSNR, dB", "FLIP"], rows) + source(
         command_in(name, "--fish 10"), "scene, camera, lens, image size, reference, process", f"{name}.txt")

@@ -8,13 +8,31 @@ import tempfile
 
 
 def read_json(path):
-    return json.loads(path.read_text(encoding="utf-8"))
+    """Returns the contents of a JSON file. Rows of version 0.1, which call a method's defaults "standard", are converted."""
+    document = json.loads(path.read_text(encoding="utf-8"))
+    rows = document.get("rows", []) if isinstance(document, dict) else []
+    for row in rows:
+        row.update({name: "default" for name in ("form", "setting") if row.get(name) == "standard"})
+    return document
+
+
+def csv_rows(lines):
+    """Returns the rows of CSV text as dictionaries {column: text}. Columns such as "time.median" become nested dictionaries."""
+    rows = []
+    for line in csv.DictReader(lines):
+        rows.append({})
+        for column, text in line.items():
+            *outer, name = column.split(".")
+            place = rows[-1]
+            for part in outer:
+                place = place.setdefault(part, {})
+            place[name] = text
+    return rows
 
 
 def read_csv(path):
-    """Returns the rows of a CSV file, each as a dictionary {column: text}."""
     with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
+        return csv_rows(file)
 
 
 def remove_abandoned(path):

@@ -9,8 +9,8 @@ from figures.rows import median, rmse
 
 # Names of the results, keyed by --blur-scale.
 VIEWS = {0.5: "llvmpipe-teapots-half-blur", 1: "llvmpipe-teapots", 2: "llvmpipe-teapots-double-blur"}
-# Method and settings (standard or published) of the rows.
-EXACT, PUBLISHED, POINTS = ("line", "standard"), ("line", "published"), ("stochastic", "standard")
+# Method and settings (default or published) of the rows.
+EXACT, PUBLISHED, POINTS = ("line", "default"), ("line", "published"), ("stochastic", "default")
 NAMES = {EXACT: "lines", PUBLISHED: "lines, as published", POINTS: "points"}
 COUNTS = {EXACT: (4, 16), PUBLISHED: (4, 16), POINTS: (16, 64, 256)}
 COMMON = ["--lod", "off", "--focus-breathing", "--background", "0.25,0.28,0.33", "--reference-samples", "1600", "--runs", "3",
@@ -24,7 +24,7 @@ def runs():
     options = {}
     for blur, name in VIEWS.items():
         for run, method, form in ((name, "line", EXACT), (f"{name}-points", "stochastic:shading=surfaces", POINTS)):
-            options[run] = ["--methods", method, "--rows", "published,standard" if form == EXACT else "standard", "--counts",
+            options[run] = ["--methods", method, "--rows", "published,default" if form == EXACT else "default", "--counts",
                             ",".join(map(str, COUNTS[form])), "--blur-scale", f"{blur:g}", *COMMON]
     return options
 

@@ -16,10 +16,10 @@ from figures.results import error_ratio, lens_levels, rmse, run_of, samples_swee
 METHODS = {  # (method, setting): (label, colour, marker)
     ("accumulation", "lod=fractional metric=size thresholds=1"): ("accumulation, levels", "tab:blue", "o"),
     ("accumulation", "lod=off"): ("accumulation, full detail", "tab:cyan", "s"),
-    ("embree", "standard"): ("ray tracer", "tab:orange", "^"),
-    ("embree-shared", "standard"): ("ray tracer, shared lens samples", "tab:red", "v"),
-    ("scheuermann", "standard"): ("Scheuermann 2004", "tab:green", "D"),
-    ("circular", "standard"): ("circular (Garcia 2018)", "tab:purple", "P"),
+    ("embree", "default"): ("ray tracer", "tab:orange", "^"),
+    ("embree-shared", "default"): ("ray tracer, shared lens samples", "tab:red", "v"),
+    ("scheuermann", "default"): ("Scheuermann 2004", "tab:green", "D"),
+    ("circular", "default"): ("circular (Garcia 2018)", "tab:purple", "P"),
 }
 LENS_SPACE = {
     ("accumulation", "lod=off"): ("accumulation", "tab:cyan", "s"),
@@ -27,7 +27,7 @@ LENS_SPACE = {
     ("line", "lod=off"): ("lines", "tab:blue", "o"),
     ("line", "resolve=published shading-step=0 wheel=shared lod=off"): ("lines as published", "tab:red", "v"),
     ("scheuermann", "coc=thin-lens taps=64 max-coc=unlimited"): ("Scheuermann 2004, lens's blur", "tab:green", "D"),
-    ("circular", "standard"): ("circular (Garcia 2018)", "tab:purple", "P"),
+    ("circular", "default"): ("circular (Garcia 2018)", "tab:purple", "P"),
 }
 
 

@@ -22,7 +22,8 @@ def run_of(name):
 
 
 def lines_of(name):
-    return (RESULTS / f"{name}.txt").read_text().splitlines()
+    """Returns the lines of a recorded text. Runs of version 0.1 call a method's defaults "standard"."""
+    return (RESULTS / f"{name}.txt").read_text().replace(", standard", ", default").splitlines()
 
 
 def numbers(text):

@@ -20,7 +20,7 @@ def label_of(row):
         words.append("full detail")
     elif "lod" in values:
         words.append(f"{values['lod']} levels{METRICS.get(values.get('metric'), '')} ×{values.get('thresholds', '1')}")
-    rest = [name + sign + value for name, sign, value in parts if name not in ("lod", "metric", "thresholds", "standard")]
+    rest = [name + sign + value for name, sign, value in parts if name not in ("lod", "metric", "thresholds", "default")]
     return ", ".join(words + ([" ".join(rest)] if rest else []))
 
 

@@ -216,12 +216,12 @@ def garcia():
     slide = [numbers(line)[-1] for line in lines_of("llvmpipe-post-process") if "max-coc=published" in line]
     one_pass = {(size, radius): share for size, _, radius, _, _, share in
                 (numbers(line) for line in lines_of("llvmpipe-circular-kernels") if line.endswith(" %"))}
-    fish, chess = (flips(scene, "circular (published)", "circular, standard", "circular (best)") for scene in ("fish school", "chess.glb"))
-    coverage = [flips(scene, "circular, standard", "circular, near-field=coverage")
+    fish, chess = (flips(scene, "circular (published)", "circular, default", "circular (best)") for scene in ("fish school", "chess.glb"))
+    coverage = [flips(scene, "circular, default", "circular, near-field=coverage")
                 for scene in ("fish school", "chess.glb", "artefact-half-discs.gltf")]
     bias = [values[1] for (name, _), values in method_rows("llvmpipe-circular")["artefact-ghosting.gltf"].items()
-            if name in ("circular, blend-bias=2 bias-by=luminance", "circular, standard", "circular, blend-bias=2")]
-    by_luminance = flips("fish school", "circular, blend-bias=2 bias-by=luminance", "circular, standard")
+            if name in ("circular, blend-bias=2 bias-by=luminance", "circular, default", "circular, blend-bias=2")]
+    by_luminance = flips("fish school", "circular, blend-bias=2 bias-by=luminance", "circular, default")
     return [
         ["A sum of complex Gaussians is a disk, and separable", "[circular_kernel.h](../src/render/circular/circular_kernel.h)",
          "`CircularKernel.factorsOfTwoAxesMultiplyToACircle`, `ComplexBlurs.twoPassesGiveTheWholeKernel`", "constants of two components",
@@ -273,7 +273,7 @@ def buckets():
     """Returns the table of the error (FLIP) by the number of buckets for transparency."""
     names = {"artefact-panes.gltf": "panes of glass (`artefact-panes.gltf`)", "AlphaBlendModeTest.glb": "AlphaBlendModeTest",
              "FlightHelmet.gltf": "FlightHelmet", "GlassVaseFlowers.glb": "GlassVaseFlowers"}
-    counts = ["circular, transparency-buckets=0", "circular, standard", "circular, transparency-buckets=2"]
+    counts = ["circular, transparency-buckets=0", "circular, default", "circular, transparency-buckets=2"]
     rows = []
     for scene, name in names.items():
         found = {method: values for (method, _), values in method_rows("llvmpipe-circular")[scene].items()}

@@ -27,19 +27,19 @@ BLOCK = re.compile(rf"(<!-- ({'|'.join(['methods', 'equal error', *TABLES])})(?:
 LEVELS = {"lod=off": "full detail", "lod=fractional metric=measured thresholds=1": "levels",
           "lod=fractional metric=size thresholds=1": "fractional levels"}
 AS_PUBLISHED = {("llvmpipe-methods-lens-space", "line"): "line as published"}  # methods that have published settings in a run
-PINHOLE_SETTINGS = ("standard", "coc=thin-lens taps=64 max-coc=unlimited", "resolution=quarter kernel-taps=eight", "pinholes=1")
+PINHOLE_SETTINGS = ("default", "coc=thin-lens taps=64 max-coc=unlimited", "resolution=quarter kernel-taps=eight", "pinholes=1")
 
 
 def shown(row, everything):
     if row["takesLensSamples"]:
-        return row["setting"] in (*LEVELS, "standard") and (everything or 8 <= row["samples"] <= 64)
+        return row["setting"] in (*LEVELS, "default") and (everything or 8 <= row["samples"] <= 64)
     return everything or row["setting"] in PINHOLE_SETTINGS
 
 
 def name_of(row):
     if row["setting"] in LEVELS:
         return f"{row['method']}, {LEVELS[row['setting']]}"
-    return ", ".join([row["method"]] + [f"`{part}`" for part in row["setting"].split() if part != "standard"])
+    return ", ".join([row["method"]] + [f"`{part}`" for part in row["setting"].split() if part != "default"])
 
 
 def scene_of(results):

@@ -24,9 +24,9 @@ bool isShapeField(const LensField& field) {
 
 // Returns the lens with its aperture shape set to the default, a disk. An aperture image stays unchanged.
 Lens withDisk(Lens lens) {
-    const Lens standard;
+    const Lens defaults;
     for (const LensField& field : lensFields())
-        if (isShapeField(field)) setLensField(lens, field, lensFieldValue(standard, field));
+        if (isShapeField(field)) setLensField(lens, field, lensFieldValue(defaults, field));
     return lens;
 }
 

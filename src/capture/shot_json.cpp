@@ -427,7 +427,7 @@ void failForName(const Shot& shot, const MissingName& missing) {
 
 FrameRange parseFrameRange(std::string_view text) {
     const auto frame = [&](std::string_view part) {
-        const std::optional<int> value = wholeText<int>(part);
+        const std::optional<int> value = parsedNumber<int>(part);
         if (!value || *value < 0 || *value > maxFrame)
             fail("'{}' is not FIRST:LAST, with frame numbers from 0 to {}, such as 0:240", text, maxFrame);
         return *value;

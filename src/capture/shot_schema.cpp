@@ -46,9 +46,9 @@ Json trackSchema(const Setting& setting) {
 Json schemaOf(const Setting& setting) {
     Json schema = Json::object();
     schema["description"] = setting.help;
-    const std::optional<std::string> standard = setting.text(shotDefaults());
-    if (standard)
-        schema["default"] = settingJson(setting, *standard);
+    const std::optional<std::string> defaultValue = setting.text(shotDefaults());
+    if (defaultValue)
+        schema["default"] = settingJson(setting, *defaultValue);
     else if (const auto example = exampleOf(setting))
         schema["examples"] = Json::array({*example});
     schema.update(setting.keyed ? trackSchema(setting) : valueSchema(setting));

@@ -40,7 +40,7 @@ std::vector<std::string> splitAt(std::string_view text, char separator) {
 }
 
 double parseNumber(const std::string& text, const Range& range) {
-    const std::optional<double> number = wholeText<double>(withoutPlus(text));
+    const std::optional<double> number = parsedNumber<double>(withoutPlus(text));
     if (!number || !inside(*number, range)) fail("'{}' is not {}", text, inWords(range));
     return *number;
 }
@@ -53,15 +53,15 @@ double parseSeconds(const std::string& text) {
 }
 
 std::uint64_t parseInteger(const std::string& text, std::uint64_t min, std::uint64_t max) {
-    const std::optional<std::uint64_t> number = wholeText<std::uint64_t>(withoutPlus(text));
+    const std::optional<std::uint64_t> number = parsedNumber<std::uint64_t>(withoutPlus(text));
     if (!number || *number < min || *number > max) fail("'{}' is not an integer from {} to {}", text, min, max);
     return *number;
 }
 
 Share parseShare(std::string_view text, std::string_view noun, int maxCount) {
     const std::size_t slash = std::min(text.find('/'), text.size());
-    const std::optional<int> index = wholeText<int>(withoutPlus(text.substr(0, slash)));
-    const std::optional<int> count = wholeText<int>(withoutPlus(text.substr(std::min(slash + 1, text.size()))));
+    const std::optional<int> index = parsedNumber<int>(withoutPlus(text.substr(0, slash)));
+    const std::optional<int> count = parsedNumber<int>(withoutPlus(text.substr(std::min(slash + 1, text.size()))));
     if (!index || !count || *index < 0 || *index >= maxCount || *count < 1 || *count > maxCount)
         fail("'{}' is not I/N, such as 0/4: {} I (0 to N-1) of N", text, noun);
     if (*index >= *count)
@@ -73,7 +73,7 @@ Share parseShare(std::string_view text, std::string_view noun, int maxCount) {
 std::vector<double> parseNumbers(const std::string& text, std::size_t count, const Range& range) {
     std::vector<double> numbers;
     for (const std::string& part : splitAt(text, ',')) {
-        const std::optional<double> number = wholeText<double>(withoutPlus(part));
+        const std::optional<double> number = parsedNumber<double>(withoutPlus(part));
         if (!number || !inside(*number, range)) break;
         numbers.push_back(*number);
     }

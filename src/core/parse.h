@@ -20,7 +20,7 @@ struct Range {
 
 // Returns the number that the complete text represents; nullopt for other text and numbers outside the type's range.
 template <typename Number>
-std::optional<Number> wholeText(std::string_view text) {
+std::optional<Number> parsedNumber(std::string_view text) {
     Number number{};
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (fault != std::errc() || end != text.data() + text.size()) return std::nullopt;

@@ -16,7 +16,7 @@ constexpr std::time_t endOf9999 = 253'402'300'799;
 std::optional<std::time_t> sourceDate() {
     const char* const value = std::getenv("SOURCE_DATE_EPOCH");
     if (value == nullptr) return {};
-    const std::optional<std::time_t> seconds = wholeText<std::time_t>(value);
+    const std::optional<std::time_t> seconds = parsedNumber<std::time_t>(value);
     return seconds && *seconds >= 0 && *seconds <= endOf9999 ? seconds : std::nullopt;
 }
 

@@ -11,14 +11,14 @@ std::uint32_t positionCount(const RenderSettings& settings) {
 }
 
 void fixThresholds(RenderSettings& settings, std::uint32_t sampleCount, double factor) {
-    const LodThresholds standard = chosenThresholds(settings.thresholds, settings.metric, sampleCount);
+    const LodThresholds defaults = chosenThresholds(settings.thresholds, settings.metric, sampleCount);
     settings.metric = chosenMetric(settings.metric, settings.thresholds);
     if (settings.metric == LodMetric::measured)
-        settings.thresholds.light = factor * standard.light;
+        settings.thresholds.light = factor * defaults.light;
     else if (settings.metric == LodMetric::score || settings.metric == LodMetric::proportional)
-        settings.thresholds.blur = factor * standard.blur;
+        settings.thresholds.blur = factor * defaults.blur;
     else
-        settings.thresholds = {.blur = factor * standard.blur, .size = factor * standard.size};
+        settings.thresholds = {.blur = factor * defaults.blur, .size = factor * defaults.size};
 }
 
 }  // namespace defocus::engine

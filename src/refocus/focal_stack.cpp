@@ -70,7 +70,7 @@ Image allInFocus(LightField& field, const Progress& progress) {
             for (int x = 0; x < size.width; ++x) {
                 const double surface = inverse(*depth.at(x, y));
                 const double shift = info.pixelsPerDioptre * (surface - 1 / info.focusDistance);
-                const glm::ivec2 move = wholeMove(info, i, shift);
+                const glm::ivec2 move = integerMove(info, i, shift);
                 const int column = std::clamp(x + size.margin - move.x, 0, depths.width - 1);
                 const int line = std::clamp(y + size.margin + move.y, 0, depths.height - 1);
                 if (done > 0 && std::abs(inverse(*depths.at(column, line)) - surface) > tolerance) continue;

@@ -55,7 +55,7 @@ double largestMove(const LightFieldInfo& info) {
 
 // Returns the margin in px that lens images need so that they still cover the refocused image when they are shifted.
 int marginOf(const LightFieldInfo& info) {
-    return static_cast<int>(std::ceil(std::min(largestMove(info), 1e6) + 0.5));  // 0.5 px for rounding in wholeMove
+    return static_cast<int>(std::ceil(std::min(largestMove(info), 1e6) + 0.5));  // 0.5 px for rounding in integerMove
 }
 
 // Returns the number stored under `name` in a file's metadata; nullopt if it is missing, of another type, or not
@@ -112,8 +112,8 @@ LightFieldInfo infoOf(const ImagePartReader& parts, const std::string& name) {
 
 }  // namespace
 
-double LightFieldInfo::number(const char* name, double standard) const {
-    return numberIn(metadata, name).value_or(standard);
+double LightFieldInfo::number(const char* name, double fallback) const {
+    return numberIn(metadata, name).value_or(fallback);
 }
 
 LightFieldInfo lightFieldInfo(const View& view, const FocusRange& range) {

@@ -41,7 +41,7 @@ struct LightFieldInfo {
         return pixelsPerDioptre * (1 / otherFocus - 1 / focusDistance);
     }
     // Returns the number stored under `name` in `metadata`, or `standard` if it is missing.
-    [[nodiscard]] double number(const char* name, double standard) const;
+    [[nodiscard]] double number(const char* name, double fallback) const;
 };
 
 // Returns the information about the lens images of a view, without lens points and metadata. The margin suffices for

@@ -47,7 +47,7 @@ Refocusing asRendered(const LightFieldInfo& info) {
     return {info.focusDistance, info.fStop, {}};
 }
 
-glm::ivec2 wholeMove(const LightFieldInfo& info, std::size_t image, double shift) {
+glm::ivec2 integerMove(const LightFieldInfo& info, std::size_t image, double shift) {
     constexpr double farthest = 1e6;  // max move in px; keeps the result within the range of int
     const double within = std::clamp(shift, -farthest, farthest);
     return glm::ivec2(glm::floor(within * info.points[image] + info.pixels[image] + 0.5));
@@ -62,7 +62,7 @@ std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocu
     std::vector<ShiftedImage> images;
     for (std::size_t i = 0; i < info.points.size(); ++i) {
         const double weight = info.disk ? lightDensity(aperture, scale * info.points[i]) : 1;
-        if (weight > 0) images.push_back({i, wholeMove(info, i, shift), weight});
+        if (weight > 0) images.push_back({i, integerMove(info, i, shift), weight});
     }
     if (images.empty())
         fail(

@@ -40,7 +40,7 @@ struct ShiftedImage {
 
 // Returns the displacement of an image in whole px, to the right and up. `shift`: displacement in px of the image seen
 // from lens point (1, 1). The rounding accounts for the sample's position within its pixel.
-glm::ivec2 wholeMove(const LightFieldInfo& info, std::size_t image, double shift);
+glm::ivec2 integerMove(const LightFieldInfo& info, std::size_t image, double shift);
 
 // Returns the shift and the weight of each lens image that contributes to the refocused picture, in the order of
 // LightFieldInfo::points. Throws Error, with `name` in its message, if the focus distance or the f-number is outside

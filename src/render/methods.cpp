@@ -77,7 +77,7 @@ std::string accepted(const MethodSetting& setting) {
 bool takes(const MethodSetting& setting, const std::string& value) {
     if (!setting.choices.empty())
         return std::find(setting.choices.begin(), setting.choices.end(), value) != setting.choices.end();
-    const std::optional<double> number = wholeText<double>(value);
+    const std::optional<double> number = parsedNumber<double>(value);
     return number && std::isfinite(*number) && *number >= setting.min && *number <= setting.max &&
            (!setting.integer || *number == std::floor(*number));
 }
@@ -146,7 +146,7 @@ MethodSettings completeSettings(std::string_view method, const std::vector<Metho
 }
 
 double numberOf(const MethodSettings& settings, const std::string& name) {
-    return wholeText<double>(settings.at(name)).value_or(0);
+    return parsedNumber<double>(settings.at(name)).value_or(0);
 }
 
 double valueAt(const View& view, const MethodSettings& settings, const std::string& name) {

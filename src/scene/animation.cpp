@@ -78,7 +78,7 @@ int clipNamed(const Scene& scene, std::string_view nameOrNumber) {
     for (const AnimationClip& clip : scene.clips) names.push_back(clip.name);
     const auto named = placeOfName(nameOrNumber, names);
     if (named && !nameOrNumber.empty()) return static_cast<int>(*named);
-    const std::optional<std::size_t> number = wholeText<std::size_t>(nameOrNumber);
+    const std::optional<std::size_t> number = parsedNumber<std::size_t>(nameOrNumber);
     if (number && *number < scene.clips.size()) return static_cast<int>(*number);
 
     std::string help = "; the scene has no animations";

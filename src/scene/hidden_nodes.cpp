@@ -23,7 +23,7 @@ int nodeCalled(const Scene& scene, const std::string& nameOrNumber) {
     if (std::ranges::find(scene.nodes, nameOrNumber, &Node::name) != scene.nodes.end())
         return nodeNamed(scene, nameOrNumber);
     const std::string_view digits = std::string_view(nameOrNumber).substr(nameOrNumber.starts_with('#') ? 1 : 0);
-    const std::optional<std::size_t> number = wholeText<std::size_t>(digits);
+    const std::optional<std::size_t> number = parsedNumber<std::size_t>(digits);
     return number && *number < scene.nodes.size() ? static_cast<int>(*number) : nodeNamed(scene, nameOrNumber);
 }
 

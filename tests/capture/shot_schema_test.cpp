@@ -230,8 +230,7 @@ TEST(ShotSchema, forbidsWhatDoesNotGoTogether) {
 
 // Returns a value that the setting accepts.
 json valueFor(const Setting& setting) {
-    if (const std::optional<std::string> standard = setting.text(Request{}))
-        return json(settingJson(setting, *standard));
+    if (const std::optional<std::string> value = setting.text(Request{})) return json(settingJson(setting, *value));
     switch (setting.kind) {
         case SettingKind::number:
         case SettingKind::integer:

@@ -8,6 +8,7 @@ import math
 import pytest
 
 from figures import diff
+from figures.files import csv_rows
 from figures.results import RESULTS
 
 
@@ -26,13 +27,13 @@ NEW = [row(32, 500, 411, 510),  # slower than in OLD: all times are above the ra
 
 
 def csv_of(rows):
-    """Writes the rows as a CSV file."""
-    rows = [{**one, **one["milliseconds"], "milliseconds": one["milliseconds"]["median"]} for one in rows]
+    """Returns the rows as they are read from the CSV file of a bench."""
     text = io.StringIO()
-    writer = csv.DictWriter(text, [name for name in rows[0] if name not in ("bias", "median")], extrasaction="ignore")
+    rows = [one | {f"milliseconds.{name}": value for name, value in one["milliseconds"].items()} for one in rows]
+    writer = csv.DictWriter(text, [name for name in rows[0] if name not in ("bias", "milliseconds")], extrasaction="ignore")
     writer.writeheader()
     writer.writerows(rows)
-    return list(csv.DictReader(io.StringIO(text.getvalue())))
+    return csv_rows(io.StringIO(text.getvalue()))
 
 
 def compared(old, new):

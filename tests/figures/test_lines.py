@@ -68,7 +68,7 @@ def test_details_keep_their_size_and_differences_are_rmse():
 @pytest.mark.parametrize("times, count", [((60, 240, 960), 16), ((30, 120, 480), 64), ((1, 8, 90), 256)])
 def test_the_number_of_points_with_the_time_of_16_lines(monkeypatch, times, count):
     def row(method, samples, time):
-        return {"method": method, "form": "standard", "samples": samples, "milliseconds": {"median": time}}
+        return {"method": method, "form": "default", "samples": samples, "milliseconds": {"median": time}}
 
     rows = [row("line", 16, 100), *(row("stochastic", *pair) for pair in zip((16, 64, 256), times))]
     monkeypatch.setattr(line_rows, "run_of", lambda name: {"rows": rows})

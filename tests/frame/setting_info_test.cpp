@@ -35,11 +35,11 @@ TEST(SettingInfos, haveEachSettingAndEachOfAMethodOnce) {
 TEST(SettingInfos, defaultsChangeNothing) {
     for (const SettingInfo& info : settingInfos()) {
         if (!info.defaultValue) continue;
-        Request standard;
-        if (!info.methods.empty()) standard.method = info.methods.front();
-        Request request = standard;
+        Request defaults;
+        if (!info.methods.empty()) defaults.method = info.methods.front();
+        Request request = defaults;
         ASSERT_NO_THROW(setSetting(request, info.name, *info.defaultValue)) << info.name;
-        for (const Setting& setting : settings()) EXPECT_EQ(setting.text(request), setting.text(standard)) << info.name;
+        for (const Setting& setting : settings()) EXPECT_EQ(setting.text(request), setting.text(defaults)) << info.name;
     }
 }
 

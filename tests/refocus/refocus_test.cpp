@@ -182,7 +182,7 @@ TEST(LensImages, haveAMarginForTheFocusRange) {
         full.points = {{sign, sign}};
         full.pixels = {{0.499 * sign, 0.5 * sign}};
         for (const double focus : {1.0, 4.0}) {
-            const glm::ivec2 move = wholeMove(full, 0, full.shift(focus));
+            const glm::ivec2 move = integerMove(full, 0, full.shift(focus));
             EXPECT_LE(std::max(std::abs(move.x), std::abs(move.y)), full.size.margin) << sign << ' ' << focus;
         }
     }

@@ -260,14 +260,14 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
               "at full detail is always included. Default: all methods",
               [&options](const std::string& text) { options.methods = parseMethods(text); })
         ->group(group);
-    addList(command, "--rows", "published,best,standard", options.forms,
+    addList(command, "--rows", "published,best,default", options.forms,
             "Settings to measure for a method that is named without settings: as published (the method's preset), with "
-            "the smallest error (best), or the defaults (standard)",
+            "the smallest error (best), or the defaults (default)",
             [](const std::string& part) {
-                constexpr std::array forms = {MethodForm::published, MethodForm::best, MethodForm::standard};
-                return forms[parseChoice(part, {"published", "best", "standard"})];
+                constexpr std::array forms = {MethodForm::published, MethodForm::best, MethodForm::defaults};
+                return forms[parseChoice(part, {"published", "best", "default"})];
             })
-        ->default_str("published,best,standard")
+        ->default_str("published,best,default")
         ->group(group);
     addIntegers(command, "--counts", options.sampleCounts, 1, maxSamples, "Numbers of lens samples to measure")
         ->group(group);

@@ -40,7 +40,7 @@ std::string rangeText(const Setting& setting) {
     return setting.metavar;
 }
 
-std::string standardText(const Setting& setting) {
+std::string defaultText(const Setting& setting) {
     return setting.text(Request{}).value_or("");
 }
 
@@ -53,7 +53,7 @@ Json settingsJson() {
                     {"group", groupTitle(setting.group)},
                     {"range", rangeText(setting)},
                     {"unit", setting.unit}};
-        row["default"] = setting.text(Request{}) ? Json(standardText(setting)) : Json(nullptr);
+        row["default"] = setting.text(Request{}) ? Json(defaultText(setting)) : Json(nullptr);
         row["shot"] = setting.shotPlace;
         row["keyed"] = setting.keyed;
         row["help"] = setting.help;
@@ -68,7 +68,7 @@ void printTable() {
         if (setting.group != group) fmt::print("\n{}\n", groupTitle(setting.group));
         group = setting.group;
         fmt::print("  {:<30} {:<34} {}\n", setting.option, fmt::format("{} {}", rangeText(setting), setting.unit),
-                   standardText(setting));
+                   defaultText(setting));
     }
 }
 
@@ -87,9 +87,9 @@ std::string cell(const std::string& text) {
 std::string markdownRow(const Setting& setting) {
     const std::string shot = setting.shotPlace.empty() ? "" : fmt::format("`{}`", setting.shotPlace);
     const std::string unit = setting.unit.empty() ? "" : fmt::format(" {}", setting.unit);
-    const std::string standard = standardText(setting);
+    const std::string value = defaultText(setting);
     return fmt::format("| `{}` | `{}` | {}{} | {} | {}{} | {} |\n", setting.option, snakeCase(setting.name),
-                       cell(rangeText(setting)), unit, standard.empty() ? "" : fmt::format("`{}`", standard), shot,
+                       cell(rangeText(setting)), unit, value.empty() ? "" : fmt::format("`{}`", value), shot,
                        setting.keyed ? ", keyframes" : "", cell(setting.help));
 }
 

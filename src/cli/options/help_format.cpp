@@ -95,9 +95,9 @@ std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
 }
 
 std::string HelpFormat::make_option_desc(const CLI::Option* option) const {
-    const std::string standard = option->get_default_str();
+    const std::string value = option->get_default_str();
     const std::string& text = option->get_description();
-    return standard.empty() ? text : text + " (default " + standard + ")";
+    return value.empty() ? text : text + " (default " + value + ")";
 }
 
 std::string HelpFormat::make_subcommand(const CLI::App* command) const {

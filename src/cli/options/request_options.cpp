@@ -47,7 +47,7 @@ CLI::Option* addRow(CLI::App& command, Request& request, const Setting& setting)
     if (setting.repeated) return addRepeated(command, request, setting);
     CLI::Option* option = addParsed(command, setting.option, setting.metavar, setting.help,
                                     [&request, &setting](const std::string& text) { setting.set(request, text); });
-    if (const std::optional<std::string> standard = setting.text(request)) option->default_str(*standard);
+    if (const std::optional<std::string> value = setting.text(request)) option->default_str(*value);
     return option;
 }
 

@@ -22,7 +22,7 @@ constexpr std::array alwaysThere = {"embree", "embree-shared"};
 
 // ---- list of cases to measure ---------------------------------------------------------------------------------------
 
-MethodUse standardUse(const Method& method) {
+MethodUse defaultUse(const Method& method) {
     return {&method, completeSettings(method.name, method.settings, {})};
 }
 
@@ -36,7 +36,7 @@ std::vector<MethodUse> chosenMethods(const ConvergenceOptions& options) {
     for (const Method& method : methods())
         if ((all && method.name != automaticMethod) ||
             (std::ranges::count(alwaysThere, method.name) > 0 && !has(method.name)))
-            uses.push_back(standardUse(method));
+            uses.push_back(defaultUse(method));
     return uses;
 }
 
@@ -45,7 +45,7 @@ std::string settingOf(const MethodUse& use, const std::string& levels) {
     std::ranges::replace(text, ',', ' ');
     if (!text.empty() && !levels.empty()) text += ' ';
     text += levels;
-    return text.empty() ? "standard" : text;
+    return text.empty() ? "default" : text;
 }
 
 MethodUse bestUse(const Method& method) {
@@ -53,7 +53,7 @@ MethodUse bestUse(const Method& method) {
 }
 
 std::string formOf(const MethodUse& use) {
-    if (use.settings == standardUse(*use.method).settings) return methodFormName(MethodForm::standard);
+    if (use.settings == defaultUse(*use.method).settings) return methodFormName(MethodForm::defaults);
     if (use.settings == bestUse(*use.method).settings) return methodFormName(MethodForm::best);
     return {};
 }
@@ -113,11 +113,11 @@ std::vector<ConvergenceCase> publishedCases(const Method& method, std::uint32_t 
 }
 
 // Returns the cases to measure for one method: one case if `use` changes any of the method's settings, otherwise one
-// for each requested variant of its settings (published, best, standard).
+// for each requested variant of its settings (published, best, default).
 std::vector<ConvergenceCase> casesOfForms(const MethodUse& use, std::uint32_t samples,
                                           const ConvergenceOptions& options) {
     const Method& method = *use.method;
-    if (use.settings != standardUse(method).settings) return casesOf(use, samples, options);
+    if (use.settings != defaultUse(method).settings) return casesOf(use, samples, options);
     std::vector<ConvergenceCase> cases;
     for (const MethodForm form : options.forms) {
         std::vector<ConvergenceCase> more = form == MethodForm::published ? publishedCases(method, samples, options)
@@ -283,7 +283,7 @@ private:
     const Image& fullDetailFor(const ConvergenceCase& wanted) {
         if (fullDetailPoints_ != pointsOf(wanted)) {
             const ConvergenceCase full =
-                fullDetailCase(standardUse(methodNamed(baselineMethod)), wanted.samples, wanted.plan);
+                fullDetailCase(defaultUse(methodNamed(baselineMethod)), wanted.samples, wanted.plan);
             keepFullDetail(full, frameOf(world_, view_, full, renderer_).image);
         }
         return fullDetail_;
@@ -303,7 +303,7 @@ private:
 }  // namespace
 
 const char* methodFormName(MethodForm form) {
-    return enumName<MethodForm::standard>(form, {"published", "best", "standard"});
+    return enumName<MethodForm::defaults>(form, {"published", "best", "default"});
 }
 
 double ImageError::psnr() const {
@@ -324,7 +324,7 @@ std::vector<ConvergenceCase> convergenceCases(const ConvergenceOptions& options)
             cases.push_back(std::move(wanted));
     };
     for (const std::uint32_t count : counts) {
-        add(fullDetailCase(standardUse(methodNamed(baselineMethod)), count, options.plan));
+        add(fullDetailCase(defaultUse(methodNamed(baselineMethod)), count, options.plan));
         for (const MethodUse& use : uses)
             for (ConvergenceCase& wanted : casesOfForms(use, use.method->usesLensSamples ? count : 0, options))
                 add(std::move(wanted));

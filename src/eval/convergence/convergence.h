@@ -27,8 +27,8 @@ namespace defocus::engine {
 // Variants of a method's settings. They are measured if the user names the method without settings.
 enum class MethodForm {
     published,  // settings of the paper that describes the method; not measured if there is no paper
-    best,       // settings in Method::best; if they equal the defaults, the variant is called `standard` instead
-    standard,
+    best,       // settings in Method::best; if they equal the defaults, the variant is called `default` instead
+    defaults,
 };
 const char* methodFormName(MethodForm form);
 
@@ -45,7 +45,7 @@ struct PublishedForm {
 struct ConvergenceOptions {
     std::vector<MethodUse> methods;  // methods to measure; empty: all, with default settings
     std::vector<MethodForm> forms = {MethodForm::published, MethodForm::best,
-                                     MethodForm::standard};  // variants to measure if `methods` gives no settings
+                                     MethodForm::defaults};  // variants to measure if `methods` gives no settings
     std::vector<PublishedForm> published;                    // the methods' settings for MethodForm::published
     RenderSettings plan;                                     // settings of all cases; the lists below vary some of them
     std::vector<std::uint32_t> sampleCounts = {8, 16, 32, 64, 128, 256};  // for methods that use lens samples
@@ -62,8 +62,8 @@ struct ConvergenceOptions {
 // A case to measure: a method with its settings and a number of lens samples.
 struct ConvergenceCase {
     MethodUse use;
-    std::string form;  // variant of the settings: "published", "best", "standard"; empty for other settings
-    // Text that describes the settings: "lod=fractional metric=size thresholds=2", "components=5", "standard" for the
+    std::string form;  // variant of the settings: "published", "best", "default"; empty for other settings
+    // Text that describes the settings: "lod=fractional metric=size thresholds=2", "components=5", "default" for the
     // defaults, or a preset's name.
     std::string setting;
     std::uint32_t samples = 0;  // requested lens samples; 0 if the method uses none

@@ -38,7 +38,7 @@ public:
     template <typename Number>
     void number(Number& value) {
         if (!good_) return;
-        const std::optional<Number> parsed = wholeText<Number>(fields_[next_++]);
+        const std::optional<Number> parsed = parsedNumber<Number>(fields_[next_++]);
         good_ = parsed.has_value();
         value = parsed.value_or(value);
     }

@@ -20,8 +20,8 @@ namespace {
 using nlohmann::ordered_json;
 
 std::string nameOf(const ConvergenceRow& row) {
-    const bool isStandard = row.form.empty() || row.form == "standard";
-    return isStandard ? row.method + ", " + row.setting : fmt::format("{} ({}), {}", row.method, row.form, row.setting);
+    const bool isDefault = row.form.empty() || row.form == "default";
+    return isDefault ? row.method + ", " + row.setting : fmt::format("{} ({}), {}", row.method, row.form, row.setting);
 }
 
 // Returns two characters that mark the Pareto fronts on which the row lies.

@@ -77,6 +77,7 @@ ordered_json rowJson(const ScalingRow& row) {
         {"samples", row.samples},
         {"width", row.width},
         {"height", row.height},
+        {"runs", row.runs},
         {"milliseconds", spreadJson(row.milliseconds)},
         {"layersMilliseconds", row.layers.median},
         {"verticesMilliseconds", row.vertices.median},

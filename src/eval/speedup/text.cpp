@@ -41,6 +41,7 @@ ordered_json rowJson(const SpeedupRow& row) {
         {"fStop", row.fStop},
         {"focusDistance", row.focusDistance},
         {"lod", lodModeName(row.mode)},
+        {"runs", row.runs},
         {"milliseconds", spreadJson(row.milliseconds)},
         {"gpuMilliseconds", spreadJson(row.gpuMilliseconds)},
         {"setupMilliseconds", row.setupMilliseconds},

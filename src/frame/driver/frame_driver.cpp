@@ -39,9 +39,9 @@ public:
     [[nodiscard]] virtual int tiles() const { return 1; }
 };
 
-class FrameDriver::Whole : public Drawing {
+class FrameDriver::Untiled : public Drawing {
 public:
-    Whole(const World& world, Renderer& renderer, const FrameOrder& order)
+    Untiled(const World& world, Renderer& renderer, const FrameOrder& order)
         : renderer_(renderer), run_(world, renderer) {
         run_.start(order.view, order.settings, order.stop);
     }
@@ -354,7 +354,7 @@ void FrameDriver::start(FrameOrder order) {
     else if (order.samples)
         drawing_ = std::make_unique<Summed>(*world_, *renderer_, order);
     else
-        drawing_ = std::make_unique<Whole>(*world_, *renderer_, order);
+        drawing_ = std::make_unique<Untiled>(*world_, *renderer_, order);
 }
 
 bool FrameDriver::advance() {

@@ -98,7 +98,7 @@ public:
 
 private:
     class Drawing;
-    class Whole;
+    class Untiled;
     class Planned;
     class Tiled;
     class Summed;

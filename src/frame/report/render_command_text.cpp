@@ -107,15 +107,15 @@ std::string renderCommand(const RenderCommandText& text) {
     // Leave out options whose values the preset already sets.
     const Setting& preset = *settingNamed("preset");
     const std::optional<std::string> presetName = preset.text(request);
-    Request standard;
-    if (presetName) preset.set(standard, *presetName);
+    Request defaults;
+    if (presetName) preset.set(defaults, *presetName);
     std::string command = "defocus render";
     if (!request.scene.empty()) command += fmt::format(" {}", pathWord(request.scene.string()));
     command += fmt::format(" -o {}", pathWord(text.output));
     for (const Setting& setting : settings()) {
         if (setting.name == "scene") continue;
         const bool always = setting.name == "size" || (setting.name == "samples" && request.samples);
-        const bool changed = setting.name == preset.name || setting.text(request) != setting.text(standard);
+        const bool changed = setting.name == preset.name || setting.text(request) != setting.text(defaults);
         if (always || changed) addSetting(command, setting, request);
     }
     return command;

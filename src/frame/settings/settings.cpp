@@ -65,9 +65,9 @@ void setByName(Request& request, std::string_view name, const std::string& text)
 }
 
 std::optional<std::string> changedText(const Setting& setting, const Request& request) {
-    static const Request standard;
+    static const Request defaults;
     std::optional<std::string> text = setting.text(request);
-    if (text == setting.text(standard)) return std::nullopt;
+    if (text == setting.text(defaults)) return std::nullopt;
     return text;
 }
 

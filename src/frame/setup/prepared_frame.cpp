@@ -107,8 +107,8 @@ std::vector<Pyramid> fullDetailPyramids(const std::vector<Mesh>& meshes, Pyramid
 
 // Returns the camera's matrix with the position, target and up direction that the request gives.
 glm::dmat4 wanderedCamera(const Request& request, const glm::dmat4& worldFromCamera) {
-    const auto orElse = [](const std::optional<Vector3>& given, const glm::dvec3& standard) {
-        return given ? asVector(*given) : standard;
+    const auto orElse = [](const std::optional<Vector3>& given, const glm::dvec3& fallback) {
+        return given ? asVector(*given) : fallback;
     };
     const glm::dvec3 position = orElse(request.cameraPosition, worldFromCamera[3]);
     const glm::dvec3 back =

@@ -101,11 +101,11 @@ double measuredLimit(double light, double edge) {
 
 LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, std::uint32_t sampleCount) {
     metric = chosenMetric(metric, given);
-    const LodThresholds standard = defaultThresholds(metric, sampleCount);
-    if (metric == LodMetric::measured) return {.light = given.light.value_or(standard.light)};
+    const LodThresholds defaults = defaultThresholds(metric, sampleCount);
+    if (metric == LodMetric::measured) return {.light = given.light.value_or(defaults.light)};
     if (metric == LodMetric::score || metric == LodMetric::proportional)
-        return {.blur = given.blur.value_or(standard.blur)};
-    return {given.blur.value_or(standard.blur), given.size.value_or(standard.size)};
+        return {.blur = given.blur.value_or(defaults.blur)};
+    return {given.blur.value_or(defaults.blur), given.size.value_or(defaults.size)};
 }
 
 double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,

@@ -115,8 +115,8 @@ public:
     }
 
     void continueWith(const FramePlan& plan) override {
-        const bool wholeBlocks = sum_ && samples() == sampleTotal() && samples() % blockSamples == 0;
-        if (!wholeBlocks || plan.view.width != plan_.view.width || plan.view.height != plan_.view.height)
+        const bool completeBlocks = sum_ && samples() == sampleTotal() && samples() % blockSamples == 0;
+        if (!completeBlocks || plan.view.width != plan_.view.width || plan.view.height != plan_.view.height)
             fail(
                 "samples can be added only if the current block of samples is complete and the image size has not "
                 "changed");

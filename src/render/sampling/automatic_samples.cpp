@@ -24,7 +24,7 @@ constexpr double maxDoubledPixels = 4 << 20;
 constexpr std::uint32_t minSpread = 64;  // min samples for smooth penumbrae and motion blur
 
 // Returns the number of samples, rounded up to a power of two or, above 64, to complete blocks of 64.
-std::uint32_t wholeCount(std::uint32_t samples) {
+std::uint32_t roundedUp(std::uint32_t samples) {
     return samples <= blockSamples ? std::bit_ceil(samples)
                                    : (samples + blockSamples - 1) / blockSamples * blockSamples;
 }
@@ -58,7 +58,7 @@ std::uint32_t samplesWithin(const SampleLimits& limits, double blur) {
     const double filling = std::numbers::pi / 4 * blur * blur / (limits.gap * limits.gap);
     if (!(filling > limits.min)) return limits.min;
     const auto samples = static_cast<std::uint32_t>(std::ceil(std::min(filling, double{maxAutomaticSamples})));
-    return wholeCount(samples);
+    return roundedUp(samples);
 }
 
 std::uint32_t samplesWithin(SampleLimits limits, const FramePlan& plan) {
@@ -117,7 +117,7 @@ bool fourPositionsSuffice(const FramePlan& plan, double samples) {
 
 RenderSettings withSamples(RenderSettings settings, const FramePlan& plan, double samples, bool choosesPositions) {
     if (choosesPositions && fourPositionsSuffice(plan, samples)) settings.positions = 4;
-    settings.sampleCount = wholeCount(static_cast<std::uint32_t>(std::ceil(samples / settings.positions)));
+    settings.sampleCount = roundedUp(static_cast<std::uint32_t>(std::ceil(samples / settings.positions)));
     return settings;
 }
 

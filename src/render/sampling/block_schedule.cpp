@@ -28,7 +28,7 @@ constexpr std::uint32_t firstEstimate = 2 * blockSamples;
 constexpr double excessWithinBlock = 1.3;
 
 // Returns `samples` rounded up to complete blocks.
-std::uint32_t wholeBlocks(double samples) {
+std::uint32_t completeBlocks(double samples) {
     return static_cast<std::uint32_t>(std::ceil(samples / blockSamples)) * blockSamples;
 }
 
@@ -71,7 +71,7 @@ BlockSchedule BlockSchedule::automatic(const RenderSettings& settings, Quality q
     schedule.targetFlip_ = flipOf(quality);
     schedule.expected_ = expected;
     const double first = 0.5 * std::min<double>(expected, schedule.stop_.sampleLimit);
-    const std::uint32_t blocks = wholeBlocks(first) / blockSamples;
+    const std::uint32_t blocks = completeBlocks(first) / blockSamples;
     schedule.nextEstimate_ = (blocks == 1 ? 1 : blocks / 2 * 2) * blockSamples;
     return schedule;
 }
@@ -83,7 +83,7 @@ bool BlockSchedule::wantsImage(std::uint32_t samples) const {
 std::uint32_t BlockSchedule::expectedSamples() const {
     if (stopped_) return samples_;
     const auto max = static_cast<double>(stop_.sampleLimit);
-    return std::min(stop_.sampleLimit, wholeBlocks(std::clamp(expected_, std::min(samples_ + 1.0, max), max)));
+    return std::min(stop_.sampleLimit, completeBlocks(std::clamp(expected_, std::min(samples_ + 1.0, max), max)));
 }
 
 // Returns the sample count whose default level-of-detail thresholds the next block uses. More samples mean finer
@@ -141,7 +141,7 @@ void BlockSchedule::predict() {
     // current number, because an estimate after n samples needs an earlier image of about n/2 samples.
     const bool aims = targetFlip_ || stop_.targetError;
     const double due = aims ? std::clamp(0.8 * expected_, samples_ + 1.0, 2.0 * samples_) : 2.0 * samples_;
-    nextEstimate_ = wholeBlocks(due);
+    nextEstimate_ = completeBlocks(due);
 }
 
 bool BlockSchedule::endBlock(const FramePlan& plan, double seconds, const std::function<Image()>& mean) {

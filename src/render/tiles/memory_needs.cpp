@@ -98,7 +98,7 @@ TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLi
 // the bytes of the images on the host.
 std::uint64_t untiledBytes(const TilingNeeds& needs) {
     const std::uint64_t sums = sumPixelBytes + needs.dataPixel;
-    return pixelCount(needs.width, needs.height) * (needs.shared ? sums + wholePixelBytes + needs.dataPixel : sums);
+    return pixelCount(needs.width, needs.height) * (needs.shared ? sums + untiledPixelBytes + needs.dataPixel : sums);
 }
 
 // Subtracts `bytes`, the memory that the scene will take, from the available memory. Only for software drivers.
@@ -196,7 +196,7 @@ TilingNeeds measuredNeeds(const World& world, const FramePlan& plan, const DrawL
 }
 
 bool surelyFits(int width, int height, bool mapsPossible, const DrawLimits& limits, std::uint64_t limit) {
-    const std::uint64_t pixel = 2 * layerPixelBytes(LayerFormat::rgba32f) + sumPixelBytes + wholePixelBytes;
+    const std::uint64_t pixel = 2 * layerPixelBytes(LayerFormat::rgba32f) + sumPixelBytes + untiledPixelBytes;
     const bool oneCell = cellsOf(width, height).size() == 1;
     return !limits.memory && oneCell && !mapsPossible &&
            pixelCount(width, height) * pixel <= remainder(limit, residentMemory());

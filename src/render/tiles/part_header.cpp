@@ -29,7 +29,7 @@ std::string rangeText(const SampleRange& range) {
 
 SampleRange parseSampleRange(std::string_view text) {
     const auto number = [&](std::string_view part) {
-        const std::optional<std::uint32_t> value = wholeText<std::uint32_t>(part);
+        const std::optional<std::uint32_t> value = parsedNumber<std::uint32_t>(part);
         if (!value || *value > maxSamples)
             fail("'{}' is not a range of samples; give FIRST:END between 0 and {}, such as 64:128", text, maxSamples);
         return *value;

@@ -118,9 +118,9 @@ FramePart readPart(const fs::path& path) {
     part.height = layers.front().image.height;
     if (part.range.first > part.range.end || part.range.end > part.frameSamples)
         fail("{}: samples {} are outside a frame of {} samples", file, rangeText(part.range), part.frameSamples);
-    const bool wholeEnd = part.range.end % blockSamples == 0 || part.range.end == part.frameSamples;
-    const bool wholeFirst = part.range.first % blockSamples == 0 || part.range.first == part.frameSamples;
-    if (!wholeFirst || !wholeEnd)
+    const bool completeEnd = part.range.end % blockSamples == 0 || part.range.end == part.frameSamples;
+    const bool completeFirst = part.range.first % blockSamples == 0 || part.range.first == part.frameSamples;
+    if (!completeFirst || !completeEnd)
         fail("{}: samples {} split a block of {} samples", file, rangeText(part.range), blockSamples);
     for (std::uint32_t first = part.range.first; first < part.range.end; first += blockSamples) {
         const std::uint32_t samples = std::min(blockSamples, part.range.end - first);

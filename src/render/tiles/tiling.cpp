@@ -84,7 +84,7 @@ bool fitsInOnePiece(const TilingNeeds& needs) {
     if (cellsFor(needs).size() > 1) return false;
     const std::uint64_t pixels = pixelCount(needs.width, needs.height);
     const std::uint64_t device = pixels * (needs.layerPixel + sumPixelBytes + needs.dataPixel) + needs.layerMaps;
-    const std::uint64_t host = pixels * (wholePixelBytes + needs.dataPixel) + needs.keptBytes;
+    const std::uint64_t host = pixels * (untiledPixelBytes + needs.dataPixel) + needs.keptBytes;
     return needs.shared ? device + host <= needs.deviceMemory
                         : device <= needs.deviceMemory && host <= needs.hostMemory;
 }

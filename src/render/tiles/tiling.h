@@ -46,7 +46,7 @@ inline constexpr std::uint64_t sumPixelBytes = 9 * 16;
 inline constexpr std::uint64_t tilePixelBytes = 16;  // bytes per pixel of a tile read back to the host: RGBA floats
 inline constexpr std::uint64_t bandPixelBytes = 16;  // bytes per pixel of a band on the host: RGBA floats
 // Bytes per pixel on the host for an image without tiles: three copies (read back, encoded and written).
-inline constexpr std::uint64_t wholePixelBytes = 16 + 16 + 16;
+inline constexpr std::uint64_t untiledPixelBytes = 16 + 16 + 16;
 
 // Returns whether the full image fits into memory without tiles, with at least one layer; ignores `rows`.
 bool fitsInOnePiece(const TilingNeeds& needs);

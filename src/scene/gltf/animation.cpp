@@ -50,7 +50,7 @@ std::optional<Target> pointedTarget(const std::string& pointer) {
     std::vector<std::string> parts = pointerParts(pointer);
     if (parts.size() == 5 && parts[0] == "extensions" && parts[1] == "KHR_lights_punctual" && parts[2] == "lights")
         parts.erase(parts.begin(), parts.begin() + 2);
-    const std::optional<std::uint64_t> index = parts.size() > 1 ? wholeText<std::uint64_t>(parts[1]) : std::nullopt;
+    const std::optional<std::uint64_t> index = parts.size() > 1 ? parsedNumber<std::uint64_t>(parts[1]) : std::nullopt;
     if (!index) return std::nullopt;
     std::optional<ChannelPath> path;
     if (parts.size() == 3 && parts[0] == "nodes") path = nodePathNamed(parts[2]);

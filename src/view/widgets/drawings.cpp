@@ -41,7 +41,7 @@ Canvas canvas(float height, float rounding, const char* id = nullptr, ImU32 fill
 
 // Returns the position of an f-number in the list standardStops(), as a fractional index.
 float stopPosition(double fStop) {
-    const std::span<const double> stops = standardStops();
+    const std::span<const double> stops = thirdStops();
     if (fStop <= stops.front()) return 0;
     for (std::size_t i = 1; i < stops.size(); ++i)
         if (fStop <= stops[i])
@@ -158,7 +158,7 @@ void stopRing(double& fStop, float scale) {
         box.list.AddRect(box.origin, box.end, color(ImGuiCol_Border), 4 * scale);
     box.list.PushClipRect(box.origin, box.end, true);
     const float position = stopPosition(fStop);
-    const std::span<const double> stops = standardStops();
+    const std::span<const double> stops = thirdStops();
     for (std::size_t i = 0; i < stops.size(); ++i) {
         const float x = centre + (static_cast<float>(i) - position) * spacing;
         const double halfStops = 2 * std::log2(stops[i]);

@@ -49,7 +49,7 @@ protected:
 
     // Expects a self-contained HTML page: it loads nothing from other hosts, its links lead into the page or to data
     // files beside it, and every image has alternative text.
-    static void expectWholePage(const std::string& page) {
+    static void expectSelfContained(const std::string& page) {
         const std::regex outside(
             "src=\"(?!data:)|href=\"(?!data:|#|[a-z]+[.](json|csv)\")|url\\((?!#)|@import|<script(?!>)|<link");
         const std::regex picture("<img (?![^>]*alt=\"[^\"]+\")|<svg (?![^>]*role=\"img\")");

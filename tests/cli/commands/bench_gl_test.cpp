@@ -109,7 +109,7 @@ TEST_F(BenchConvergence, reportIsOneFileThatNeedsNothingElse) {
     EXPECT_TRUE(fs::exists(folder() / "page/results.csv"));
     if (outcome.err.find("no report") != std::string::npos) GTEST_SKIP() << outcome.err;
     const std::string page = textOf(folder() / "page/index.html");
-    expectWholePage(page);
+    expectSelfContained(page);
     EXPECT_NE(page.find("accumulation, full detail"), std::string::npos);
     EXPECT_NE(page.find("accumulation (published), jeong2011"), std::string::npos);
     for (const char* part : {"<nav ", "href=\"results.csv\"", "href=\"results.json\"", "@software{defocus", "aria-sort",

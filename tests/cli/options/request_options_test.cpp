@@ -134,10 +134,10 @@ TEST_F(SceneOptionsTest, whatIsGivenBesideAPresetWinsWhereverItStands) {
 }
 
 TEST_F(SceneOptionsTest, thresholdsReplaceTheirDefaultsOneByOne) {
-    const json standard = plan({"--lod-metric", "size"})["lod"];
+    const json defaults = plan({"--lod-metric", "size"})["lod"];
     const json changed = plan({"--blur-threshold", "0.125"})["lod"];
     EXPECT_EQ(changed["blurThreshold"], 0.125);
-    EXPECT_EQ(changed["sizeThreshold"], standard["sizeThreshold"]);
+    EXPECT_EQ(changed["sizeThreshold"], defaults["sizeThreshold"]);
     EXPECT_EQ(plan({"--lod", "nearest", "--lod-metric", "error"})["lod"]["mode"], "nearest");
 }
 

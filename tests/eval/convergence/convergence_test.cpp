@@ -58,7 +58,7 @@ ConvergenceRow rowOf(const std::string& method, const std::string& setting, doub
 TEST(EqualError, isExactForPowersOfTheTime) {
     std::vector<ConvergenceRow> rows;
     for (const double ms : {3.0, 48.0, 768.0}) {
-        rows.push_back(rowOf("embree", "standard", ms, 0.2 / std::sqrt(ms)));
+        rows.push_back(rowOf("embree", "default", ms, 0.2 / std::sqrt(ms)));
         rows.push_back(rowOf("accumulation", "lod=off", ms, 0.3 / ms));
         rows.push_back(rowOf("accumulation", "lod=fractional", ms / 4, 0.3 / ms));
         rows.back().bias.emplace();
@@ -81,8 +81,8 @@ TEST(EqualError, isExactForPowersOfTheTime) {
 }
 
 TEST(EqualError, saysWhatLiesBeyondTheRows) {
-    std::vector<ConvergenceRow> rows = {rowOf("a", "standard", 10, 0.02), rowOf("a", "standard", 20, 0.01),
-                                        rowOf("b", "standard", 1, 1e-9)};
+    std::vector<ConvergenceRow> rows = {rowOf("a", "default", 10, 0.02), rowOf("a", "default", 20, 0.01),
+                                        rowOf("b", "default", 1, 1e-9)};
     rows[2].fault = "NaN or infinite pixels";
     const std::vector<double> errors = {0.03, 0.01, 0.005};
     const std::vector<Competitor> competitors = timesToErrors(rows, errors);
@@ -204,7 +204,7 @@ TEST(ConvergenceRows, biasFloorsAreThoseOfTheMostSamples) {
 std::vector<ConvergenceRun> threeRuns() {
     std::vector<ConvergenceRun> runs = {runOf("accumulation", "lod=off", 8, 0, 1.0 / 3, 0.1),
                                         runOf("accumulation", "lod=fractional metric=size thresholds=2", 8, 0, 2e-5, 0),
-                                        runOf("circular", "standard", 0, 1, 12345.678, 1e-9)};
+                                        runOf("circular", "default", 0, 1, 12345.678, 1e-9)};
     runs[0].imageHash = ~0ull;
     runs[0].triangles = 1ull << 40;
     runs[0].form = "best";
@@ -289,11 +289,11 @@ TEST(ConvergenceCases, followTheTableAndTheLists) {
     options.thresholdFactors = {0.5};
     options.methods = {parseMethodUse("accumulation"), parseMethodUse("blur:taps=3"), parseMethodUse("blur"),
                        parseMethodUse("rays")};
-    EXPECT_EQ(texts(options), (std::vector<std::string>{
-                                  "accumulation lod=off 4", "accumulation lod=nearest metric=error thresholds=0.5 4",
-                                  "blur taps=3 0", "blur standard 0", "rays standard 4", "embree standard 4",
-                                  "accumulation lod=off 16", "accumulation lod=nearest metric=error thresholds=0.5 16",
-                                  "rays standard 16", "embree standard 16"}));
+    EXPECT_EQ(texts(options),
+              (std::vector<std::string>{
+                  "accumulation lod=off 4", "accumulation lod=nearest metric=error thresholds=0.5 4", "blur taps=3 0",
+                  "blur default 0", "rays default 4", "embree default 4", "accumulation lod=off 16",
+                  "accumulation lod=nearest metric=error thresholds=0.5 16", "rays default 16", "embree default 16"}));
 
     // The cases always include full detail and the ray tracer `embree`. Without a list of methods, they include every
     // method except `auto`, which only chooses between two other methods.
@@ -301,7 +301,7 @@ TEST(ConvergenceCases, followTheTableAndTheLists) {
     options.sampleCounts = {4};
     options.methods = {parseMethodUse("blur")};
     EXPECT_EQ(texts(options),
-              (std::vector<std::string>{"accumulation lod=off 4", "blur standard 0", "embree standard 4"}));
+              (std::vector<std::string>{"accumulation lod=off 4", "blur default 0", "embree default 4"}));
     options.methods.clear();
     std::set<std::string> names;
     for (const ConvergenceCase& one : convergenceCases(options)) names.insert(one.use.method->name);
@@ -311,7 +311,7 @@ TEST(ConvergenceCases, followTheTableAndTheLists) {
 
 // A method without custom settings has three rows: for its published, best and standard settings. A method with custom
 // settings has only one row.
-TEST(ConvergenceCases, formsArePublishedBestAndStandard) {
+TEST(ConvergenceCases, formsArePublishedBestAndDefault) {
     registerMethod({.name = "formed",
                     .description = "",
                     .usesLensSamples = false,
@@ -336,11 +336,11 @@ TEST(ConvergenceCases, formsArePublishedBestAndStandard) {
         return found;
     };
     using Texts = std::set<std::string>;
-    Texts expected = {"accumulation|standard|lod=off",   "accumulation|published|jeong2011",
+    Texts expected = {"accumulation|default|lod=off",    "accumulation|published|jeong2011",
                       "formed:taps=2|published|old2004", "formed:taps=64|best|taps=64",
-                      "formed|standard|standard",        "formed:taps=9||taps=9"};
+                      "formed|default|default",          "formed:taps=9||taps=9"};
     for (const ConvergenceCase& one : convergenceCases(options))
-        if (one.use.method->name == "embree") expected.insert("embree|standard|standard");
+        if (one.use.method->name == "embree") expected.insert("embree|default|default");
     EXPECT_EQ(texts(), expected);
     for (const ConvergenceCase& one : convergenceCases(options)) {
         const bool levels = one.setting == "jeong2011";
@@ -357,15 +357,15 @@ TEST(ConvergenceCases, formsArePublishedBestAndStandard) {
     EXPECT_EQ(texts(), expected);
 }
 
-TEST(ConvergenceCases, thresholdsAreTimesTheStandardOnes) {
+TEST(ConvergenceCases, thresholdsAreTimesTheDefaults) {
     ConvergenceOptions options;
     options.sampleCounts = {64};
     options.lods = {LodMode::fractional};
     options.thresholdFactors = {3};
     options.methods = {parseMethodUse("accumulation")};
     const ConvergenceCase levels = convergenceCases(options).at(1);
-    const LodThresholds standard = defaultThresholds(LodMetric::measured, 64);
-    EXPECT_DOUBLE_EQ(levels.plan.thresholds.light.value(), 3 * standard.light);
+    const LodThresholds defaults = defaultThresholds(LodMetric::measured, 64);
+    EXPECT_DOUBLE_EQ(levels.plan.thresholds.light.value(), 3 * defaults.light);
     EXPECT_TRUE(levels.usesLevels());
 }
 

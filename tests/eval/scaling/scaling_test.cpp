@@ -159,12 +159,12 @@ TEST(ScalingPoints, changeOnlyWhatTheirAxisNames) {
         ASSERT_GE(points.size(), 4u);
         for (std::size_t i = 0; i < points.size(); ++i) {
             const ScalingPoint& p = points[i];
-            const ScalingPoint standard;
+            const ScalingPoint defaults;
             EXPECT_EQ(p.axis, axis);
-            EXPECT_TRUE(p.triangles == standard.triangles || axis == ScalingAxis::triangles);
-            EXPECT_TRUE(p.instances == standard.instances || axis == ScalingAxis::instances);
-            EXPECT_TRUE(p.samples == standard.samples || axis == ScalingAxis::samples);
-            EXPECT_TRUE(p.width == standard.width || axis == ScalingAxis::pixels);
+            EXPECT_TRUE(p.triangles == defaults.triangles || axis == ScalingAxis::triangles);
+            EXPECT_TRUE(p.instances == defaults.instances || axis == ScalingAxis::instances);
+            EXPECT_TRUE(p.samples == defaults.samples || axis == ScalingAxis::samples);
+            EXPECT_TRUE(p.width == defaults.width || axis == ScalingAxis::pixels);
             EXPECT_TRUE(!p.fStop || axis == ScalingAxis::blur);
             if (i > 0 && axis != ScalingAxis::blur) {
                 EXPECT_GT(p.value, points[i - 1].value);

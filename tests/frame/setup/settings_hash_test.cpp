@@ -20,7 +20,7 @@ std::string hashOf(const Request& request) {
 }
 
 TEST(SettingsHash, changesWithWhatChangesThePicture) {
-    const std::string standard = hashOf({});
+    const std::string defaults = hashOf({});
     const std::vector<std::pair<const char*, const char*>> values = {{"levelVertices", "surviving"},
                                                                      {"lodMetric", "proportional"},
                                                                      {"lodCoc", "centre"},
@@ -32,13 +32,13 @@ TEST(SettingsHash, changesWithWhatChangesThePicture) {
     for (const auto& [name, value] : values) {
         Request request;
         setByName(request, name, value);
-        EXPECT_NE(hashOf(request), standard) << name;
+        EXPECT_NE(hashOf(request), defaults) << name;
     }
     for (const auto& [name, value] : std::vector<std::pair<const char*, const char*>>{
              {"wave", "3"}, {"threads", "5"}, {"noCache", "true"}, {"strict", "true"}}) {
         Request request;
         setByName(request, name, value);
-        EXPECT_EQ(hashOf(request), standard) << name;
+        EXPECT_EQ(hashOf(request), defaults) << name;
     }
 }
 

@@ -152,8 +152,8 @@ TEST(BlockSchedule, levelsFollowTheSamplesThatAreExpected) {
     for (BlockSchedule* schedule : {&near, &far})
         for (int block = 0; block < 2; ++block) {
             const RenderSettings settings = schedule->nextBlock();
-            const LodThresholds standard = defaultThresholds(settings.metric, 4 * schedule->expectedSamples());
-            EXPECT_EQ(settings.thresholds.light, standard.light);
+            const LodThresholds defaults = defaultThresholds(settings.metric, 4 * schedule->expectedSamples());
+            EXPECT_EQ(settings.thresholds.light, defaults.light);
             schedule->endBlock(planOf(settings, 64), 0, [&] { return frame.mean(schedule->samples()); });
         }
     EXPECT_LT(far.nextBlock().thresholds.light, 0.5 * *near.nextBlock().thresholds.light);

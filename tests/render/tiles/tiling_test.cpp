@@ -75,7 +75,7 @@ TEST(Tiling, bandsAreOfOneHeightWhereAFewMoreMakeThem) {
 }
 
 TEST(Tiling, onePieceIsWhatFitsWithItsPicture) {
-    const std::uint64_t pixel = 12 + sumPixelBytes + wholePixelBytes;
+    const std::uint64_t pixel = 12 + sumPixelBytes + untiledPixelBytes;
     EXPECT_TRUE(fitsInOnePiece(needsOf(100, 100, 10'000 * pixel)));
     EXPECT_FALSE(fitsInOnePiece(needsOf(100, 100, 10'000 * pixel - 1)));
     // An image of several rasterization cells (areas of at most 8192 px on a side) is always divided, so that its bits
@@ -88,7 +88,7 @@ TEST(Tiling, onePieceIsWhatFitsWithItsPicture) {
 
 // Data layers take host memory twice, in addition to the rendered image: for their sums and for their finished images.
 TEST(Tiling, dataLayersTakeMemoryTwice) {
-    TilingNeeds needs = needsOf(100, 100, 10'000 * (12 + sumPixelBytes + wholePixelBytes + 2 * 96));
+    TilingNeeds needs = needsOf(100, 100, 10'000 * (12 + sumPixelBytes + untiledPixelBytes + 2 * 96));
     needs.dataPixel = 96;
     EXPECT_TRUE(fitsInOnePiece(needs));
     needs.dataPixel = 97;

@@ -8,7 +8,7 @@ namespace defocus::engine {
 namespace {
 
 TEST(PhotographicStops, areThirdsOfAStop) {
-    const auto stops = standardStops();
+    const auto stops = thirdStops();
     for (std::size_t i = 1; i < stops.size(); ++i) {
         const double thirds = 6 * std::log2(stops[i] / stops[i - 1]);  // one stop is a factor of √2 in the f-number
         EXPECT_NEAR(thirds, 1, 0.6) << stops[i];                       // manufacturers round the f-numbers
