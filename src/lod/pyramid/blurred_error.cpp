@@ -19,35 +19,38 @@ namespace {
 
 constexpr std::size_t viewCount = 4;
 constexpr int minResolution = 128;
-constexpr int maxResolution = 512;  // max pixels per side of an image; BlurTable has patches of side 2, 4, … 512 pixels
+// Max pixels per side of an image. The largest patches of a BlurTable have this side
+constexpr int maxResolution = 512;
 static_assert(maxResolution == 1 << (blurSizes - 1));
-constexpr double minBlurredGrowth = 1.1;  // min ratio of the errors of consecutive levels after blurring
-constexpr double minError = 1e-6;         // min error of level 1 after blurring, relative to the mesh's mean radiance
-// On a grey background, the relative error E/V of a level may reach only this fraction of its limit (measuredLimit).
-// With 1 instead of 0.9, levels would raise the FLIP error of a smooth surface in focus by more than a fifth.
+constexpr double minBlurredGrowth = 1.1;  // a level's blurred error is at least this multiple of the next finer level's
+constexpr double minError = 1e-6;         // lower bound on blurred errors, relative to the mesh's mean radiance
+// On a grey background, the ratio of a level's error to the contrast of level 0 may reach only this fraction of
+// measuredLimit(). With 1 instead of 0.9, levels would raise the FLIP error of a smooth surface in focus by more than a
+// fifth.
 constexpr double greyShare = 0.9;
 constexpr double minGreyContrast = 0.004;  // min contrast on a grey background, relative to the mean radiance
-// Max ratio of the errors of consecutive levels, twice the ratio for a smooth surface: halving the number of its
-// triangles doubles its error, because the error grows with the squared edge length. A coarser level's error divided by
-// this limit is a lower bound for the error of a level whose triangles are smaller than the pixels of the measured
-// image.
+// Max ratio of the errors of consecutive levels. On a smooth surface, the ratio is about 2: half the triangles have
+// twice the squared edge length, to which the error is proportional. This limit is twice that. If a level's triangles
+// are smaller than the pixels of the image, its error cannot be measured. It is then at least the next coarser level's
+// error divided by this limit.
 constexpr float maxUnseenGrowth = 4;
 
 // ---- averages over patches of an image ---------------------------------------------------------
 
-// Sums over all pixels and channels of an image, for example of squared radiance, with one entry per patch size. Entry
-// 0 is the sum over single pixels. Entry i is a sum over the means of patches of 2^i × 2^i pixels, weighted by the
-// number of pixels.
+// Sums over all pixels and channels of an image, one per patch size. Entry 0 sums the squared values (for example
+// radiance) of single pixels. Entry i sums the squared means over patches of 2^i × 2^i pixels, each weighted by the
+// patch's number of pixels.
 using SquareSums = std::array<double, blurSizes>;
 using SurroundSums = std::array<SquareSums, surrounds.size()>;
 
 // An image with its means over square patches with sides of 2, 4, … pixels. Each patch has two means, over its pixels
-// on the white and on the black squares of a checkerboard.
+// on the white and on the black squares of a checkerboard with squares of one pixel.
 class Patches {
     struct Size {
-        CellBox shown;                                // box of the patches that may contain non-black pixels
-        CellBox kept;                                 // box of the stored patches, which contains `shown`
-        std::array<LargeVector<glm::vec3>, 2> means;  // means over white and black squares; empty for single pixels
+        CellBox shown;  // box of the patches that may contain non-black pixels
+        CellBox kept;   // box of the patches that are stored; contains `shown`
+        // Means over the white and over the black pixels of each patch; empty for single pixels.
+        std::array<LargeVector<glm::vec3>, 2> means;
     };
 
 public:
@@ -63,7 +66,7 @@ public:
         }
     }
 
-    // Computes the patch means of the image with the pixels `cells`. Keeps a reference to `cells`.
+    // Computes the patch means of the image whose pixels are `cells`. Keeps a reference to `cells`.
     void measure(const LargeVector<glm::vec3>& cells) {
         cells_ = &cells;
         for (std::size_t i = 1; i < sizes_.size(); ++i)
@@ -76,9 +79,9 @@ public:
 
     [[nodiscard]] std::size_t count() const { return sizes_.size(); }
     [[nodiscard]] const CellBox& box(std::size_t size) const { return sizes_[size].shown; }
-    // Returns row y of the means over patches of one size, starting at the left edge of box(size). `black` selects the
-    // means over the black squares of the checkerboard, else over the white squares. Patches of size 0 are single
-    // pixels: `black` is ignored, and the row has the pixels' values.
+    // Returns row y of the patch means for the size with index `size`, starting at the left edge of box(size). `black`
+    // selects the means over the black pixels of the checkerboard, else over the white pixels. Size 0 stands for single
+    // pixels: the row holds the pixel values, and `black` is ignored.
     [[nodiscard]] const glm::vec3* row(std::size_t size, bool black, int y) const {
         const LargeVector<glm::vec3>& values = size == 0 ? *cells_ : sizes_[size].means[black ? 1 : 0];
         return &values[sizes_[size].kept.indexOf(sizes_[size].shown.left, y)];
@@ -154,7 +157,7 @@ const LargeVector<glm::vec3>& before(float background, const LargeVector<glm::ve
 }
 
 // Adds the squared differences between the images `seen` and `reference` to `sums`, for each patch size. A null
-// `reference` stands for a black image, each of whose rows is `dark`.
+// `reference` stands for a black image; `dark` is then used as each of its rows.
 //
 // Each pixel samples one point of the surface, so that a patch mean contains sampling noise. Squaring the mean would
 // add the variance of this noise. Therefore, the mean difference over the white squares of a checkerboard is
@@ -193,8 +196,8 @@ void addDeviations(const Patches& seen, const Patches& squares, SquareSums& sums
 }
 
 // Clamps the noisy sums to possible values. The mean square never grows with the patch size. When the patch size
-// doubles, the mean square falls to no less than 1/16 of its value. Two adjacent spots that cancel each other reach
-// this bound.
+// doubles, the mean square falls to no less than 1/16 of its value. Two adjacent spots of opposite sign, which cancel
+// each other, reach this bound.
 void smooth(SquareSums& sums, std::size_t measured) {
     for (std::size_t i = measured; i > 1; --i) sums[i - 1] = std::max(sums[i - 1], sums[i]);
     for (std::size_t i = 1; i < blurSizes; ++i)
@@ -232,9 +235,9 @@ struct Sight {
     Eye eye;
     SparseCells reference;              // image of level 0
     double covered = 0, sum = 0;        // Picture::covered and Picture::sum of level 0
-    SquareSums light{};                 // level 0 on black background: per patch size, sum of squared radiance
-    SquareSums deviations{};            // level 0 on grey background: per patch size, sum of standard deviations
-    std::vector<SurroundSums> changes;  // per level and background, sums of squared differences from level 0
+    SquareSums light{};                 // level 0 on a black background: sum of squared radiance per patch size
+    SquareSums deviations{};            // level 0 on a grey background: sum of standard deviations per patch size
+    std::vector<SurroundSums> changes;  // per level and background: sums of squared radiance differences from level 0
 
     // Measures the differences of each level from level 0. `unit` is the mean radiance of the mesh.
     void judge(const Pyramid& pyramid, std::span<const Finish> finishes, float unit) {
@@ -243,7 +246,7 @@ struct Sight {
         const std::vector<glm::vec3> dark(static_cast<std::size_t>(eye.resolution), glm::vec3(0));
         const auto brightest = static_cast<float>(shownWhite) * unit;
         // Clamp the radiance of each pixel before averaging, because a lens sample sees a single point, not an average.
-        // All averages are then at most `brightest`, too.
+        // Averages of clamped radiance never exceed `brightest`.
         LargeVector<glm::vec3> points = cells;
         for (glm::vec3& value : points) value = glm::min(value, brightest);
         std::array<LargeVector<glm::vec3>, surrounds.size()> shifted;
@@ -339,7 +342,8 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
         sight.sum = reference.sum;
     });
 
-    // The error of a black mesh stays 0: errors are relative to the mean radiance, which is 0 here.
+    // Compute the mean radiance `unit` of the mesh. The errors of a black mesh stay 0, because errors are relative to
+    // this mean.
     double covered = 0;
     double light = 0;
     for (const Sight& sight : sights) {
@@ -417,7 +421,8 @@ double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides
     for (const Surround surround : surrounds)
         contrast[indexOf(surround)] = rootOfSum([&](double side) { return squaredContrast(pyramid, side, surround); });
     if (!(contrast[indexOf(Surround::black)] > 0) || !(light > 0)) return 0;
-    // Returns by how much the relative error E/V of level `l` exceeds its limit; negative below the limit.
+    // Returns by how much the ratio of level `l`'s error to the contrast of level 0 exceeds the limit for this level;
+    // negative below the limit.
     const auto excess = [&](std::size_t l) {
         double error = 0;
         for (const Surround surround : surrounds) {

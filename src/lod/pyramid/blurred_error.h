@@ -14,8 +14,8 @@
 // Errors are measured on two backgrounds: black, and a grey of the mesh's mean radiance. On black, outlines dominate
 // both E and V. A real background may hide the outlines; the error of the samples then depends only on the contrast of
 // the shading. On both backgrounds, the relative error E/V of a level must stay below a limit (measuredLimit). On grey,
-// V is the mean of the patches' standard deviations instead of their RMS: samples have large errors only at a few
-// edges, but a level has errors all over a smooth surface, where they are more visible.
+// V is the mean of the patches' standard deviations. Their RMS would be dominated by the few edges where samples have
+// large errors. A level's errors are spread over smooth surfaces, where they are more visible.
 
 #include <cstddef>
 #include <glm/vec3.hpp>
@@ -45,11 +45,12 @@ inline constexpr double shownWhite = 4;
 double squaredError(const Pyramid& pyramid, std::size_t level, double side, Surround surround = Surround::black);
 double squaredContrast(const Pyramid& pyramid, double side, Surround surround = Surround::black);
 
-// Returns the real-valued level λ at which the relative error E/V reaches its limit, measuredLimit(light, edge). E is
-// the level's error and V the contrast of level 0, both as RMS over patches of the given sides (object units). Of the
-// backgrounds black and grey, the one with the larger E/V counts. `light` is the threshold LodThresholds::light in px.
-// `edge` is the level's mean edge length in px, at `pixelsPerUnit` (> 0) px per object unit. Returns the coarsest level
-// if E/V stays below the limit, and 0 if `light` is 0 or no errors were measured. λ is continuous in all arguments.
+// Returns the real-valued level λ at which the relative error E/V reaches the limit measuredLimit(light, edge). E is
+// the level's error and V the contrast of level 0, both as RMS over square patches with the sides `sides` (object
+// units). Of the backgrounds black and grey, the one with the larger E/V counts. `light` is the threshold
+// LodThresholds::light in px. `edge` is the level's mean edge length in px, at `pixelsPerUnit` (> 0) px per object
+// unit. Returns the coarsest level if E/V stays below the limit, and 0 if `light` is 0 or no errors were measured. λ is
+// continuous in all arguments.
 double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides, double pixelsPerUnit, double light);
 
 }  // namespace defocus::engine

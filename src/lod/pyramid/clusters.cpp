@@ -19,7 +19,7 @@ namespace {
 // ---- assign triangles to growing clusters ------------------------------------------------------
 
 constexpr float coneWeight = 0.75f;     // weight of orientation relative to distance in the cost of a triangle, 0 to 1
-constexpr float minTurn = 1e-3f;        // min cost factor for a difference in orientation
+constexpr float minTurn = 1e-3f;        // lower bound of the orientation factor in a triangle's cost
 constexpr std::size_t seedsAhead = 64;  // max unassigned triangles kept as candidates for a cluster's first triangle
 // Max number of triangles per vertex that are considered when a cluster grows. Files may have millions of triangles at
 // one vertex.
@@ -39,8 +39,8 @@ struct ClusterGrowth {
 
     const Numbered<TriangleCorner, LocalNumber>& corners;
     Buckets<LocalNumber, TriangleCorner> around;
-    // For each vertex with more than maxNeighbours triangles: the number of leading entries in the vertex's list in
-    // `around` whose triangles are known to belong to a cluster.
+    // For each vertex with more than maxNeighbours triangles: the triangles of this many first entries of `around` at
+    // the vertex are known to belong to clusters.
     std::unordered_map<LocalNumber, std::size_t> firstOpen;
     Numbered<TriangleNumber, Facet> facets;
     float radius = 0;  // radius of a full cluster on a flat mesh with equal triangles
@@ -53,10 +53,10 @@ struct ClusterGrowth {
     std::uint32_t size = 0;
     glm::vec3 centres{0};
     glm::vec3 normals{0};
-    // Lists of triangles that touch the growing cluster or, in `left`, earlier clusters. Some of them may already be
-    // assigned to a cluster.
+    // Lists of triangles that touch the growing cluster, or, in `left`, earlier clusters. Some of the triangles may
+    // already be assigned to a cluster.
     std::vector<TriangleNumber> closed;    // triangles with all three corners in the growing cluster
-    std::vector<TriangleNumber> hanging;   // triangles with a vertex whose other triangles are all assigned
+    std::vector<TriangleNumber> hanging;   // triangles that are the last unassigned triangle at one of their vertices
     std::vector<TriangleNumber> beside;    // triangles with two corners in the growing cluster
     std::vector<TriangleNumber> touching;  // triangles with one corner in the growing cluster
     std::vector<TriangleNumber> left;      // unassigned triangles that touch earlier clusters
@@ -86,9 +86,9 @@ void measureFacets(ClusterGrowth& g, const Numbered<LocalNumber, glm::vec3>& pos
     g.radius = static_cast<float>(0.5 * std::sqrt(area / static_cast<double>(count) * max));
 }
 
-// Returns all corners of triangles at the vertex if there are at most maxNeighbours. Otherwise returns at most
-// maxNeighbours corners of unassigned triangles. Corners of assigned triangles are moved to the front of the vertex's
-// list of corners, each only once.
+// Returns the triangle corners at the vertex: all of them if there are at most maxNeighbours, else at most
+// maxNeighbours corners of unassigned triangles. Moves corners of assigned triangles to the front of the vertex's list,
+// so that later calls skip them.
 std::span<const TriangleCorner> someAround(ClusterGrowth& g, LocalNumber v) {
     const std::span<TriangleCorner> all = g.around[v];
     if (all.size() <= maxNeighbours) return all;
@@ -181,7 +181,7 @@ TriangleNumber nextInside(ClusterGrowth& g) {
 }
 
 // Among the unassigned triangles that touch the full cluster, returns the one with the fewest unassigned triangles at
-// its vertices, because it might otherwise be left isolated.
+// its vertices, because this triangle might otherwise be left isolated.
 TriangleNumber seedBeside(const ClusterGrowth& g) {
     TriangleNumber best;
     std::uint32_t fewest = std::numeric_limits<std::uint32_t>::max();
@@ -197,8 +197,8 @@ TriangleNumber seedBeside(const ClusterGrowth& g) {
     return best;
 }
 
-// Returns the triangle nearest to `place` among unassigned triangles that touch the latest clusters. If there are none,
-// returns the first unassigned triangle of the primitive.
+// Returns the unassigned triangle nearest to `place` among the last `seedsAhead` entries of `left`, which touch earlier
+// clusters. If there are none, returns the first unassigned triangle of the primitive.
 TriangleNumber seedElsewhere(ClusterGrowth& g, const glm::vec3& place) {
     while (!g.left.empty() && g.taken[g.left.back()] != 0) g.left.pop_back();
     TriangleNumber best;
@@ -259,8 +259,7 @@ GrownClusters growClusters(const Numbered<TriangleCorner, LocalNumber>& corners,
 
 namespace {
 
-// Bound on the rounding error of a value in single precision, relative to the magnitude of the values it is computed
-// from.
+// Bound on the rounding error of a single-precision result, relative to the magnitude of its operands.
 constexpr double valueRounding = 1e-6;
 
 // Replaces NaN and infinite positions by 0.

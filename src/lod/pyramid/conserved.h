@@ -35,12 +35,12 @@ ColourAt vertexColours(const Pyramid& pyramid, std::size_t level);
 Conserved conservedBy(const Pyramid& pyramid, std::size_t level, const ColourAt& colour, std::size_t points,
                       int resolution);
 
-// Differences between a level and level 0 in the properties of Conserved.
+// Differences between a level and level 0 in the properties that Conserved holds.
 struct ConservedDifference {
-    double colour = 0;       // max difference of the mean colour, over all channels
-    double light = 0;        // max difference of the mean reflected radiance, over all light directions
-    double outline = 0;      // max relative difference of the silhouette area, over all view directions
-    double meanOutline = 0;  // signed relative difference of the silhouette area averaged over all view directions
+    double colour = 0;       // max difference between the mean colours, over all channels
+    double light = 0;        // max difference between the mean reflected radiances, over all light directions
+    double outline = 0;      // max relative difference between the silhouette areas, over all view directions
+    double meanOutline = 0;  // signed relative difference between the silhouette areas' means over all view directions
 };
 
 ConservedDifference differenceOf(const Conserved& level, const Conserved& level0);

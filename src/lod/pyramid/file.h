@@ -3,8 +3,9 @@
 // that cannot be derived from the mesh: the mesh vertex of each pyramid vertex, the indices, and the positions,
 // normals, colours and texture coordinates of each level.
 //
-//   header | level records | index ranges, levels × primitives | clusters, level by level | source | indices
-//          | normals, if the mesh has none | for each level from 1: positions, normals, colours, uv0, uv1
+//   header | level records | index ranges, levels × primitives | clusters, level by level
+//          | mesh vertex of each pyramid vertex | indices | normals, if the mesh has none
+//          | for each level from 1: positions, normals, colours, uv0, uv1
 //
 // Values are stored in the machine's byte order. A file with the other byte order has a different magic number.
 
@@ -33,7 +34,7 @@ PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options);
 struct PyramidFileHeader {
     static constexpr std::uint64_t expectedMagic = 0x3150445053554644ull;  // "DFUSPDP1"
     // Version of the file format. Changes to buildPyramid need no new version, because the cache key (PyramidKey)
-    // contains a hash of the source files.
+    // contains a hash of the C++ sources in src/lod.
     static constexpr std::uint32_t expectedVersion = 7;
 
     std::uint64_t magic = expectedMagic;

@@ -67,7 +67,7 @@ private:
     [[nodiscard]] FinishMap mapOf(const TextureUse& use, bool srgb) const;
 
     const Scene& scene_;
-    std::vector<std::uint64_t> imageHashes_;  // one hash per image; 0 if no simplified material uses the image
+    std::vector<std::uint64_t> imageHashes_;  // one hash per image; 0 if no Finish uses the image
     mutable std::mutex mutex_;
     mutable std::map<std::pair<int, bool>, std::weak_ptr<const FinishImage>> images_;  // keyed by image and sRGB flag
 };

@@ -11,18 +11,21 @@ namespace defocus::engine {
 namespace {
 
 constexpr double referenceSamples = 64;
-constexpr LodThresholds referenceSize{0.25, 3.3};     // blur and size thresholds at 64 samples for `size`, `score`
-constexpr LodThresholds referenceError{0.018, 0.18};  // blur and size thresholds at 64 samples for `error`
+// Default thresholds at 64 samples: target / CoC, and min target in px. A target is an edge length or an error.
+constexpr LodThresholds referenceSize{0.25, 3.3};     // for LodMetric::size and LodMetric::score
+constexpr LodThresholds referenceError{0.018, 0.18};  // for LodMetric::error
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double sampleErrorExponent = 0.65;
-// Default LodThresholds::light for one lens sample: limit on a level's relative error times its edge length, px.
+// Default LodThresholds::light for one lens sample: upper limit on a level's relative error, multiplied by the level's
+// mean edge length in px.
 constexpr double lightOfSampleError = 6.7;
 // Max ratio of a level's error to the sampling error. At this ratio, levels raise the total RMS error by 4.4 %.
 constexpr double sampleErrorShareMax = 0.3;
-// Max factor by which few samples raise the blur threshold. It limits the errors of outlines.
+// Max factor by which the blur threshold is raised for fewer than 64 samples. The maximum limits the errors at
+// outlines.
 constexpr double largestFactor = 2;
 
-// Returns whether the metric compares the levels' edge lengths with the target.
+// Returns whether the metric compares the levels' edge lengths, not their errors, with the target in px.
 bool bySize(LodMetric metric) {
     return metric == LodMetric::size || metric == LodMetric::score;
 }

@@ -16,27 +16,30 @@ const char* lodModeName(LodMode mode);
 const char* lodMetricName(LodMetric metric);
 
 // Thresholds set by the user. Unset thresholds have defaults that depend on the sample count, so that long renders
-// converge to full detail. The metric gives the thresholds their meaning, for a circle of confusion of c px:
-//   size, error: the target edge length or error of a level is max(blur · c, size) px.
+// converge to full detail. The meaning of the thresholds depends on the metric. For a circle of confusion (CoC) of c
+// px:
+//   size: the target edge length of a level is max(blur · c, size) px.
+//   error: the target distance between the surfaces of a level and of the mesh is max(blur · c, size) px.
 //   score: the target edge length is blur · c px.
 //   proportional: `blur` is the level of an object whose circle of confusion is as large as its bounding box.
-//   measured: a level whose edges are `edge` px long may have an error of at most light / edge.
-//     The error is relative to the standard deviation of the radiance over which the object's blur averages.
-//     It has no unit, so `light` is a length in px.
+//   measured: a level whose edges are `edge` px long may have a relative error of at most light / edge.
+//     The relative error is an error in radiance, divided by the standard deviation of the radiance within a blur disk.
+//     The relative error has no unit, so `light` is a length in px.
 struct GivenThresholds {
-    std::optional<double> blur = {};  // target edge length or error divided by the CoC, ≥ 0; a level for `proportional`
-    std::optional<double> size = {};   // lower bound on the target edge length or error, px, ≥ 0
-    std::optional<double> light = {};  // max of a level's error times its edge length, px, ≥ 0; only for `measured`
+    std::optional<double> blur = {};   // target divided by the CoC, ≥ 0; for `proportional`, a level number
+    std::optional<double> size = {};   // lower bound on the target, px, ≥ 0
+    std::optional<double> light = {};  // limit on (relative error) × (edge length in px), ≥ 0; only for `measured`
 };
 
 // Resolves LodMetric::automatic to a concrete metric; returns any other metric unchanged.
 LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given);
 
 struct LodThresholds {
-    double blur = 0;  // target edge length or error divided by the CoC; for `proportional`, see GivenThresholds
-    double size = 0;  // lower bound on the target edge length or error, px
-    // Max of a level's error times its edge length in px. The error is relative to the standard deviation of the
-    // radiance over which the blur averages; see measuredLimit. 0 for all metrics except LodMetric::measured.
+    double blur = 0;  // target (edge length or error) divided by the CoC; for `proportional`, a level number
+    double size = 0;  // lower bound on the target, px
+    // Upper limit on a level's relative error, multiplied by the level's edge length in px. The relative error is an
+    // error in radiance, divided by the standard deviation of the radiance within a blur disk; see measuredLimit. 0 for
+    // all metrics except LodMetric::measured.
     double light = 0;
 };
 
@@ -52,7 +55,7 @@ double expectedSampleError(std::uint32_t sampleCount);
 // the FLIP error of the built-in school of fish at 32 samples by at most 2 % (docs/reference.md).
 inline constexpr double proportionalLevels = 10;
 
-// Returns the default thresholds of a metric for N = `sampleCount` lens samples (members of LodThresholds).
+// Returns the default thresholds (LodThresholds) of a metric for N = `sampleCount` lens samples.
 //
 // Metrics `size`, `error` and `score`: the thresholds `blur` and `size` are (64/N)^(2/3) times their values at N = 64.
 // The threshold `blur` is at most twice its value at N = 64; this limit applies for N ≤ 22. The threshold `size` never
@@ -60,27 +63,28 @@ inline constexpr double proportionalLevels = 10;
 // thresholds at N = 64 select the coarsest levels with a PSNR of at least 42 dB against full detail, for the built-in
 // school of fish at 1024 × 768. The levels' error grows as threshold^1.3; the error of Sobol points falls as N^(−0.65).
 // Up to N = 32, the levels' error is therefore 0.9 to 1.6 times the sampling error. In this range, finer levels with
-// fewer samples gain nothing. The ratio is 2.4 at N = 64 and decreases beyond; both errors vanish as N grows. Measured
-// on the school of fish at 512 × 384 (bench/results/llvmpipe-thresholds.txt).
+// fewer samples gain nothing. The ratio is 2.4 at N = 64 and decreases beyond; both errors vanish as N grows. These
+// ratios were measured on the school of fish at 512 × 384 (bench/results/llvmpipe-thresholds.txt).
 //
 // Metric `proportional`: `blur` is proportionalLevels for every N, because the rule of Jeong, Kim and Lee 2011 does not
 // depend on the number of samples.
 //
-// Metric `measured`: `light`, the max of a level's error times its edge length, is 6.7 · expectedSampleError(N)². The
-// error of one sample at a random lens position is the standard deviation of the radiance over which the blur averages.
-// The error of N samples is expectedSampleError(N) times that deviation. The error of the selected levels is small
-// compared with the sampling error and hardly raises the RMS of both together. It must be small, because it appears as
-// large soft spots on objects. FLIP, like the eye, weighs such spots more than the outlines and fine ghosts caused by
-// sampling.
+// Metric `measured`: `light`, the limit on (relative error) × (edge length), is 6.7 · expectedSampleError(N)². The
+// error of one sample at a random lens position is the standard deviation of the radiance within a blur disk. The error
+// of N samples is expectedSampleError(N) times that deviation. The error of the selected levels is much smaller than
+// the sampling error, so that it hardly raises the RMS of both together. A larger error would be visible, because it
+// appears as large soft spots on objects. FLIP, like the eye, weighs such spots more than the outlines and fine ghosts
+// caused by sampling.
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 
-// Returns the max error of a level for LodMetric::measured, if the level's mean edge length is `edge` px (> 0). The
-// error is relative to the standard deviation of the radiance over which the blur averages. `light` is the threshold
-// LodThresholds::light. The limit is light / edge, but at most 0.3 times expectedSampleError(N), where N is the sample
-// count whose default threshold is `light`. Reason for 1/edge: halving the number of triangles doubles a level's error.
-// For a given sum of squared errors over the image, the fewest triangles are then needed if the squared error is
-// proportional to triangles per pixel. Objects with small triangles are therefore simplified first. Objects with large
-// triangles are hardly simplified, because this would save little.
+// Returns the max relative error of a level for LodMetric::measured: the max error in radiance, divided by the standard
+// deviation of the radiance within a blur disk. `light` is the threshold LodThresholds::light, and `edge` the level's
+// mean edge length in px (> 0). The limit is light / edge, but at most 0.3 times expectedSampleError(N), where N is the
+// sample count whose default threshold is `light`.
+//
+// The factor 1 / edge saves the most triangles for a given sum of squared errors over the image. Halving a level's
+// triangles doubles its error, so the optimum is a squared error proportional to the triangles per pixel. Objects with
+// small triangles are therefore simplified first.
 double measuredLimit(double light, double edge);
 
 struct LevelQuery {
@@ -107,7 +111,8 @@ double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric 
                      const LodThresholds& thresholds);
 
 // Division of N lens samples between two levels of detail. Samples [0, coarseCount) draw level `level` + 1, and samples
-// [coarseCount, N) draw level `level`. With f = λ − ⌊λ⌋ for the real-valued level λ:
+// [coarseCount, N) draw level `level`. Let λ be the real-valued level and f = λ − ⌊λ⌋. The mode (LodMode) sets
+// coarseCount:
 //   fractional: coarseCount = round(f·N). As λ changes, one complete sample after another switches its level.
 //   continuous: f·N = n + g with the integer n = coarseCount and 0 ≤ g < 1.
 //     In sample n, a fraction g of the pixels draws the coarser level (screen door).

@@ -37,7 +37,8 @@ public:
         for (std::size_t k = 0; k < 3; ++k) inverse_[k] = 1 / steps_[k].x;
     }
 
-    // Returns the range of pixels in [left, right) of row y whose centres may lie in the triangle, slightly enlarged.
+    // Returns the pixels of row y in [left, right) whose centres may lie in the triangle. The range is up to one pixel
+    // too wide on each side.
     [[nodiscard]] std::array<int, 2> within(int y, int left, int right) const {
         const float dy = static_cast<float>(y) + 0.5f - origin_.y;
         for (std::size_t k = 0; k < 3; ++k) {

@@ -15,7 +15,7 @@
 
 namespace defocus::engine {
 
-// A rectangle of pixels of an image; `right` and `top` are exclusive. Values of pixels are stored row by row.
+// A rectangle of pixels; `right` and `top` are exclusive. Arrays of pixel values are ordered row by row.
 struct CellBox {
     int left = 0, right = 0;
     int bottom = 0, top = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// Shades the pixels (called cells in the code) of an image from picture.h. Private to picture.cpp. The shading model is
-// the same as in shaders/include/shading.glsl, which cites the sources.
+// Shades the cells (pixels) of an image from picture.h. Private to picture.cpp. The shading model is the same as in
+// shaders/include/shading.glsl, which cites the sources.
 
 #include <algorithm>
 #include <array>
@@ -90,7 +90,7 @@ inline std::vector<DistantLight> lightsFor(const Eye& eye) {
 // spread.
 struct SeenNormals {
     float spread = 0;              // spread of the distribution, from normalSpread()
-    float shown = 0;               // mean cosine between eye direction and visible normals
+    float shown = 0;               // mean cosine of the angle between the visible normals and the eye direction
     float along = 1, towards = 0;  // mean visible normal: along · normal + towards · toEye, as in seenNormal()
 };
 
@@ -119,8 +119,8 @@ inline float unmasked(float nl, float nv, float width2) {
 struct Gloss {
     float nv = 0;
     float width2 = 0, alpha2 = 0;
-    float share = 0;  // fraction of the microfacet distribution that comes from the normals' spread
-    float shown = 0;  // mean cosine between eye direction and visible normals
+    float share = 0;  // weight of the specular lobe due to the normals' spread (Beckmann); the rest is GGX
+    float shown = 0;  // mean cosine of the angle between the visible normals and the eye direction
 
     Gloss(const SurfacePoint& point, const SeenNormals& seen, const glm::vec3& toEye)
         : nv(glm::dot(point.normal, toEye)), shown(seen.shown) {
@@ -177,7 +177,8 @@ struct SeenTriangle {
     const std::uint32_t* corners = nullptr;
     const Finish* finish = nullptr;
     Weights weights;
-    std::array<float, 3> lengths{};  // lengths of the vertex normals at the corners
+    // Lengths of the corners' normals, < 1 if they represent diverging normals. 0 at level 0.
+    std::array<float, 3> lengths{};
 };
 
 // Collects the pixels of a row that show a matt surface, and shades them together.

@@ -148,12 +148,12 @@ void separateSizes(std::vector<PyramidLevel>& levels, double diagonal) {
 
 // Data of a level while the final vertex order is unknown.
 struct FittedLevel {
-    TriangleSet<LevelVertexNumber> own;                     // the level's triangles before clustering
-    TriangleSet<MeshVertexNumber> triangles;                // triangles of `own` after clustering
-    Numbered<LevelVertexNumber, MeshVertexNumber> numbers;  // copy of SimplifiedLevel::numbers
+    TriangleSet<LevelVertexNumber> own;                     // the level's triangles; empty after clustering
+    TriangleSet<MeshVertexNumber> triangles;                // the same triangles in cluster order; empty before
+    Numbered<LevelVertexNumber, MeshVertexNumber> numbers;  // number of each vertex in the mesh
     LevelFit fit;
     std::vector<Cluster> clusters;
-    std::vector<Ball> removed;  // copy of SimplifiedLevel::removed
+    std::vector<Ball> removed;  // bounding spheres of the removed components
     double error = 0;
 };
 
@@ -252,14 +252,13 @@ std::vector<double> vertexShares(LevelVertices vertices) {
     return vertices == LevelVertices::quarters ? std::vector{0.75, 0.5} : std::vector<double>();
 }
 
-// Approximate fraction of the work that is complete after each stage. On one core, collapsing takes about half of the
-// time.
+// Approximate fraction of the work that is complete after collapsing, fitting, measuring and clustering.
 constexpr double shareOfCollapses = 0.6, shareUntilFitted = 0.7, shareUntilMeasured = 0.8, shareUntilClustered = 0.85;
 
 // Returns the reason why no collapse is attempted and only level 0 is built; nullopt if coarser levels are to be made.
 std::optional<PyramidEnd> endWithoutCollapses(const Mesh& mesh, const PyramidOptions& options) {
     if (options.maxLevels <= 1) return PyramidEnd::maxLevels;
-    if (options.vertices == LevelVertices::quarters) return {};  // the vertex counts of the levels are fixed
+    if (options.vertices == LevelVertices::quarters) return {};  // vertex counts are fixed: no triangle limit applies
     if (mesh.triangleCount() <= options.minTriangles) return PyramidEnd::minTriangles;
     if (mesh.triangleCount() < minTrianglesPerPrimitive * mesh.primitives.size()) return PyramidEnd::smallSaving;
     return {};
@@ -326,7 +325,8 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
     pyramid.repairedFaces = simplification.repairedFaces;
     pyramid.end = simplification.end;
 
-    // From here on, twins (copies of vertices) are ordinary vertices. No corner of level 0 uses a twin.
+    // Number the twins (copies of vertices) after the mesh's own vertices, and treat them like these from here on.
+    // Level 0 uses no twins.
     const std::size_t ownCount = vertices.count();
     for (const MeshVertexNumber v : simplification.twins) positions.id.push_back(positions.id[v]);
 
@@ -364,7 +364,7 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
     for (const MeshVertexNumber v : sources) pyramid.source.push_back(unique.first[v].value);
     pyramid.bounds = boundsOf(pyramid.vertices.positions);
 
-    // Fill in the data of each level.
+    // Build each level. `fittedAt` maps mesh vertices to vertices of the level.
     Numbered<MeshVertexNumber, LevelVertexNumber> fittedAt(ownCount + simplification.twins.size());
     Numbered<PyramidVertexNumber, LevelVertexNumber> inPrefix;
     std::size_t indexCount = 0;

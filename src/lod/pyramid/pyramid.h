@@ -2,8 +2,8 @@
 // Defines the pyramid of a mesh: the mesh and its simplified levels. Level 0 is the mesh; each further level has about
 // half the triangles of the previous level.
 //
-// All levels index one shared vertex buffer, sorted by the coarsest level that uses each vertex. Vertices at the same
-// position are adjacent. Level l therefore uses the prefix [0, vertexCount[l]). Joints, weights, tangents and morph
+// All levels index one shared vertex buffer. It is sorted by the coarsest level that uses each vertex, so that level l
+// uses the prefix [0, vertexCount[l]). Vertices at the same position are adjacent. Joints, weights, tangents and morph
 // targets are copied from the surviving vertices of the mesh. Positions, normals, colours and texture coordinates are
 // stored per level and fitted to level 0 (level_fit.h). With LevelVertices::surviving, they are copied from the
 // surviving vertices, too. With LevelVertices::quarters, there are three levels, with 100 %, 75 % and 50 % of the
@@ -50,13 +50,13 @@ struct Cluster {
 
 inline constexpr std::uint32_t maxClusterTriangles = 64;
 
-// Meshes with fewer triangles per primitive have only level 0. Their draw calls, one for each primitive, take longer
-// than the triangles that further levels would save.
+// Meshes with fewer triangles per primitive have only level 0, because the draw call of each primitive costs more time
+// than coarser levels would save.
 inline constexpr std::size_t minTrianglesPerPrimitive = 4;
 
-// Number of entries of a BlurTable, which holds the RMS of a radiance difference after averaging over square patches of
-// growing size. Entry 0: single points, without averaging. Entry i ≥ 1: patches with side 2^(i − 1) ·
-// Pyramid::smallestPatch. Values are relative to the mean radiance of the mesh.
+// Number of entries of a BlurTable, which holds an error or a contrast of radiance (PyramidLevel::blurredError,
+// Pyramid::contrast) for square patches of growing size. Entry 0: single points. Entry i ≥ 1: patches with side 2^(i −
+// 1) · Pyramid::smallestPatch. Values are relative to the mean radiance of the mesh.
 inline constexpr std::size_t blurSizes = 10;
 using BlurTable = std::array<float, blurSizes>;
 
@@ -73,16 +73,16 @@ struct PyramidLevel {
     std::vector<Cluster> clusters;  // sorted by index range; together they contain all triangles of the level
     // Vertex attributes of the level, fitted to level 0. Level 0 and levels of LevelVertices::surviving have the mesh's
     // own attributes. Fitted positions lie inside the bounds of level 0. Vertices at the same position stay at the same
-    // position. Fitted normals have length ≤ 1. A shorter normal stands for normals of level 0 that diverge more; a
+    // position. Fitted normals have length ≤ 1. A shorter normal represents normals of level 0 that diverge more; a
     // matt surface with such normals reflects less light.
     std::vector<glm::vec3> positions;  // vertexCount entries
     std::vector<glm::vec3> normals;    // vertexCount entries
-    std::vector<glm::vec4> colors;     // vertexCount entries, which may lie outside [0, 1]; empty without colours
+    std::vector<glm::vec4> colors;     // vertexCount entries; values may lie outside [0, 1]; empty without colours
     std::vector<glm::vec2> uv0, uv1;   // vertexCount entries; empty without texture coordinates
 
-    // Mean edge length over all faces, in object units; an edge counts once per face. The value is raised where needed:
-    // it grows by at least 5 % per level and is at least 2·error. Reason for the second bound: a level with a large
-    // error is not finer than its error, however short its edges are.
+    // Mean edge length over all faces, in object units; an edge counts once per face. Raised, if necessary, to 1.05
+    // times the value of the previous level and to 2·error: a level with a large error is not finer than its error,
+    // however short its edges are.
     double meanEdge = 0;
     double longestEdge = 0;  // length of the longest edge, object units
 
@@ -111,7 +111,7 @@ struct Pyramid {
     std::vector<Bounds> jointBounds;
     // For each morph target, the bounding box of its displacements and of the origin, in object units.
     std::vector<Bounds> morphBounds;
-    double smallestPatch = 0;  // side of the smallest patches (BlurTable), object units; 0 if there is only level 0
+    double smallestPatch = 0;  // side of the smallest patch of a BlurTable, object units; 0 if there is only level 0
     // Standard deviation V of level 0's radiance within patches of each size; see blurred_error.h.
     BlurTables contrast{};
     // Number of faces that were repaired to build a manifold for collapses (manifold.h); 0 if no collapse was
@@ -153,8 +153,8 @@ private:
     std::mutex mutex_;
     std::vector<double> shares_;
     std::size_t finished_ = 0;
-    double total_ = 0;    // number of triangles of all meshes, plus one per mesh
-    double reached_ = 0;  // finished part of `total_`, in the same unit
+    double total_ = 0;    // number of triangles of all meshes, plus one per mesh, so that empty meshes count
+    double reached_ = 0;  // work done so far, in the unit of `total_`
 };
 
 // Returns the total number of triangles of the meshes.

@@ -143,7 +143,8 @@ Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t
         float squaredDistance;
         std::size_t node;
     };
-    std::array<Entry, 3 * 32 + arity> stack;  // room for three entries per tree level (max 32), plus the children
+    // Room for three pending nodes on each of at most 32 tree levels, plus the children of the current node.
+    std::array<Entry, 3 * 32 + arity> stack;
     std::size_t size = 0;
     Nearest nearest{squaredDistance(surface.triangles[guess], p), guess};
     if (!std::isfinite(nearest.squaredDistance)) nearest.squaredDistance = infinity;

@@ -13,8 +13,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Max mean difference between vertex indices in the same triangle or in consecutive triangles, in units of √(vertex
-// count).
+// Vertices count as scattered if the mean difference between their indices, within a triangle and between consecutive
+// triangles, exceeds this multiple of √(vertex count).
 constexpr double maxSpread = 1.5;
 
 }  // namespace
@@ -27,7 +27,8 @@ bool isScattered(const TriangleSet<MeshVertexNumber>& triangles, std::size_t ver
     std::uint64_t sum = 0;
     for (std::size_t i = 3; i < v.size(); ++i) sum += apart(v[i], v[i - 3]);
     for (std::size_t i = 0; i < v.size(); i += 3) sum += apart(v[i], v[i + 1]);
-    const double differences = 4.0 / 3 * static_cast<double>(v.size());  // in `sum`, apart from the first triangle
+    // Number of differences in `sum`: one per index and one per triangle. The first triangle has fewer.
+    const double differences = 4.0 / 3 * static_cast<double>(v.size());
     return static_cast<double>(sum) > maxSpread * std::sqrt(static_cast<double>(vertexCount)) * differences;
 }
 
@@ -62,7 +63,7 @@ void sortSpatially(TriangleSet<MeshVertexNumber>& triangles) {
 
 SurvivalOrder sortBySurvival(const std::vector<TriangleSet<MeshVertexNumber>>& levels,
                              const WeldedPositions& positions) {
-    // Per position, a linked list of the used vertices; `head` holds the first vertex of each list.
+    // For each position, a linked list of its vertices that any level uses; `head` holds the first vertex of each list.
     const std::size_t vertexCount = positions.id.size();
     Numbered<MeshVertexNumber, std::uint8_t> used(vertexCount, 0);
     for (const TriangleSet<MeshVertexNumber>& level : levels)

@@ -133,7 +133,7 @@ private:
     }
 
     LargeVector<Even> even_;
-    // Index of each wedge in changes_, or `none` if the wedge's quadric does not depend on position.
+    // For each wedge, the index in changes_ of its position-dependent terms; `none` if it has no such terms.
     LargeVector<std::uint32_t> changesOf_;
     LargeVector<Changes> changes_;
 };

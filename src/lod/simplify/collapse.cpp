@@ -40,8 +40,8 @@ Fit judgeMovedFace(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     return squareAfter * edgesBefore * edgesBefore < squareBefore * edgesAfter * edgesAfter ? Fit::poor : Fit::good;
 }
 
-// Texture coordinates that change along an edge cross a seam if the change exceeds this multiple of the change expected
-// from the edge's length and the mesh's average texture scale.
+// An edge is assumed to cross a texture seam if its texture coordinates change by more than this multiple of the
+// expected change. The expected change follows from the edge's length and the mesh's average texture scale.
 constexpr double longestUvStep = 4;
 
 // One side of the collapsing edge: its face (if any), and the wedges (attributes) of the removed and of the surviving
@@ -55,7 +55,7 @@ struct EdgeSide {
 struct Sides {
     const SurfaceMesh& mesh;
     VertexHandle survivor;
-    double longestStep = 0;  // max squared step in texture space; longer steps cross a seam
+    double longestStep = 0;  // max squared change of texture coordinates within a chart; a larger change crosses a seam
     EdgeSide both[2];
 
     [[nodiscard]] bool jumps(WedgeNumber from, WedgeNumber to) const {
@@ -102,11 +102,11 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
     const WedgeTable& wedges = sides.mesh.wedges;
     const auto inPrimitive = [&](FaceHandle face, WedgeNumber) { return sides.mesh.primitive(face) == primitive; };
 
-    // Wedge (attributes) of the surviving vertex in one of the two faces at the collapsing edge. In this face, the
-    // wedge of the removed vertex differs from `wedge` at most in its normal, so no seam separates them.
+    // The surviving vertex's wedge (attributes) in a face at the collapsing edge. The removed vertex's wedge in this
+    // face differs from `wedge` at most in its normal, so that no seam separates them.
     WedgeNumber across;
-    // Like `across`, but the removed vertex has exactly the wedge `wedge` in the face, so no crease separates them
-    // either.
+    // Like `across`, but the removed vertex's wedge in the face equals `wedge`, so that not even a crease separates
+    // them.
     WedgeNumber exact;
     bool torn = false;     // at the surviving vertex, a seam separates the two faces
     bool creased = false;  // at the surviving vertex, a crease separates the two faces
@@ -127,10 +127,10 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
         return {nearestWedge(sides, wedge, inChart), Fit::good};
     }
 
-    // Here, a seam ends at the surviving vertex, or seams and material borders separate the corner from both faces at
+    // Either a seam ends at the surviving vertex, or seams and material borders separate the corner from both faces at
     // the collapsing edge. Use the most similar wedge of the same primitive. The collapse is poor if this wedge is far
-    // from the corner's wedge in texture space. If a seam ends, the collapse is also poor if the surviving vertex's
-    // wedge in either face is far away.
+    // from the corner's wedge in texture space. If a seam ends here, the collapse is also poor if the surviving
+    // vertex's wedge in either face is far from the corner's wedge.
     const WedgeNumber nearest = nearestWedge(sides, wedge, inPrimitive);
     if (nearest.isValid()) {
         bool leaves = sides.jumps(wedge, nearest);
@@ -150,9 +150,9 @@ constexpr float edgeWeight = 1e-4f;
 // the number of faces.
 constexpr std::size_t maxSpokes = 8192;
 
-// Returns whether the half-edge borders a triangular hole. OpenMesh allows the half-edge to collapse if a second edge
-// joins two corners of the hole. The collapse would close the hole and leave a half-edge without a wedge, or a face
-// with two corners.
+// Returns whether the half-edge borders a triangular hole. If a second edge joins two corners of such a hole, OpenMesh
+// allows the collapse. It would close the hole and leave a face with two corners, or a half-edge without attributes
+// (wedge).
 bool isAtHoleOfThree(const SurfaceMesh& surface, HalfedgeHandle e) {
     const HalfedgeHandle second = surface.next_halfedge_handle(e);
     return surface.is_boundary(e) && surface.next_halfedge_handle(surface.next_halfedge_handle(second)) == e;
@@ -312,7 +312,8 @@ float QuadricModule::cost(HalfedgeHandle along, float max) {
     float sum = own.at(step) + surface.data(to).quadric.c + own.weight * edgeWeight * glm::dot(step, step);
     if (!(sum < max)) return sum;
 
-    // Add the attribute costs on both sides of the edge; if both sides have the same two wedges, add the cost once.
+    // Add the attribute costs of both sides of the edge. Without a seam or crease, both sides have the same two wedges,
+    // whose cost counts once.
     WedgeNumber leftFrom, leftTo;
     if (!surface.is_boundary(along)) {
         leftFrom = surface.wedge(along);
@@ -327,7 +328,8 @@ float QuadricModule::cost(HalfedgeHandle along, float max) {
 }
 
 Candidate QuadricModule::cheapest(VertexHandle v) {
-    // Prefetch the data of all neighbours first: the memory of successive collapses is scattered over the mesh.
+    // Prefetch the data of all neighbours first. Successive collapses are far apart in the mesh, so their data is
+    // rarely cached.
     const SurfaceMesh& surface = mesh();
     spokes_.clear();
     forEachSpoke(surface, v, [&](HalfedgeHandle spoke) {

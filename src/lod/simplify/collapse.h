@@ -9,9 +9,9 @@
 
 namespace defocus::engine {
 
-// Decides whether the topology allows a collapse, and classifies the effect on surrounding faces. The link condition is
-// OpenMesh's is_collapse_ok (Dey, Edelsbrunner, Guha and Nekhayev 1999, Topology Preserving Edge Contraction). As a
-// decimater module, it accepts the collapses that simplify.h defines as good or poor.
+// Decides whether the topology allows a collapse, and classifies the effect on surrounding faces. The topology test is
+// the link condition, OpenMesh's is_collapse_ok (Dey, Edelsbrunner, Guha and Nekhayev 1999, Topology Preserving Edge
+// Contraction). As a decimater module, it accepts the collapses that simplify.h defines as good or poor.
 class ShapeModule final : public CollapseModule {
 public:
     explicit ShapeModule(SurfaceMesh& surface);
@@ -63,13 +63,13 @@ public:
     Fit judge(HalfedgeHandle along);
 
 private:
-    std::vector<Handover> handovers_;  // new wedges of corners, selected by judge(); empty after the collapse
+    std::vector<Handover> handovers_;  // the wedge that judge() selected for each corner; empty after the collapse
     HalfedgeHandle judged_;            // half-edge whose collapse judge() evaluated last
 };
 
 // Computes the cost of a collapse: the quadric errors of both vertices at the surviving vertex, plus a small term for
-// edge length. The quadric errors are position errors (Garland and Heckbert 1997) and attribute errors (Hoppe 1999). As
-// a decimater module, it returns the cost as priority.
+// edge length. The quadric errors are position errors (Garland and Heckbert 1997) and attribute errors (Hoppe 1999).
+// collapse_priority() returns this cost to OpenMesh's decimater.
 class QuadricModule final : public CollapseModule {
 public:
     explicit QuadricModule(SurfaceMesh& surface) : CollapseModule(surface, false) {}

@@ -1,8 +1,8 @@
-// Removes small components of a mesh that edge collapses cannot simplify further. A component shares no vertex position
-// with the rest, like a stone in a heap or a leaf on a tree. Edge collapses reduce a component at best to a tetrahedron
-// or a triangle. If a level still has too many faces, complete components are removed, the smallest first. Their
-// neighbours grow to preserve the visible area (Cook, Halstead, Planck and Ryu 2007, Stochastic Simplification of
-// Aggregate Detail).
+// Removes small components from a mesh that edge collapses cannot simplify further. A component shares no vertex
+// position with the rest, like a stone in a heap or a leaf on a tree. Edge collapses reduce a component at best to a
+// tetrahedron or a triangle. If a level still has too many faces, complete components are removed, the smallest first.
+// A neighbour of each removed component grows to preserve the visible area (Cook, Halstead, Planck and Ryu 2007,
+// Stochastic Simplification of Aggregate Detail).
 
 #include <algorithm>
 #include <array>
@@ -20,8 +20,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double largestRatio = 1.2;  // max size ratio among components that are removed in random order
-// Max size of the neighbour that grows to replace a removed component, relative to the removed component.
+constexpr double largestRatio = 1.2;  // components with radii within this ratio are removed in random order
+// Max radius of the neighbour that grows to make up for a removed component, relative to the removed component.
 constexpr double maxEnlargement = 4;
 // manyAreSmallest() returns true if more than this fraction of the faces are in tetrahedra or isolated triangles.
 constexpr double manyShare = 0.25;
@@ -211,8 +211,8 @@ public:
     CentreTree(const CentreTree&) = delete;
     CentreTree& operator=(const CentreTree&) = delete;
 
-    // Returns the component with the nearest centre for which counts(component) is true, or an invalid number. `point`
-    // is in object units. The search ends after maxVisits components, even if none of them meets the condition.
+    // Returns the component with the nearest centre for which counts(component) is true; invalid if none is found.
+    // `point` is in object units. The search ends after maxVisits components, even if none of them meets the condition.
     template <typename Counts>
     [[nodiscard]] ComponentNumber nearest(const glm::dvec3& point, const Counts& counts) const {
         Search<Counts> search(centres_.numbers, counts);
@@ -255,7 +255,8 @@ private:
             : numbers(numbered), counts(counted) {}
         [[nodiscard]] double worstDist() const { return minSquared; }
         [[nodiscard]] bool full() const { return best.isValid(); }
-        // Stores the point if it is the best so far; returns false to end the search.
+        // Stores the point if it is the nearest so far and its component meets the condition. Returns false, which ends
+        // the search, after maxVisits points.
         bool addPoint(double squared, std::size_t i) {
             if (squared < minSquared && counts(numbers[i])) {
                 minSquared = squared;

@@ -152,7 +152,7 @@ void EdgeFill::add(const glm::dvec2& from, const glm::dvec2& to, int triangles) 
     if (first >= end) return;
     firstRow_ = std::min(firstRow_, first);
     endRow_ = std::max(endRow_, end);
-    // x is a fixed-point number, so that adding the step for each row causes no drift.
+    // Compute x in fixed point, so that the additions of `step` are exact.
     const double slope = (high.x - low.x) / (high.y - low.y);
     std::int64_t x = fixedPoint(low.x + (first + 0.5 - low.y) * slope - 0.5);
     const std::int64_t step = end - first > 1 ? fixedPoint(slope) : 0;

@@ -73,9 +73,10 @@ private:
     std::size_t fillRow(CoverGrid& grid, int row);
 
     int resolution_;
-    std::vector<std::int32_t> steps_;   // per cell: number of covering triangles minus that of the previous cell
-    std::vector<std::uint64_t> edges_;  // one bit per cell, row by row; 1 if the cell's entry of `steps_` is used
-    int firstRow_, endRow_;             // range [firstRow_, endRow_) of rows with edges
+    std::vector<std::int32_t> steps_;  // per cell: number of covering triangles minus that of the previous cell
+    // One bit per cell, row by row; 1 if an edge contributed to the cell's entry of `steps_`.
+    std::vector<std::uint64_t> edges_;
+    int firstRow_, endRow_;  // range [firstRow_, endRow_) of rows with edges
 };
 
 }  // namespace defocus::engine

@@ -1,8 +1,8 @@
 #pragma once
 // Computes the data that the fits of a level's attributes share. An anchor (level_fit.h) is the point on the level's
 // surface that represents vertices of level 0. The data include the area and the mean normal of the represented
-// vertices. The least-squares equations have one unknown per group of vertices with a common value. Private to
-// level_fit.cpp and texture_fit.cpp.
+// vertices, and the least-squares equations. These have one unknown per group of vertices with a common value. Private
+// to level_fit.cpp and texture_fit.cpp.
 
 #include <array>
 #include <cstddef>
@@ -31,8 +31,8 @@ struct Anchored {
     glm::vec3 normal{0};  // area-weighted mean of the vertices' normals
 };
 
-// For each mesh vertex, the area, normal and colour of all vertices that its anchor represents. Undefined for vertices
-// that share the anchor of another vertex.
+// For each mesh vertex with an anchor (point on the level) of its own, the total area, mean normal and mean colour of
+// all vertices that the anchor represents. Entries of other vertices are unused.
 struct AnchoredValues {
     Numbered<MeshVertexNumber, Anchored> values;
     Numbered<MeshVertexNumber, glm::vec4> colors;  // area-weighted mean colours; empty if the mesh has none
@@ -53,7 +53,8 @@ float foreshortened(float area, const Anchor& anchor, const glm::vec3& face, con
 // Groups of the level's vertices. The vertices in one group share one value, which is one unknown of the equations.
 struct Grouping {
     Numbered<LevelVertexNumber, UnknownNumber> of;
-    Numbered<UnknownNumber, MeshVertexNumber> sources;  // for each unknown, the mesh vertex with its initial value
+    // For each unknown, the mesh vertex that gives the initial value.
+    Numbered<UnknownNumber, MeshVertexNumber> sources;
     [[nodiscard]] std::size_t count() const { return sources.size(); }
 
     // Returns, for each group, the sum of value(vertex) over its vertices, starting from `zero`.
@@ -74,7 +75,7 @@ private:
 
 // Groups the level's vertices. leaderOf(v) returns the mesh vertex that represents the group of mesh vertex v, so
 // vertices with the same leader form a group. `count` is the number of mesh vertices. With `sidesApart`, vertices on
-// the back of a thin plate, such as a fin, form separate groups (LevelMesh::apart).
+// the back of a thin plate, such as a fin, are never grouped with vertices on the front (LevelMesh::apart).
 template <typename LeaderOf>
 Grouping grouped(const LevelMesh& level, std::size_t count, const LeaderOf& leaderOf, bool sidesApart) {
     Numbered<MeshVertexNumber, UnknownNumber> numbers(count);

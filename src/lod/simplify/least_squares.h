@@ -1,9 +1,9 @@
 #pragma once
 // Fits values at triangle corners by least squares to targets at points on the triangles. Minimises
-//   Σ share·|Σ weight·x − target|² + pull·Σ weightOf·|x − prior|²
-// over the corner values x. The first sum is over the points: share is the weight of a point, and weight is the
-// barycentric weight of each corner of its triangle. The last sum is over the corners: weightOf is the sum of
-// share·weight at the corner, prior is its initial value, and pull a small constant that prevents overshoot.
+//   Σ share·|Σ b·x − target|² + pull·Σ weight·|x − prior|²
+// over the corner values x. The first sum is over the target points: share is the weight of a point, and b are its
+// barycentric coordinates in its triangle. The last sum is over the corners: weight is the sum of share·b at a corner,
+// prior is the corner's initial value, and pull is a small constant that prevents overshoot.
 // The solver is the conjugate gradient method with a Jacobi preconditioner (Hestenes and Stiefel 1952). The normal
 // equations are stored as one 3 × 3 matrix per triangle. The time of an iteration is therefore independent of the
 // number of points. Eigen's ConjugateGradient takes five times as long; building the pyramids (levels of detail) of the
@@ -22,8 +22,8 @@ namespace defocus::engine {
 
 using UnknownNumber = Number<struct UnknownKind>;
 
-// Sums of share·weightᵢ·weightⱼ over the target points of one triangle, for (i, j) = 00, 11, 22, 01, 12, 20. share is
-// the weight of a point; weightᵢ is its barycentric weight for corner i.
+// Sums of share·bᵢ·bⱼ over the target points of one triangle, for (i, j) = 00, 11, 22, 01, 12, 20. share is the weight
+// of a point, and bᵢ its barycentric coordinate for corner i.
 using TriangleSums = std::array<float, 6>;
 
 struct LeastSquares {
@@ -34,14 +34,15 @@ struct LeastSquares {
 
     std::span<const TriangleSums> triangles;
     Numbered<TriangleCorner, UnknownNumber> corners;
-    Numbered<UnknownNumber, float> weights;  // total weight of the target points; 0: unknown keeps its initial value
-    Rows sums;                               // weighted sum of each unknown's target values
-    Rows solution;                           // input: initial value and prior; output: solution
-    Numbered<UnknownNumber, std::uint8_t> held;  // 1: the unknown keeps its initial value; may be empty
+    // Total weight of each unknown's target points. An unknown with weight 0 keeps its initial value.
+    Numbered<UnknownNumber, float> weights;
+    Rows sums;                                   // weighted sum of each unknown's target values
+    Rows solution;                               // input: initial value and prior; output: solution
+    Numbered<UnknownNumber, std::uint8_t> held;  // 1: the unknown keeps its initial value; empty: all are free
 
     static constexpr int iterations = 4;  // number of iterations; more cause no visible change
-    // Strength of the pull towards the prior (the initial value), relative to an unknown's weight. It prevents
-    // overshoot of unknowns with few target points.
+    // Strength of the pull towards the prior (the initial value), relative to an unknown's weight. It keeps unknowns
+    // with few target points from overshooting.
     static constexpr float pull = 0.01f;
 
     // Solves the normal equations and stores the result in `solution`; overwrites `sums`.

@@ -19,14 +19,14 @@ namespace {
 // direction.
 constexpr float minAgreement = 0.125f;
 
-// Weights and right-hand sides of the least-squares fits. An anchor is the point on the level that represents a vertex
-// of level 0. An anchor counts for each corner of its triangle with a weight: the anchor's own weight times the
-// corner's barycentric weight at the anchor. For each level vertex, `weights` is the sum of these weights. `gaps`,
-// `normals` and `colors` are weighted sums of the anchors' offsets, normals and colours (least_squares.h).
+// Weights and right-hand sides of the least-squares fits (least_squares.h). An anchor is the point on the level that
+// represents a vertex of level 0. It contributes to each corner of its triangle with the weight s·b, where s is the
+// anchor's weight in the fit and b its barycentric coordinate for the corner. For each level vertex, `weights` is the
+// sum of s·b. `gaps`, `normals` and `colors` are sums of offsets, normals and colours, weighted by s·b.
 struct AnchorSums {
     using Three = std::array<double, 3>;
     Numbered<LevelVertexNumber, double> weights;
-    Numbered<LevelVertexNumber, Three> gaps;  // weighted offsets from the anchors to vertices of level 0
+    Numbered<LevelVertexNumber, Three> gaps;  // sums of offsets from anchors to their vertices of level 0
     Numbered<LevelVertexNumber, Three> normals;
     Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // weighted RGBA; empty if the mesh has no colours
     Numbered<TriangleNumber, TriangleSums> triangles;
@@ -61,8 +61,8 @@ AnchorSums sumAnchors(const FitSource& source, const LevelMesh& level,
         const Anchored& value = anchored.values[v];
         const float share = foreshortened(value.area, anchor, normals[anchor.triangle], value.normal);
 
-        // Fit displacements instead of positions, because displacements are small. Single precision then suffices far
-        // from the origin.
+        // Fit displacements from points on the level instead of positions. They are small, so that single precision
+        // suffices even far from the origin.
         glm::dvec3 onLevel(0);
         for (std::size_t k = 0; k < 3; ++k)
             onLevel += double{w[k]} * glm::dvec3(vertices.positions[level.sources[corner[k]].value]);
@@ -112,8 +112,8 @@ Numbered<LevelVertexNumber, glm::vec3> fitPositions(const FitSource& source, con
     return positions;
 }
 
-// Returns, for each group of vertices that share a normal, the sum of the normals of all triangles around it, weighted
-// by area. The sum is zero if there are no triangles.
+// Returns, for each group of vertices that share a normal, the area-weighted sum of the normals of all triangles at the
+// group's vertices. The sum is zero if there are no triangles.
 Numbered<UnknownNumber, glm::dvec3> faceNormals(const Numbered<LevelVertexNumber, glm::vec3>& positions,
                                                 const LevelMesh& level, const Grouping& groups) {
     Numbered<UnknownNumber, glm::dvec3> sums(groups.count(), glm::dvec3(0));
@@ -224,7 +224,7 @@ Numbered<LevelVertexNumber, glm::vec4> fitColors(const FitSource& source, const 
     return fitted;
 }
 
-// Area and bounding box of a level's component (connected part), and the scaling that enlarges it.
+// Area and bounding box of a level's component (connected part), and the scaling that restores lost area.
 struct Grown {
     double area = 0;
     Bounds box;
@@ -247,8 +247,8 @@ void chooseGrowth(Grown& grown, const Growth& growth, const Bounds& limits) {
                   glm::min(glm::dvec3(0), limits.maximum - grown.place(grown.box.maximum, growth.centre));
 }
 
-// Enlarges the components (connected parts) whose area is below Growth::area in LevelMesh::growths. The result stays
-// inside `limits`.
+// Enlarges each component (connected part) that is smaller than its target area, given by LevelMesh::growths. The
+// result stays inside `limits`.
 void growComponents(Numbered<LevelVertexNumber, glm::vec3>& positions, const LevelMesh& level, const Bounds& limits) {
     if (level.growthsOf.empty()) return;
     Numbered<ComponentNumber, Grown> grown(level.growths.size());

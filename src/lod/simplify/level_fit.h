@@ -25,15 +25,15 @@ struct FitSource {
     const Vertices& vertices;
     const WeldedPositions& positions;
     const VertexGroups& smoothing;  // vertices in one group share a normal
-    VertexGroups shades;            // vertices in one group share a colour; empty if the mesh has none
-    // Vertices in one group share texture coordinates; empty without texture coordinates.
+    VertexGroups shades;            // vertices in one group share normal and colour; empty without colours
+    // Vertices in one group have the same position and texture coordinates; empty without texture coordinates.
     VertexGroups charts;
     // 1: the vertex is on a texture seam, since another vertex at its position has different texture coordinates; else
     // 0. Empty without texture coordinates.
     Numbered<MeshVertexNumber, std::uint8_t> seams;
     Numbered<MeshVertexNumber, float> areas;  // surface area around each vertex, relative to the mean
     Bounds bounds;                            // bounding box of level 0's triangles
-    // Mean colour, covered areas and reflected radiance of level 0, which conserve() preserves.
+    // Mean colour, silhouettes and reflected radiance of level 0, which conserve() preserves.
     glm::dvec4 meanColor{0};
     std::vector<CoverGrid> outlines;
     LightMeans light{};
@@ -51,8 +51,8 @@ struct Anchor {
     TriangleNumber triangle;
     float weight[3] = {0, 0, 0};
 
-    // Returns the anchor of a vertex that shares the anchor of vertex `near`. The vertex's area, colour and normal are
-    // added to those of `near`.
+    // Returns the value for a vertex that is represented by the anchor of vertex `near`. The area, colour and normal of
+    // the represented vertex are added to those of `near`.
     static Anchor sharedWith(MeshVertexNumber near) { return {{near.value}}; }
     [[nodiscard]] bool isUnused() const { return weight[0] == 0 && weight[1] == 0 && weight[2] == 0; }
     // Returns the vertex whose anchor (the point that represents it) this vertex shares; invalid if it shares none.
@@ -61,25 +61,25 @@ struct Anchor {
     }
 };
 
-// Enlargement of a component (connected part of the mesh) after fitting. It replaces removed components, or area that
-// the component has lost itself. The component is scaled about `centre` until it has `area`, the sum of its original
-// area and the areas of the components that it replaces. The scale is in [1, `maxFactor`].
+// Enlargement of a component (connected part of the mesh) after fitting. It makes up for removed components, or for
+// area that the component lost during simplification. The component is scaled about `centre` until it has `area`, the
+// sum of its original area and the areas of the components that it replaces. The scale is in [1, `maxFactor`].
 struct Growth {
-    glm::dvec3 centre{0};  // centre of the scaling, object units
-    double area = 0;       // area after scaling, object units squared
+    glm::dvec3 centre{0};  // the point about which the component is scaled, object units
+    double area = 0;       // target area of the component, object units squared
     double maxFactor = 1;
 };
 
 struct LevelMesh {
     TriangleSet<LevelVertexNumber> triangles;
-    // For each level vertex, the mesh vertex with its original attributes. If the level vertex is a duplicate, made for
-    // the back of a thin plate, this is the mesh vertex that was duplicated.
+    // For each level vertex, the mesh vertex that it comes from. If the level vertex is a duplicate, made for the back
+    // of a thin plate, this is the mesh vertex that was duplicated.
     Numbered<LevelVertexNumber, MeshVertexNumber> sources;
     // 1: the vertex is on the back of a thin plate, such as a fin, and the other vertices at its position are on the
     // front; else 0. A back vertex shares its normal and colour only with other back vertices.
     Numbered<LevelVertexNumber, std::uint8_t> apart;
     Numbered<ComponentNumber, Growth> growths;
-    // component (connected part) of each vertex; empty if none is enlarged (Growth)
+    // Component (connected part) of each vertex; empty if no component is enlarged.
     Numbered<LevelVertexNumber, ComponentNumber> growthsOf;
 };
 

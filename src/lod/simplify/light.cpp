@@ -37,7 +37,7 @@ struct LitPoint {
     glm::vec3 normal{0};   // unit normal, or zero if undefined
     float agreement = 1;
     float area = 0;
-    float light = 0;  // area times the mean of the three colour channels
+    float light = 0;  // area times the mean of the three channels of the vertex colour
 };
 
 // Calls visit(corners, point) for sample points of the surface; `corners` are the vertex indices of the point's
@@ -82,17 +82,17 @@ double forEachLitPoint(const LitSurface& surface, std::size_t minPoints, const V
 constexpr std::size_t pairCount = lightCount / 2;  // number of pairs of opposite lights
 using PairRow = std::array<float, pairCount>;
 
-// Derivatives of the mean radiance under each light with respect to the x, y and z coordinates of a normal.
+// Derivatives of the surface's mean radiance under each light with respect to the x, y and z coordinates of a normal.
 struct LightSlopes {
     LightRow x, y, z;
 };
 
-// Derivatives of the mean radiance under each light with respect to the normal of a vertex group, as a sum of two
-// terms. For a light direction d, the first term is odd · d with a symmetric matrix `odd`; it changes sign with d. The
+// Derivatives of the surface's mean radiance under each light with respect to the normal of a vertex group, as a sum of
+// two terms. For a light direction d, the first term is M · d with a symmetric matrix M; it changes sign with d. The
 // second term is the same for opposite lights.
 struct GroupSlopes {
-    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // elements of the symmetric matrix `odd`
-    PairRow x{}, y{}, z{};
+    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // elements of the matrix M
+    PairRow x{}, y{}, z{};                                 // second term, for each pair of opposite lights
 
     void add(float weight, const GroupSlopes& other) {
         xx += weight * other.xx;
@@ -123,8 +123,8 @@ struct GroupSlopes {
 // Returns the derivatives of meanCosine() under each light with respect to the point's normal. The derivative in the
 // direction of the normal is 0. `values` receives the values of meanCosine().
 GroupSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& values) {
-    // Lower bound of the divisor `root` in the derivatives. `root` approaches 0 at grazing incidence if the normals
-    // that the point stands for hardly diverge.
+    // Lower bound of `root`, by which the derivatives are divided. `root` approaches 0 at grazing incidence if the
+    // normals averaged into `point.normal` are nearly parallel.
     constexpr float minRoot = 0.02f;
     const glm::vec3& n = point.normal;
     const float half = 0.5f * point.agreement;
@@ -186,9 +186,9 @@ void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, st
 }
 
 // Returns the smallest change in the vertex groups' normals that changes the mean radiance under each light by
-// approximately `wanted`. `damping` is relative to the mean diagonal element of the equations' matrix; a larger value
-// gives a smaller change. Damping is needed because the mean radiances under the 26 lights depend on each other: only
-// about nine are independent.
+// approximately `wanted`. `damping` is relative to the mean diagonal element of the linear system's matrix; a larger
+// value gives a smaller change. Damping is needed because the matrix is nearly singular: of the mean radiances under
+// the 26 lights, only about nine are independent.
 std::vector<glm::vec3> smallestChange(const FollowingMeans& at, const LightMeans& wanted, double damping) {
     const Lights from = lights();
     std::vector<double> matrix(lightCount * lightCount, 0);

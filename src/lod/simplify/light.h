@@ -24,9 +24,9 @@ using LightMeans = std::array<double, lightCount>;
 
 // normalSpread() returns the spread of a distribution of normals. meanCosine() returns the mean clamped cosine between
 // the normals and a light direction. Both match shaders/include/shading.glsl. `agreement`, in [0, 1], is the length of
-// the mean of the unit normals. `cosine` is the cosine between mean normal and light direction. `mean` is agreement ·
-// cosine if the distribution is symmetric about the mean normal. The average of meanCosine() over all light directions
-// is then 1/4.
+// the mean of the unit normals. `cosine` is the cosine of the angle between mean normal and light direction. `mean` is
+// the mean cosine without clamping. It is agreement · cosine if the distribution is symmetric about the mean normal;
+// meanCosine() then averages to 1/4 over all light directions.
 inline float normalSpread(float agreement) {
     const float lost = 1 - agreement;
     const float root = std::sqrt(lost);
@@ -36,7 +36,7 @@ inline float meanCosine(float mean, float cosine, float spread) {
     return 0.5f * (mean + std::sqrt(mean * mean + spread * std::max(1 - cosine * cosine, 0.0f)));
 }
 
-// Min length of a mean normal that is interpolated over a triangle; the shaders clamp to the same value.
+// Lower bound on the interpolated length of a mean normal; the shaders use the same bound.
 inline constexpr float minShownAgreement = 0.05f;
 
 // A surface with vertex attributes; three indices form a triangle.
@@ -45,7 +45,7 @@ struct LitSurface {
     std::span<const glm::vec3> normals;
     std::span<const glm::vec4> colors;  // vertex colours; empty: white
     std::span<const std::uint32_t> indices;
-    bool coarse = true;  // true: a normal shorter than 1 stands for diverging normals, as in shading.glsl
+    bool coarse = true;  // coarse level: a normal shorter than 1 represents diverging normals (shading.glsl)
 };
 
 // Returns the mean radiance that a matt surface reflects under each light. Samples at least three points per triangle
@@ -57,11 +57,11 @@ inline constexpr std::size_t pointsOfLight = 12'000;
 
 // Rotates the normals of a coarse surface until the mean radiance under each light is within 5e-4 of `target`. Uses a
 // few rounds of the Levenberg–Marquardt method (Levenberg 1944, Marquardt 1963), which may end before this accuracy is
-// reached. Of all rotations with this effect, the one with the smallest RMS change over the area is used. Under a
-// narrow blur, the rotation changes the shading visibly at each point. The RMS change is therefore limited to 16 times
-// the reduction of the mean radiance's error. Lengths of normals are preserved, so that roughness does not change.
-// Vertices with equal values in `groups` share a normal, on entry and on return. These values are below
-// positions.size().
+// reached. Among the possible rotations, it selects those with the smallest RMS change of the normals, weighted by
+// area. Under a narrow blur, the rotation changes the shading visibly at each point. The RMS change is therefore
+// limited to 16 times the amount by which it reduces the largest error of the mean radiances. Lengths of normals are
+// preserved, so that roughness does not change. Vertices with equal values in `groups` share a normal, on entry and on
+// return. Group numbers are below positions.size().
 void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> colors,
               std::span<const std::uint32_t> indices, std::span<const std::uint32_t> groups, const LightMeans& target,
               std::span<glm::vec3> normals);

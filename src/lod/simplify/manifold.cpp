@@ -17,8 +17,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Max number of faces at one edge that are connected in pairs. At edges with more faces, all faces are separated, in
-// linear time.
+// Max number of faces at one edge for which the best-matching pairs of faces are found, in quadratic time. At an edge
+// with more faces, all faces are separated.
 constexpr std::size_t maxFacesToPair = 32;
 
 // Bit flags that say how a face was repaired.
@@ -129,7 +129,7 @@ EdgeGroups groupEdges(const PairedSurface& surface) {
 }
 
 // Makes the orientation of faces consistent across edges with two faces; reverses the minority of faces in each
-// connected component. A Möbius band cannot be oriented consistently; it stays cut at one edge.
+// connected component. A Möbius band cannot be oriented consistently; one of its edges becomes a border.
 void orient(PairedSurface& surface, const EdgeGroups& groups) {
     Numbered<SurfaceCorner, SurfaceCorner> across(surface.at.size());
     for (std::size_t g = 0; g < groups.count(); ++g) {

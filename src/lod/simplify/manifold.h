@@ -22,8 +22,8 @@ struct Repairs {
     std::uint32_t faces = 0;    // total number of repaired faces
     std::uint32_t dropped = 0;  // degenerate or duplicate faces; the only faces that are removed
     std::uint32_t turned = 0;   // faces reversed because their winding was opposite to their neighbours
-    std::uint32_t cut = 0;      // faces cut off at an edge with three or more faces, or with two of opposite winding
-    std::uint32_t split = 0;    // faces separated from others at a vertex where several fans meet
+    std::uint32_t cut = 0;      // faces cut off at an edge of three or more faces, or of two faces of opposite winding
+    std::uint32_t split = 0;    // faces that use a new copy of a vertex where several fans of faces meet
 };
 
 // Number of a half-edge: the number of the face corner where it starts. Corners are numbered in input order.

@@ -29,7 +29,7 @@ struct Number {
 };
 
 using FileVertexNumber = Number<struct FileVertexKind>;  // index into Mesh::vertices
-// Index of a vertex of the mesh to simplify; equal vertices of the file share one index. Copies of vertices
+// Index of a vertex of the mesh to simplify. Equal vertices in Mesh::vertices share one index. Copies of vertices
 // (Simplification::twins) have the indices after the mesh's own vertices.
 using MeshVertexNumber = Number<struct MeshVertexKind>;
 using PositionNumber = Number<struct PositionKind>;            // a position, which several vertices may share

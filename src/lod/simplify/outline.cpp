@@ -25,7 +25,8 @@ constexpr double maxUnseen = 5e-3;   // max relative area difference that is not
 constexpr int localRounds = 2;       // number of followLocally() rounds, which move each edge to level 0's outline
 constexpr int maxGlobalRounds = 12;  // max number of matchAreas() rounds, which match covered areas to level 0's
 // Max relative difference between the covered areas of the level and of level 0 at which the fit ends. `passable` is
-// for levels with more than `fewTriangles` triangles, because they are slow to fit and mostly cover enough area.
+// for levels with more than `fewTriangles` triangles: they are slow to fit, and most of them already cover nearly the
+// right area.
 constexpr double goodEnough = 1.5e-3;
 constexpr double passable = 3.5e-3;
 constexpr std::size_t fewTriangles = 2048;
@@ -33,7 +34,8 @@ constexpr int maxVainRounds = 4;  // max number of consecutive rounds without im
 // Max distance to level 0's outline, in grid cells. Outlines farther away belong to other parts of the mesh.
 constexpr double maxWay = 48;
 constexpr int maxEdgePoints = 24;
-constexpr double stiffness = 0.1;      // damping of displacements, relative to the weight of the outline points
+// Damping of displacements, relative to the total weight of a vertex's outline points.
+constexpr double stiffness = 0.1;
 constexpr double maxMoveShare = 0.25;  // max displacement per round, relative to the mean length of the vertex's edges
 constexpr double constraintSlack = 1e-3;
 
@@ -44,16 +46,17 @@ struct Edge {
     std::uint32_t face[2] = {0, 0};
     // Direction in which each face runs along the edge. 1: from a to b; −1: from b to a; 0: no face.
     std::int8_t way[2] = {0, 0};
-    bool closed = false;  // the edge has two faces; further faces are in Edges::more
+    bool closed = false;  // the edge has exactly two faces
 };
 
 struct Edges {
-    std::vector<Edge> all;   // one edge per pair of vertex groups
-    std::vector<Edge> more;  // entries for further faces if an edge has more than two faces
+    std::vector<Edge> all;   // one edge per pair of vertex groups that an edge of the mesh joins
+    std::vector<Edge> more;  // the third and further faces of edges, one entry each
 };
 
 Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {
-    std::vector<std::uint32_t> starts(placeCount + 1, 0);  // index of each group's first edge in `sides`
+    // Index in `sides` of the first edge with the group as end `a`.
+    std::vector<std::uint32_t> starts(placeCount + 1, 0);
     const auto forEachEdge = [&](const auto& visit) {
         for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
             for (std::size_t k = 0; k < 3; ++k) {
@@ -100,7 +103,7 @@ Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {
 // A sample point of a level's outline in the projection along one direction.
 struct OutlinePoint {
     std::uint32_t a = 0, b = 0;  // vertex groups at the ends of the edge
-    double share = 0;            // interpolation weight of group b; the weight of group a is 1 − share
+    double share = 0;            // interpolation weight of vertex group b; the weight of group a is 1 − share
     double length = 0;           // outline length that the point represents, object units
     glm::dvec2 start{0};         // position of the sample point, in units of grid cells
     glm::dvec2 across{0};        // outward unit normal of the outline
@@ -176,9 +179,9 @@ public:
         move(moves);
     }
 
-    // Moves the vertices by the smallest displacements after which, to first order, the level and level 0 cover the
-    // same area in each projection direction. Returns false, without moving vertices, if all areas agree within the
-    // relative difference `enough` or recent rounds brought no improvement.
+    // Moves the vertices as little as possible so that, to first order, the level covers the same area as level 0 in
+    // each projection direction. Returns false, without moving vertices, if all areas agree within the relative
+    // difference `enough` or recent rounds brought no improvement.
     bool matchAreas(double enough) {
         const std::size_t count = outlines_.size();
         gradients_.assign(count * places_.size(), glm::vec3(0));
@@ -215,13 +218,12 @@ public:
 
     // Returns the current vertex positions, or the best earlier positions if the last rounds brought no improvement.
     [[nodiscard]] const std::vector<glm::vec3>& places() const { return vainRounds_ > 0 ? best_ : places_; }
-    // Returns the largest relative difference between the areas that level 0 and the level cover. The level has the
-    // vertex positions that places() returns.
+    // Returns the result of worstArea() for the positions that places() returns.
     [[nodiscard]] double worst() { return vainRounds_ > 0 ? worstOfBest_ : worstArea(); }
 
 private:
-    // Marks the cells of `own` that the level covers in the grid's projection direction, and returns the covered area.
-    // Stores the projected positions and potential outline edges.
+    // Marks the cells of the grid `own` that the level covers in the grid's projection direction, and returns the
+    // covered area. Stores the projected positions and potential outline edges.
     double cover(CoverGrid& own) {
         cells_.clear();
         for (const glm::vec3& place : places_) cells_.push_back(own.cellsOf(place));
@@ -271,7 +273,8 @@ private:
     }
 
     // Solves (G Gᵀ) x = b for x, slightly damped. Row d of G is the gradient of the covered area in direction d. The
-    // matrix is summed over the vertices; zero gradients are skipped, because most vertices lie on few outlines.
+    // matrix is summed over the vertices; a vertex has a gradient only in directions where it lies on the outline, so
+    // most gradients are zero and skipped.
     static std::vector<double> solved(const std::vector<glm::vec3>& gradients, const std::vector<double>& b) {
         const std::size_t n = b.size();
         std::vector<double> matrix(n * n, 0);
@@ -307,10 +310,11 @@ private:
     Edges edges_;
     std::vector<double> maxMove_;  // max displacement of each vertex group per round
     std::span<const CoverGrid> outlines_;
-    std::vector<double> areas_;  // covered areas of level 0 in `outlines_`, object units squared
+    std::vector<double> areas_;  // area that level 0 covers in each grid of `outlines_`, object units squared
     const Bounds& box_;
-    std::vector<glm::vec3> best_;                                 // positions after the best round
-    double minMisfit_ = std::numeric_limits<double>::infinity();  // min sum of squared relative area differences
+    std::vector<glm::vec3> best_;  // positions after the best round
+    // Sum of squared relative area differences after the best round.
+    double minMisfit_ = std::numeric_limits<double>::infinity();
     double worstOfBest_ = std::numeric_limits<double>::infinity();
     int vainRounds_ = 0;                // rounds since the last improvement
     std::vector<glm::vec3> gradients_;  // gradients of the covered area: one per vertex group and direction
@@ -318,7 +322,7 @@ private:
     EdgeFill fill_;
     std::vector<glm::dvec2> cells_;   // projected position of each vertex group
     std::vector<std::int8_t> turns_;  // per face: 1 counterclockwise, −1 clockwise, 0 edge-on
-    std::vector<const Edge*> rim_;    // potential outline edges: all except those between two faces with equal turns_
+    std::vector<const Edge*> rim_;    // edges that may lie on the outline: not between two faces with the same winding
 };
 
 }  // namespace

@@ -104,8 +104,8 @@ struct AttributeQuadric {
     AttributeGradients<n> gradients{};
     AttributeRow<n> offset{};
 
-    // Adds a face at the vertex. The face's corner must have the vertex's own attributes; `offset` is therefore
-    // unchanged.
+    // Adds a face at the vertex. The face's corner must have the vertex's own attributes: e is then 0, and `offset`
+    // (the sum of w·e) is unchanged.
     void addFace(const AttributeGradients<n>& face, float faceWeight) {
         squares.weight += faceWeight;
         for (std::size_t j = 0; j < n; ++j) {
@@ -116,8 +116,8 @@ struct AttributeQuadric {
         }
     }
 
-    // Adds another quadric of the same vertex. `other` must be made by addFace() alone, because its offset is then
-    // zero; this function does not add offsets.
+    // Adds another quadric of the same vertex. This function does not add offsets, so `other` must be made by addFace()
+    // alone, which leaves its offset zero.
     void addFaces(const AttributeQuadric& other) {
         squares.add(other.squares, glm::vec3(0));
         for (std::size_t j = 0; j < n; ++j) {

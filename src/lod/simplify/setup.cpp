@@ -18,7 +18,7 @@ namespace {
 // multiplied by the squared edge length. (The plane of a face is weighted by the face's area.)
 constexpr double borderWeight = 10;  // weight of planes at open borders and material borders
 constexpr double seamWeight = 0.5;   // weight of planes at discontinuities of uv or colour
-constexpr double rimWeight = 1;      // weight where the surface bends by an angle β > 60°; times 1/2 − cos β
+constexpr double rimWeight = 1;      // weight of planes at bends by an angle β > 60°, multiplied by 1/2 − cos β
 
 glm::dvec3 faceCross(const SurfaceMesh& mesh, FaceHandle face) {
     const FaceCorners corner = cornersOf(mesh, face);
@@ -132,7 +132,8 @@ Frame frameOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& tri
     return longest > 0 ? Frame{bounds.centre(), 1 / longest} : Frame{};
 }
 
-// Returns the factor from texture coordinates to lengths on the mesh scaled to unit size. It preserves the total area.
+// Returns the factor that converts lengths in texture space to lengths on the unit-size mesh. It makes the total areas
+// of the triangles in both spaces equal.
 float uvScaleOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& triangles, const Frame& frame) {
     double area = 0;
     double uvArea = 0;

@@ -16,7 +16,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Factor by which the cost of poor collapses (simplify.h) is multiplied.
+// Factor on the cost of poor collapses, which make a sliver or pull the surface away from a seam or border
+// (simplify.h).
 constexpr float poorPenalty = 10;
 constexpr std::size_t minFacesToReport = 1000;  // meshes with fewer faces report no progress
 // Up to this number of faces, the costs of all candidates (planned collapses) are updated after every collapse. Levels
@@ -30,13 +31,13 @@ constexpr std::size_t costSample = 8192;    // number of vertices sampled to est
 // Max ratio between the triangle counts of a level and of the next finer level: each level must save a quarter of the
 // triangles.
 constexpr double largestShare = 0.75;
-// The components (connected parts) that edge collapses can still simplify keep, in total, at least this fraction of
-// their faces at each level. If many components are already as small as possible, halving the total would otherwise
-// take too many faces from the few large components.
+// At each level, the components (connected parts) that can still be simplified must together keep at least this
+// fraction of their faces. If many components are already as small as possible, halving the total would otherwise take
+// too many faces from the few large components.
 constexpr double minShareOfMovable = 0.25;
-// The components that edge collapses can still simplify keep, in total, at least this fraction of their even share of
-// the faces, which is proportional to their area (evenShare). `keptShare` is preferred; `minKeptShare` applies if
-// components would otherwise have to be removed.
+// The same components must together keep at least this fraction of their even share of the faces. The even share
+// distributes the faces of a level in proportion to area (evenShare). `keptShare` is preferred; `minKeptShare` applies
+// if components would otherwise have to be removed.
 constexpr double keptShare = 0.5;
 constexpr double minKeptShare = 0.25;
 
@@ -98,9 +99,9 @@ void startQueue(Simplifier& s) {
 
 // After a collapse, updates the candidates (planned collapses) of the surviving vertex and of affected neighbours. A
 // neighbour is affected if its candidate led to the surviving or the removed vertex, or if it had no good candidate.
-// While the mesh has many faces, affected candidates are only marked as outdated, and updated when their turn comes.
-// This is safe because a collapse raises most of their costs. Costs fall only for the few neighbours that are closer to
-// the surviving vertex than to the removed vertex.
+// While the mesh has many faces, affected candidates are only marked as outdated, and updated when their turn comes. A
+// collapse raises most costs, and a raised cost is updated before it is used. Costs fall only for the few neighbours
+// that are closer to the surviving vertex than to the removed vertex; their collapses may come late.
 void requeueAround(Simplifier& s, VertexHandle survivor) {
     SurfaceMesh& mesh = *s.mesh;
     const bool atOnce = s.liveFaces <= maxFacesToFollow;
@@ -115,7 +116,8 @@ void requeueAround(Simplifier& s, VertexHandle survivor) {
     forEachSpoke(mesh, survivor, [&](HalfedgeHandle spoke) {
         const VertexHandle v = mesh.to_vertex_handle(spoke);
         const Candidate& candidate = mesh.data(v).candidate;
-        // Half-edges that led to the removed vertex now lead to the surviving vertex.
+        // The candidate's cost is unchanged unless its half-edge leads to the surviving vertex. Half-edges that led to
+        // the removed vertex now lead there, too.
         const bool known =
             candidate.possible() && candidate.fit == Fit::good && mesh.to_vertex_handle(candidate.along) != survivor;
         if (!known) return outdate(v);
@@ -195,7 +197,7 @@ float costAtRank(const SurfaceMesh& mesh, std::size_t rank) {
     return *place;
 }
 
-// Performs good and poor collapses (classes of simplify.h) with a cost of at most `max`, in vertex order, until
+// Performs good and poor collapses (as defined in simplify.h) with a cost of at most `max`, in vertex order, until
 // `target` faces are left. Returns true if any collapse was performed.
 bool sweep(Simplifier& s, std::size_t target, float max) {
     if (s.mesh->n_vertices() == 0) return false;
@@ -235,7 +237,8 @@ bool sweepTo(Simplifier& s, std::size_t target) {
     return true;
 }
 
-// Returns whether `faces` exceeds `min` by so little that a level with `min` faces would save less than a quarter.
+// Returns whether `faces` exceeds `min` by so little that a level with `min` faces would save less than a quarter of
+// the faces.
 bool isJustAbove(std::size_t faces, std::size_t min) {
     return faces > min && largestShare * static_cast<double>(faces) < static_cast<double>(min);
 }
@@ -250,7 +253,7 @@ std::size_t nextTarget(const Simplifier& s, std::size_t minTriangles) {
 // Returns the number of faces that collapses must leave for a level with `target` faces. See isKept for `share`.
 std::size_t collapseFloor(const Simplifier& s, std::size_t target, double share) {
     const SurfaceMesh& mesh = *s.mesh;
-    std::size_t stuck = 0;  // faces without a collapsible vertex, such as faces of tetrahedra or isolated triangles
+    std::size_t stuck = 0;  // number of faces without a collapsible vertex, as in tetrahedra or isolated triangles
     Numbered<ComponentNumber, std::uint8_t> movable(s.components.size(), 0);  // 1: the component can be simplified
     forEachFace(mesh, [&](FaceHandle face) {
         const FaceCorners corners = cornersOf(mesh, face);
@@ -358,7 +361,7 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
         return result;
     }
 
-    // Collapse edges, and copy the level whenever half of the triangles are removed.
+    // Collapse edges, and copy a level each time the number of triangles has halved.
     while (result.levelCount < static_cast<std::uint32_t>(std::max(0, options.maxLevels))) {
         const std::size_t target = nextTarget(s, options.minTriangles);
         const auto max = static_cast<std::size_t>(largestShare * static_cast<double>(s.liveFaces));

@@ -16,9 +16,10 @@
 // more triangles.
 //
 // A component is spent when it has no good or poor collapse left. A component's even share of the faces is proportional
-// to its area. If spent components own most of the faces, the other components keep a fraction of their even share. No
-// bad collapse reduces a component below its even share. If collapses cannot reach the target, complete components are
-// removed, the smallest first and never the largest. A nearby component grows to replace each removed one.
+// to its area. Bad collapses never reduce a component below its even share. If spent components hold most of the faces,
+// good and poor collapses end when the other components have only a fraction of their even share left. If collapses
+// cannot reach the target, complete components are removed, the smallest first and never the largest. For each removed
+// component, a nearby one is enlarged to make up for the lost area.
 
 #include <cstdint>
 #include <functional>
@@ -57,7 +58,7 @@ struct Ball {
 
 struct SimplifiedLevel {
     LevelMesh mesh;
-    // For each vertex of `mesh`, its number in the original mesh. vertexCount + i stands for copy i
+    // For each vertex of `mesh`, its number in the original mesh. vertexCount + i is the number of copy i
     // (Simplification::twins).
     Numbered<LevelVertexNumber, MeshVertexNumber> numbers;
     Numbered<MeshVertexNumber, Anchor> anchors;
@@ -73,11 +74,12 @@ struct Simplification {
     PyramidEnd end = PyramidEnd::maxLevels;
 };
 
-// Makes levels that each have half the triangles of the previous level, or the fractions of the mesh's vertex positions
-// given in `options.vertexShares`. Ends where the next level would save less than a quarter of the triangles. Calls
-// take(l, level) once for each level l = 0 … levelCount − 1, on the thread of `tasks` that computed the level's anchors
-// (points that represent the mesh's vertices). The last calls may come after simplify() returns: the caller must call
-// tasks.wait(). Until then, `smoothing` and `vertices` must stay alive.
+// Makes levels that each have half the triangles of the previous level, and ends where the next level would save less
+// than a quarter of the triangles. If `options.vertexShares` is not empty, it gives instead the fraction of the mesh's
+// vertex positions that each level keeps. Calls take(l, level) once for each level l = 0 … levelCount − 1, on the
+// thread of `tasks` that computed the level's anchors (points that represent the mesh's vertices). The last calls may
+// come after simplify() returns: the caller must call tasks.wait(). Until then, `smoothing` and `vertices` must stay
+// alive.
 Simplification simplify(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
                         const TriangleSet<MeshVertexNumber>& triangles, const SimplifyOptions& options, Tasks& tasks,
                         const std::function<void(std::uint32_t, SimplifiedLevel)>& take);

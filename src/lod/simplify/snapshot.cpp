@@ -1,5 +1,5 @@
-// Copies a level between two edge collapses: the mesh vertex at each triangle corner. For each mesh vertex, finds the
-// closest point on the level's surface, its anchor.
+// Copies a level between two edge collapses. The copy stores the mesh vertex at each triangle corner. Also finds an
+// anchor for each mesh vertex, the closest point on the level's surface.
 
 #include <algorithm>
 #include <array>
@@ -25,14 +25,14 @@ namespace {
 // wedges share a normal. All wedges that share a normal are therefore examined together.
 
 // Min length of the mean of the unit face normals around a wedge, weighted by corner angle. A wedge with a shorter mean
-// is split. The tip of a cone of 60° is not split.
+// is split. The tip of a cone with an apex angle of 60° or more is not split.
 constexpr double minResultant = 0.5;
 constexpr int rounds = 3;  // iterations of k-means with two clusters of face normals
 
 struct CornerNormal {
     TriangleCorner corner;
-    // Normal of the corner's face, in the mesh's winding. Its length is at first twice the face's area, and later the
-    // angle at the corner.
+    // Normal of the corner's face, by the winding order of the mesh. Its length is at first twice the face's area, and
+    // later the angle at the corner.
     glm::dvec3 normal;
 };
 
@@ -51,7 +51,7 @@ bool surelyAgree(std::span<const CornerNormal> corners) {
     });
 }
 
-// Positions of a corner and of the next and previous corner of its face, in mesh winding.
+// Positions of a corner, and of the next and the previous corner in the winding order of the face.
 struct CornerPlaces {
     glm::dvec3 own, next, previous;
 };
@@ -72,8 +72,8 @@ void weighByAngle(const CornerPlaces& at, CornerNormal& c) {
     c.normal *= length > 0 ? angleBetween(at.next - at.own, at.previous - at.own) / length : 0;
 }
 
-// Divides corners at one vertex into two sides of a thin plate, moves the corners of the back side to the end of
-// `corners`, and returns the index of the first moved corner. Returns the number of corners if no split is needed.
+// Divides the corners around a vertex into the two sides of a thin plate. Moves the corners of the back side to the end
+// of `corners`, and returns the index of the first moved corner. Returns the number of corners if no split is needed.
 // `own` is the vertex's normal.
 std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
     glm::dvec3 sum(0);
@@ -110,7 +110,7 @@ std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
     return static_cast<std::size_t>(border - corners.begin());
 }
 
-// Number of a group of face corners whose vertices share a normal; numbered by first use.
+// Index of a group of face corners whose vertices share a normal, in order of first use.
 using NormalGroup = Number<struct NormalGroupKind>;
 using CornersByNormal = Buckets<NormalGroup, TriangleCorner>;
 
@@ -128,11 +128,11 @@ CornersByNormal groupCorners(const Simplifier& s, const Corners& corners) {
     return {count, corners.size(), [&](TriangleCorner corner) { return groupOf[s.mesh->wedge(corners[corner])]; }};
 }
 
-// The mesh vertex at each face corner. If faces with a common vertex normal point in opposite directions, the faces on
-// one side become the back of a thin plate. A mesh vertex that belongs to both sides is split.
+// The mesh vertex at each face corner. Faces that share a vertex normal but point in opposite directions are treated as
+// the two sides of a thin plate. If both sides use a mesh vertex, the vertex is duplicated for the back side.
 struct Creases {
     Numbered<TriangleCorner, MeshVertexNumber> drawn;
-    std::vector<MeshVertexNumber> behind;  // vertices whose corners are all on the back of a thin plate; sorted
+    std::vector<MeshVertexNumber> behind;  // mesh vertices that only back sides use; sorted
 };
 
 Creases creases(Simplifier& s, const Corners& corners) {
@@ -159,7 +159,7 @@ Creases creases(Simplifier& s, const Corners& corners) {
         for (const CornerNormal& c : std::span(around).subspan(kept)) {
             const MeshVertexNumber v = drawn[c.corner];
             if (std::find(inFront.begin(), inFront.end(), v) == inFront.end()) {
-                result.behind.push_back(v);  // no split needed: at a seam, each side has its own wedge
+                result.behind.push_back(v);  // no duplicate needed: the front side does not use this vertex
                 continue;
             }
             const auto [twin, isNew] =
@@ -178,7 +178,7 @@ Creases creases(Simplifier& s, const Corners& corners) {
 // face starts at the vertex onto which a removed vertex has collapsed.
 
 constexpr std::size_t maxSteps = 12;          // max number of vertices visited on the way to the closest face
-constexpr std::size_t maxFacesAround = 1024;  // the search skips vertices with more faces around them
+constexpr std::size_t maxFacesAround = 1024;  // max number of faces around a visited vertex; other vertices are skipped
 constexpr double noDistance = 1e-24;          // smaller squared distances are rounding errors on a mesh of size 1
 // A point lies perpendicularly above a face if the squared cosine between the face's normal and the offset to the point
 // exceeds this value.
@@ -215,7 +215,7 @@ FaceRings faceRings(const Snapshot& level, const Frame& frame) {
 struct Closest {
     double squaredDistance = 0;
     TriangleCorner corner;  // corner of the closest face; invalid: the start vertex is the closest point
-    // barycentric weights of the next and the previous corner at the closest point
+    // Barycentric weights, at the closest point, of the corners after and before `corner` in the face.
     glm::dvec2 along{0};
 };
 
@@ -239,7 +239,7 @@ VertexHandle nearestUnseen(const FaceRings& rings, TriangleNumber face, const gl
 
 // Returns whether a query point lies perpendicularly above the interior of the face. `along` are the barycentric
 // coordinates (Closest::along) of the face point closest to the query point. `offset` leads from the face point to the
-// query point. For slivers, rounding makes `along` unreliable.
+// query point. `offset` is tested in addition to `along`, because rounding makes `along` unreliable for slivers.
 bool liesBelow(const FaceRings& rings, TriangleNumber face, const glm::dvec2& along, const glm::dvec3& offset) {
     if (!(along.x > 0 && along.y > 0 && along.x + along.y < 1)) return false;
     const glm::dvec3& normal = rings.normals[face];
@@ -296,8 +296,9 @@ Numbered<VertexHandle, std::uint32_t> anchorStrides(const Origin& origin, const 
     return strides;
 }
 
-// Returns, for each mesh vertex, its anchor: the closest point on the level's faces of the same primitive. Some
-// vertices share the anchor of another vertex or have none.
+// Returns the anchor of each mesh vertex: the closest point on the level, if it is on a face of the vertex's primitive.
+// If many vertices collapsed onto one vertex, some share the anchor of another vertex. A vertex that no face uses has
+// no anchor.
 Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot& level) {
     const FaceRings rings = faceRings(level, origin.frame);
     Numbered<MeshVertexNumber, TriangleCorner> cornerOf(origin.firstVertex.size() + level.twins.size());
@@ -307,8 +308,8 @@ Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot&
     Numbered<MeshVertexNumber, Anchor> result(origin.firstVertex.size());
     const Numbered<VertexHandle, std::uint32_t> strides = anchorStrides(origin, level);
     Numbered<VertexHandle, std::uint32_t> waiting(strides.size(), 0);
-    // For each level vertex, the last of the mesh vertices collapsed onto it that got an anchor (point on the level) of
-    // its own.
+    // For each level vertex, the last mesh vertex that collapsed onto it and for which an anchor (point on the level)
+    // was searched.
     Numbered<VertexHandle, MeshVertexNumber> lastOf(strides.size());
     for (const MeshVertexNumber own : result.numbers()) {
         const SurfaceVertexNumber v = origin.firstVertex[own];

@@ -39,8 +39,8 @@ struct Component {
     // Number of vertices whose planned collapse is of class `good` or `poor` (simplify.h). A collapse that has not been
     // tested counts as good.
     std::size_t harmless = 0;
-    bool spent = false;     // no planned collapse is good or poor any more: `harmless` has reached 0
-    bool standsIn = false;  // the component grows to replace removed components
+    bool spent = false;     // no planned collapse is good or poor any more (`harmless` is 0)
+    bool standsIn = false;  // the component grows to make up for removed components
     bool removed = false;
 };
 
@@ -56,22 +56,21 @@ struct Simplifier {
     CollapseQueue queue;
     bool queued = false;  // true while `queue` is in use
     std::size_t liveFaces = 0;
-    // Initial number of faces. The callback `lost` is called with the removed fraction of these faces, each time the
-    // fraction has grown by at least 0.01.
-    std::size_t firstFaces = 0;
+    std::size_t firstFaces = 0;  // initial number of faces, for progress reports
     std::size_t facesAtReport = 0;
+    // Receives the removed fraction of the initial faces, each time it has grown by at least 0.01.
     std::function<void(double)> lost;
     std::uint32_t repairedFaces = 0;
 
     std::vector<MeshVertexNumber> twins;  // copies of vertices, see Simplification::twins
     std::unordered_map<MeshVertexNumber, MeshVertexNumber> twinOf;
 
-    Numbered<ComponentNumber, Component>
-        components;              // empty until few faces are left or many components have reached their min size
+    // Connected parts of the mesh; found only when few faces are left or many components can shrink no further.
+    Numbered<ComponentNumber, Component> components;
     double area = 0;             // total area of the components, object units squared
     bool grows = false;          // true if components are enlarged to make up for lost area
-    std::size_t spentFaces = 0;  // faces of spent components, which have only bad collapses left
-    double spentArea = 0;        // total area of the spent components, without removed ones, object units squared
+    std::size_t spentFaces = 0;  // number of faces of spent components (without good or poor collapses)
+    double spentArea = 0;        // total area of the remaining spent components, object units squared
 
     [[nodiscard]] Component& componentAt(VertexHandle v) { return components[mesh->data(v).component]; }
     [[nodiscard]] const Component& componentAt(VertexHandle v) const { return components[mesh->data(v).component]; }
@@ -106,35 +105,36 @@ bool isConnected(const Simplifier& s);
 bool manyAreSmallest(const Simplifier& s);
 // Finds the components (connected parts) of the remaining mesh, unless they are already known.
 void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangles);
-// Marks the component of the vertex as spent (simplify.h): at most bad collapses are left in the component.
+// Marks the component of the vertex as spent: no good or poor collapse (simplify.h) is left in it.
 void spend(Simplifier& s, VertexHandle v);
 // Returns the number of faces that would lie on `area` if `faces` faces were distributed evenly over the area of the
 // mesh.
 double evenShare(const Simplifier& s, double area, std::size_t faces);
 // Returns whether a collapse of the vertex, of class `fit` (good, poor or bad), must be skipped while simplifying to
 // `target` faces. A bad collapse is skipped if the vertex's component would fall below its even share of `target`
-// (evenShare). Good and poor collapses are skipped only if spent components (with only bad collapses left) have more
-// than `target` / 2 faces. The other components then keep, in total, at least `share` times their even share of faces.
+// (evenShare). Good and poor collapses are skipped under two conditions: spent components (with only bad collapses
+// left) have more than `target` / 2 faces, and the other components together would fall below `share` times their even
+// share.
 bool isKept(const Simplifier& s, VertexHandle v, Fit fit, std::size_t target, double share);
 // Removes complete components (connected parts) until `target` faces are left or no further component may be removed.
 void removeComponents(Simplifier& s, std::size_t target);
 // Returns the bounding spheres of the removed components, for SimplifiedLevel::removed.
 std::vector<Ball> removedBalls(const Simplifier& s);
-// Returns how much each component is enlarged, for LevelMesh::growths. Enlarged are components that replace removed
-// ones, and components that collapses have reduced to a few faces.
+// Returns how much each component is enlarged, for LevelMesh::growths. Components grow to make up for removed
+// components, or if collapses have reduced them to a few faces.
 Numbered<ComponentNumber, Growth> growths(const Simplifier& s);
 
-// A copy of a level that other threads measure and fit while collapses continue.
+// A copy of a level, from which other threads compute anchors and fit attributes while collapses continue.
 struct Snapshot {
     TriangleSet<MeshVertexNumber> drawn;
-    Numbered<TriangleCorner, VertexHandle> corners;       // vertices of the level's surface at the corners of `drawn`
-    Numbered<VertexHandle, glm::vec3> positions;          // positions of the level's surface
-    Numbered<SurfaceVertexNumber, VertexHandle> nearest;  // copy of Simplifier::current
+    Numbered<TriangleCorner, VertexHandle> corners;       // surface vertex at each triangle corner
+    Numbered<VertexHandle, glm::vec3> positions;          // positions of the surface vertices
+    Numbered<SurfaceVertexNumber, VertexHandle> nearest;  // surviving vertex of each original surface vertex
     std::vector<MeshVertexNumber> twins;
-    std::vector<MeshVertexNumber> behind;               // vertices of `drawn` on the back of a thin plate; sorted
+    std::vector<MeshVertexNumber> behind;               // vertices that only the back of a thin plate uses; sorted
     std::vector<Ball> removed;                          // bounding spheres of the removed components
     Numbered<ComponentNumber, Growth> growths;          // enlargement of each component, for LevelMesh::growths
-    Numbered<VertexHandle, ComponentNumber> growthsOf;  // component of each vertex; empty if none is enlarged
+    Numbered<VertexHandle, ComponentNumber> growthsOf;  // component of each vertex; empty if no component grows
 };
 
 // Copies the current level (snapshot.cpp). compact() must have been called.

@@ -68,8 +68,8 @@ void linkFaces(SurfaceMesh& mesh, const Manifold& manifold, const TriangleSet<Me
         const auto face = itemAt<FaceHandle>(indexOf(f));
         const bool turned = manifold.turned[f] != 0;
         mesh.data(face).primitiveAndTurn = primitives[manifold.faces[f]].value << 1 | (turned ? 1 : 0);
-        // A reversed face has the corner order 0, 2, 1. Half-edge 2 leads from corner 2 to corner 0 in the manifold,
-        // and from 0 to 2 in the mesh.
+        // A reversed face has the corner order 0, 2, 1 in the mesh. Half-edge 2 of the manifold, from corner 2 to
+        // corner 0, becomes the half-edge from 0 to 2 in the mesh.
         const std::uint32_t cornerOrder[3] = {0, turned ? 2u : 1u, turned ? 1u : 2u};
         const HalfedgeHandle sides[3] = {halfedges[cornerAt(f, turned ? 2 : 0)], halfedges[cornerAt(f, 1)],
                                          halfedges[cornerAt(f, turned ? 0 : 2)]};
@@ -130,7 +130,7 @@ std::unique_ptr<SurfaceMesh> livingCopy(SurfaceMesh& mesh, Numbered<VertexHandle
     });
 
     // A planned collapse that is outdated may refer to a deleted edge. Replace the edge by any half-edge of the same
-    // vertex, because outdated collapses are planned again before use.
+    // vertex. The choice does not matter, because outdated collapses are planned again before use.
     forEachVertex(*copy, [&](VertexHandle v) {
         HalfedgeHandle& along = copy->data(v).candidate.along;
         if (!along.is_valid()) return;

@@ -38,7 +38,7 @@ struct Frame {
     [[nodiscard]] glm::dvec3 point(const glm::vec3& position) const {
         return (glm::dvec3(position) - centre) * inverse;
     }
-    // Returns the vector from one position to another, scaled to the unit-size mesh.
+    // Returns the vector from one position to another, in units of the mesh's longest side.
     [[nodiscard]] glm::dvec3 step(const glm::vec3& from, const glm::vec3& to) const {
         return (glm::dvec3(to) - glm::dvec3(from)) * inverse;
     }
@@ -47,11 +47,11 @@ struct Frame {
 // Class of a collapse, defined in simplify.h. A bad collapse waits until no good or poor collapse is left.
 enum class Fit : std::uint8_t { good, poor, bad, impossible };
 
-// The planned collapse of a vertex, which removes the vertex.
+// The planned collapse that would remove a vertex.
 struct Candidate {
     HalfedgeHandle along;  // leads to the surviving vertex; invalid: no collapse is possible
     float cost = std::numeric_limits<float>::infinity();
-    Fit fit = Fit::good;    // class of the collapse, as far as it has been tested; untested: good
+    Fit fit = Fit::good;    // class of the collapse by the tests made so far; good before any test
     bool outdated = false;  // the cost has changed, or another collapse may be cheaper
 
     [[nodiscard]] bool possible() const { return along.is_valid(); }
@@ -78,7 +78,7 @@ struct SurfaceTraits : OpenMesh::DefaultTraits {
         std::uint32_t primitiveAndTurn = 0;  // 2 · primitive number, plus 1 if the face is reversed
 
         [[nodiscard]] PrimitiveNumber primitive() const { return {primitiveAndTurn >> 1}; }
-        // Returns whether the mesh stores the face's last two corners in reverse order.
+        // Returns whether the face's last two corners are swapped compared with the input triangle.
         [[nodiscard]] bool isTurned() const { return (primitiveAndTurn & 1) != 0; }
     };
 };
@@ -149,7 +149,7 @@ void forEachSpoke(const SurfaceMesh& mesh, VertexHandle v, const Visit& visit) {
     } while (spoke != last);
 }
 
-// Call visit(handle) for every face or vertex that is not deleted, in ascending order.
+// Call visit(handle) for each face or each vertex that is not deleted, in ascending order.
 template <typename Visit>
 void forEachFace(const SurfaceMesh& mesh, const Visit& visit) {
     for (int f = 0; f < static_cast<int>(mesh.n_faces()); ++f)

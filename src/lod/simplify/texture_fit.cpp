@@ -33,7 +33,7 @@ bool leavesChart(const glm::vec2& gap, const std::array<glm::vec2, 3>& corners) 
 struct TextureSums {
     struct Vertex {
         double weight = 0;
-        std::array<double, 4> gap{};  // weighted displacement of uv0, then of uv1
+        std::array<double, 4> gap{};  // weighted sums of displacements: uv0, then uv1
     };
     Numbered<LevelVertexNumber, Vertex> vertices;
     Numbered<TriangleNumber, TriangleSums> triangles;

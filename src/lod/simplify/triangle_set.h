@@ -28,7 +28,7 @@ struct TriangleSet {
     }
 };
 
-// Returns the primitive of each triangle.
+// Returns the index of each triangle's primitive.
 template <typename Vertex>
 Numbered<TriangleNumber, PrimitiveNumber> primitivesOf(const TriangleSet<Vertex>& triangles) {
     Numbered<TriangleNumber, PrimitiveNumber> primitives;

@@ -8,8 +8,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Blur values are divided by their range over the mesh, or by this value if the range is smaller. It has no unit for
-// blur factors and mm for added blur.
+// Min range by which blur values are divided: dimensionless for blur factors, in mm for added blur.
 constexpr float minBlurRange = 1e-3f;
 // Triangles of lower quality are slivers. Quality: twice the area / sum of the squared edge lengths; 0.29 for an
 // equilateral triangle.

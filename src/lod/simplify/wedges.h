@@ -22,10 +22,10 @@ namespace defocus::engine {
 // slides. The weights come from a parameter sweep on the school of fish. Halving or doubling a weight costs up to 0.5
 // dB of PSNR at the same triangle count.
 constexpr float normalWeight = 0.003f;
-constexpr float colorWeight = 0.005f;  // weight for colours in [0, 1]
+constexpr float colorWeight = 0.005f;  // weight of colours with components in [0, 1]
 constexpr float uvWeight = 0.05f;
-// Weight of a vertex's blur values, each divided by its range over the mesh. This weight is four times the colour
-// weight, so that coarse levels keep the blur values at the positions of the original vertices.
+// Weight of a vertex's blur modifiers (VertexBlur), each divided by its range over the mesh. This weight is four times
+// the colour weight, so that coarse levels keep the modifiers at the positions of the original vertices.
 constexpr float blurWeight = 0.02f;
 
 class WedgeTable {
@@ -64,14 +64,14 @@ public:
     // Adds a face to the quadrics of the wedges at its three corners; `places` are the positions of the corners.
     // Slivers are ignored, because their gradients are mostly noise.
     void addFace(const WedgeNumber* corners, const glm::dvec3* places);
-    // Returns the cost of replacing the wedge `from` by the wedge `to`, whose position differs by `step`; never
-    // negative.
+    // Returns the cost of replacing the wedge `from` by the wedge `to`; never negative. `step` is the vector from the
+    // position of `from` to that of `to`.
     [[nodiscard]] float cost(WedgeNumber from, WedgeNumber to, const glm::vec3& step) const;
-    // Adds the quadric of the wedge `from` to the quadric of the wedge `to`, whose position differs by `step`, and
-    // clears the quadric of `from`.
+    // Adds the quadric of the wedge `from` to the quadric of the wedge `to`, and clears the quadric of `from`. `step`
+    // is as in cost().
     void moveQuadric(WedgeNumber from, WedgeNumber to, const glm::vec3& step);
-    // Prefetch the memory of a wedge: prefetchStart() for a wedge that cost() will get as `to`, prefetch() for a wedge
-    // that moveQuadric() will get.
+    // Prefetch the memory of a wedge: prefetchStart() if the wedge will be passed to cost() as `to`, prefetch() if it
+    // will be passed to moveQuadric().
     void prefetchStart(WedgeNumber w) const;
     void prefetch(WedgeNumber w) const;
 
