@@ -16,10 +16,10 @@ namespace defocus::engine {
 
 namespace {
 
-// Factor by which the estimated FLIP error of a trial (a frame of fewer than 64 samples) is too large, because few
-// samples leave edges rough. The error is estimated from the image of the first half of the samples and the complete
-// image. Measured factor for ten models: 1.1 to 2.2 with 16 samples where the estimate exceeds 0.01, and 1.2 to 1.8
-// with 32 samples where it exceeds 0.006.
+// Factor by which a trial (a frame of fewer than 64 samples) overestimates its FLIP error, because few samples leave
+// edges rough. The error is estimated from the image of the first half of the samples and the complete image. The value
+// is about the middle of the factors measured for ten models: 1.1 to 2.2 with 16 samples where the estimate exceeds
+// 0.01, and 1.2 to 1.8 with 32 samples where it exceeds 0.006.
 constexpr double excessOfTrial = 1.5;
 
 }  // namespace
@@ -65,10 +65,10 @@ void FrameRun::startAutomatic(const RenderSettings& settings, const StopSettings
     if (nothingBlurred) trial_.reset();  // without blur, the number of samples is fixed, so no error estimate is needed
 }
 
-// Starts a frame with about the quality of `samples` lens samples that have one pixel position each
-// (RenderSettings::positions). 64 or more samples are drawn in blocks of 64. Fewer samples are drawn as a trial, a
-// complete frame that is repeated with more samples if its estimated error is too large. plan_ must be a plan of the
-// frame, with any number of samples.
+// Starts a frame whose quality is about that of `samples` lens samples with one pixel position each. With more
+// positions (RenderSettings::positions), the frame needs fewer samples. 64 or more samples are drawn in blocks of 64.
+// Fewer samples are drawn as a trial, a complete frame that is repeated with more samples if its estimated error is too
+// large. plan_ must be a plan of the frame, with any number of samples.
 void FrameRun::startAbout(double samples) {
     const RenderSettings settings = withSamples(automatic_->settings, plan_, samples, automatic_->choosesPositions);
     if (settings.sampleCount >= blockSamples) {

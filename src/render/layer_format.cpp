@@ -13,7 +13,8 @@ float largest(const glm::vec3& v) {
 }
 
 // Returns whether the radiance of the environment, emissive materials or diffuse surfaces under directional lights may
-// exceed the range of half floats, so that layers must be 32-bit floats. Other radiance above 65,504 is clamped.
+// exceed the range of half floats, so that layers must be 32-bit floats. Radiance from other sources, such as point
+// lights, is clamped to 65,504.
 bool beyondHalfFloat(const World& world) {
     constexpr float limit = 6e4f;
     const Environment& e = world.environment;

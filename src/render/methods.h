@@ -24,10 +24,10 @@ struct MethodSetting {
     std::vector<std::string> choices;  // allowed values; empty: a number in [min, max]
     double min = 0;
     double max = 0;
-    bool integer = true;        // numeric setting: the value must be an integer
+    bool integer = true;        // true: values must be integers (numeric settings only)
     std::string onlyWith = {};  // e.g. "resolve=published": only allowed with this setting
     bool ofTheScene = false;    // true: each scene needs its own value; benchmarks skip this setting
-    bool keyed = false;         // numeric setting: a shot may animate the value with keys; see valueAt
+    bool keyed = false;         // true: a shot may animate the value with keys, see valueAt (numeric settings only)
 };
 
 // Setting values as text, keyed by the name of the setting.
@@ -38,14 +38,16 @@ struct RendererOptions {
     std::uint32_t wave = 0;                  // lens samples drawn together (a wave); 0: as many as fit into waveBytes
     std::uint64_t waveBytes = 160ull << 20;  // max memory of all layers that are drawn at once
     std::uint32_t threads = 1;               // threads that draw (Method::usesThreads), each with a context of its own
-    std::uint64_t pendingBytes = SubmissionPacer::defaultBytes;  // max memory of pending triangles of a software driver
-    bool geometryShaderLayers = false;                           // true: always select layers in a geometry shader
+    // Max memory in bytes of the triangles that a software OpenGL driver has queued but not yet drawn.
+    std::uint64_t pendingBytes = SubmissionPacer::defaultBytes;
+    bool geometryShaderLayers = false;        // true: always select layers in a geometry shader
     std::filesystem::path shaderFolder = {};  // shaders in this folder replace embedded shaders; empty: none
     MethodSettings settings = {};             // values of Method::settings; missing settings have their default
 };
 
-// Features of the aperture that a method reproduces. oval: anamorphic ratio only; shape: all except blur that differs
-// across the image or between colours, such as cat's-eye bokeh and axial chromatic aberration.
+// Features of the aperture that a method reproduces. oval: only the anamorphic ratio. shape: the aperture's shape, but
+// no effects that differ across the image (cat's-eye bokeh) or between colours (axial chromatic aberration). all: these
+// effects, too.
 enum class ApertureShown { oval, shape, all };
 
 struct Method {
@@ -53,13 +55,13 @@ struct Method {
     std::string description;
     bool needsGl = true;          // true: needs a current OpenGL context
     bool usesLensSamples = true;  // false: ignores the plan's lens samples, as post-process methods do
-    bool shadesAsLit = true;      // false: images match other methods only for unlit, opaque surfaces
+    bool shadesAsLit = true;      // true: shades as other methods do; false: only unlit, opaque surfaces match them
     bool showsThrough = true;     // false: draws transmitting surfaces as opaque
     bool blursCells = false;      // true: blurs each sample's image to fill gaps between samples (plan/lens_cells/)
     bool sumsBlocks = false;      // true: Renderer::continueWith adds samples to the current image
     bool drawsTiles = false;      // true: draws only FramePlan::tile; false: always the full image
     bool drawsLayers = false;     // true: draws data layers (RenderSettings::layers)
-    bool drawsPositions = false;  // true: may draw several pixel positions per sample (RenderSettings::positions)
+    bool drawsPositions = false;  // true: may draw each sample at several pixel positions (RenderSettings::positions)
     bool usesThreads = false;     // true: draws in RendererOptions::threads threads
     bool drawsShadows = true;     // false: no shadows
     bool drawsMotion = true;      // false: draws moving objects at a single time within the exposure

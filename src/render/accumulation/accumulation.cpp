@@ -103,7 +103,7 @@ public:
 
     void start(const FramePlan& plan) override {
         clock_.beginSetup();
-        waves_.stop();  // batches of the previous frame refer to its plan
+        waves_.stop();  // the batches of the previous frame refer to plan_, which setPlan() replaces
         setPlan(plan);
         prepareSums();
         samplesBefore_ = 0;
@@ -139,7 +139,7 @@ public:
         stats_.trianglesHidden += wave.hiddenTriangles;
         const bool ended = samples() == sampleTotal();
         if (ended) {
-            sum_->makeMean();  // before endFrame(), so that the frame's time includes the mean
+            sum_->makeMean();  // before endFrame(), so that the frame's time includes the computation of the mean
             clock_.endFrame();
         }
         return !ended;
@@ -237,11 +237,11 @@ private:
         sum_->reset({window.left, window.bottom});
     }
 
-    // Returns whether the environment is drawn into each sample's layer. A gradient or a single colour is usually
-    // composited behind the layers when they are added to the sum. It must be drawn into the layers if it is visible
-    // through a transmitting surface. It must also be drawn if lens cells blur images with blended surfaces: an alpha
-    // above 1 marks these surfaces, so pixels of the environment need alpha 1. If the output needs alpha, the
-    // environment is never drawn.
+    // Returns whether the environment is drawn into each sample's layer. If the output needs alpha, it is never drawn.
+    // Otherwise, an environment map is always drawn. A gradient or a single colour is drawn if it may be visible
+    // through a transmitting surface, or if lens cells blur images with blended surfaces: an alpha above 1 marks these
+    // surfaces, so pixels of the environment need alpha 1. In other cases, a gradient or a colour is composited behind
+    // the layers when they are added to the sum.
     [[nodiscard]] bool drawsSky() const {
         const EnvironmentType type = scene_.world().environment.type;
         return !plan_.needsAlpha &&
@@ -260,7 +260,7 @@ private:
     // Parts of the lens that the samples of plan_ represent. cells_.classes() is 0 if the samples' images are not
     // blurred.
     LensCells cells_;
-    std::uint32_t samplesBefore_ = 0;  // number of samples that the sum contained before plan_
+    std::uint32_t samplesBefore_ = 0;  // number of samples in the sum when the drawing of plan_ began
     FrameUniforms frame_;
     WaveShape shape_;
     std::optional<LayerSum> sum_;

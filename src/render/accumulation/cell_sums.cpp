@@ -114,8 +114,8 @@ void CellSums::blurInto(const Target& target, const GlTexture& sum, float sample
         const bool isBehind = classIndex >= inFront_;
         const int k = isBehind ? classIndex - inFront_ : classIndex;
         const int side = 1 << k;
-        // A point sprite covers at least 4 x 4 pixels of the target: drivers shade groups of several pixels, so smaller
-        // sprites would waste work.
+        // A point sprite covers at least 4 x 4 pixels of the target: pixels are shaded in groups, so smaller sprites
+        // would waste work.
         const int pointSide = std::max(tileSide, 4 * side);
         const int columns = squares_.x / pointSide;
         const int rows = squares_.y / pointSide;

@@ -127,8 +127,8 @@ void LayerSum::makeMean() {
         meanTarget_ = Target({&mean_});
     }
     const float divisor = countsInAlpha_ ? 0.0f : static_cast<float>(samples_);
-    // Add an unfinished block to a copy of the frame's sum, because the frame's sum contains only complete blocks.
-    // Before the first block is complete, the block's sum is the frame's sum.
+    // The frame's sum contains only complete blocks, so add an unfinished block to a copy of this sum. If no block is
+    // complete yet, the mean is computed from the unfinished block alone.
     const bool unfinished = samples_ % blockSamples != 0;
     const bool isFirst = samples_ < blockSamples;
     if (isFirst && blursCells_)

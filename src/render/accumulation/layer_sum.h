@@ -4,8 +4,8 @@
 //
 // Layers are added in sample order, with Neumaier's compensation, to the sum of a block of 64 samples. Complete blocks
 // are added to the frame's sum in the same way. The result is bit-identical for any number K of samples that are drawn
-// together, and if blocks are rendered on several machines. The mean is a divided copy; the sum itself is never
-// divided.
+// together, and also if several machines render the blocks. The mean is written to a separate texture; the sum itself
+// is never divided.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -39,9 +39,9 @@ public:
     // Clears the accumulation buffers. `first`: pixel of the layers that is added to the lower left pixel of the
     // buffers.
     void reset(const glm::ivec2& first = {0, 0});
-    // For all further blocks, blurs each sample's image as its lens cell, the part of the lens that the sample stands
-    // for, would blur it. All samples so far must form complete blocks of 64. Without blur classes in `cells`, nothing
-    // is blurred. reset() turns the blur off.
+    // From the next block on, blurs each sample's image by the blur of its lens cell, the part of the lens that the
+    // sample represents. All samples so far must form complete blocks of 64. If `cells` has no blur classes (groups of
+    // pixels with similar blur), nothing is blurred. reset() turns the blur off.
     void blurCells(const LensCells& cells);
     // Composites layers [0, count) over the environment and adds them to the sum. The layers contain samples [first,
     // first + count) of `frame`, which must be in one block of 64 samples.
@@ -71,15 +71,15 @@ private:
         GlTexture sum[2];
         GlTexture compensation[2];
         Target target[2];
-        int current = 0;  // index of the copy with the latest values
+        int current = 0;  // index of the copy that holds the latest sum
     };
-    // Returns the index of the copy of block_ with the latest sum of the current block of samples. If `asAdded` is true
-    // and lens cells (parts of the lens, one per sample) are used, blurs the sum into the second copy and returns the
-    // index of this copy. The frame's sum contains blurred blocks.
+    // Returns the index of the copy of block_ that holds the sum of the current block of samples. `asAdded`: returns
+    // the sum in the form in which it is added to the frame's sum. With lens cells (parts of the lens, one per sample),
+    // this form is blurred; it is written to the second copy.
     int latestBlock(bool asAdded);
     void addBlockTo(Sum& frame, int block, bool startsFrame);
-    // Divides copy `latest` of a sum by `divisor`, or by the pixel's alpha (its number of samples) if `divisor` is 0.
-    // Writes the result to mean_.
+    // Divides a sum by `divisor`, or by the pixel's alpha (its number of samples) if `divisor` is 0. Writes the result
+    // to mean_. `latest`: index of the copy of `total` that holds the sum.
     void divide(const Sum& total, int latest, float divisor);
 
     LayerSumInfo info_;
@@ -91,8 +91,8 @@ private:
     Target meanTarget_;
     // Programs that add layers to the sum, keyed by their defines, which may change from frame to frame.
     std::map<ShaderDefines, Program> addLayers_;
-    // Programs that blur the sum of a block by the lens cells of its samples, keyed by the numbers of blur classes
-    // (groups of pixels with similar blur) in front of and behind the focus plane.
+    // Programs that blur the sum of a block by the blur of its samples' lens cells (parts of the lens), keyed by the
+    // numbers of blur classes (groups of pixels with similar blur) in front of and behind the focus plane.
     std::map<std::pair<int, int>, CellPasses> cellPasses_;
     // Sums of the blur classes of the latest block that used lens cells. Kept because the next frame can reuse the
     // textures if it has the same number of blur classes, as is often the case.

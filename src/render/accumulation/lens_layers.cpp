@@ -42,8 +42,8 @@ std::vector<Slot> slotsOf(const std::vector<Layer>& layers, bool countsSamples) 
         if (wanted) slots.push_back({name, format});
     };
     const bool coc = has(layers, Layer::coc);
-    // The coverage is the mean alpha of an output. NUMBER_SLOT has no alpha, so DEPTH_SLOT is added if the only layers
-    // are those of objects or materials.
+    // The coverage is the mean alpha of an output. The output of objects and materials, NUMBER_SLOT, has no alpha. If
+    // no other layer is requested, the depth (DEPTH_SLOT) is therefore drawn, too.
     const auto isNumber = [](Layer layer) { return layer == Layer::objects || layer == Layer::materials; };
     const bool onlyNumbers = !layers.empty() && std::ranges::all_of(layers, isNumber);
     add(countsSamples || onlyNumbers || coc || has(layers, Layer::depth), "DEPTH_SLOT",

@@ -55,8 +55,8 @@ public:
     // sums over all samples.
     [[nodiscard]] static std::uint64_t layerBytes(const std::vector<Layer>& layers, bool countsSamples);
     [[nodiscard]] static std::uint64_t sumBytes(const std::vector<Layer>& layers, bool countsSamples);
-    // Returns whether the layers include objects or materials, which count the samples of each object or material in a
-    // pixel. If so, the surface pass writes the indices of objects and materials.
+    // Returns whether `layers` contains the object or the material layer, which count the samples of each object or
+    // material in a pixel. For these layers, the surface pass writes the indices of objects and materials.
     [[nodiscard]] static bool countNumbers(const std::vector<Layer>& layers);
 
     void reset() { samples_ = 0; }
@@ -95,7 +95,8 @@ private:
     std::filesystem::path shaderFolder_;
     std::map<std::string, SlotSum> slots_;  // sums of the outputs of layers.frag, keyed by macro, such as "NORMAL_SLOT"
     std::map<Layer, Table> tables_;
-    Target sums_;  // framebuffer of the summing passes, which never write its colour attachment
+    // Framebuffer of the summing passes. Its colour attachment is unused, because the passes write with imageStore.
+    Target sums_;
     GlTexture unused_;
     std::map<std::string, Program> programs_;
     Fullscreen fullscreen_;

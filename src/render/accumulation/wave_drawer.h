@@ -20,11 +20,11 @@ struct WaveFrame {
     const FramePlan* plan = nullptr;
     const FrameUniforms* uniforms = nullptr;
     WaveLayersInfo layers;
-    std::optional<LayerWindow> window;  // rectangle of the layers to draw; nullopt: all pixels
+    std::optional<LayerWindow> window;  // rectangle of each layer that is drawn; nullopt: all pixels
     bool skipsHidden = false;
-    bool countsSamples = false;  // the number of samples differs between pixels
-    bool marksBlended = false;   // blended surfaces add to alpha; see SurfacePass::markBlended
-    bool drawsSky = false;       // the environment is drawn into the layers
+    bool countsSamples = false;  // true: the number of samples differs between pixels
+    bool marksBlended = false;   // true: alpha above 1 marks blended surfaces; see SurfacePass::markBlended
+    bool drawsSky = false;       // true: the environment is drawn into the layers
 };
 
 // Layers of one batch (wave) of samples. `data` is set only if RenderSettings::layers names data layers.
@@ -42,10 +42,11 @@ public:
     WaveDrawer(const GpuScene& scene, const Occlusion& occlusion, const RendererOptions& options,
                std::uint64_t pendingBytes);
 
-    // Prepares the programs and draws of a frame, and the layers of `targets` batches (waves) of samples. The plan's
-    // data must be in the scene's buffers and textures.
+    // Prepares a frame's shader programs and draw calls, and the layers of `targets` batches (waves) of samples. The
+    // plan's data must be in the scene's buffers and textures.
     void prepare(const WaveFrame& frame, std::size_t targets);
-    // Returns the draws for Occlusion::prepare, which must be called before draw() if hidden triangles are skipped.
+    // Returns the draw calls for Occlusion::prepare, which must be called before draw() if hidden triangles are
+    // skipped.
     [[nodiscard]] std::vector<OccludableDraw> opaqueDraws() const { return surfaces_->opaqueDraws(); }
     // Draws samples [first, first + count) into the set of layers with index `target`. Returns the number of hidden
     // triangles that were skipped.

@@ -22,10 +22,10 @@ class WaveLayers {
 public:
     explicit WaveLayers(const WaveLayersInfo& info);
 
-    // Clears the layers to transparent black and infinite depth, and binds them as the render target. Only `window` is
-    // drawn; nullopt: all pixels.
+    // Clears the layers to transparent black and infinite depth, and binds them as the render target. `window`: the
+    // only rectangle that is drawn; nullopt: all pixels.
     void begin(const std::optional<LayerWindow>& window = {}) const;
-    // Ends the drawing that begin() has started: disables the restriction to `window`.
+    // Disables the scissor test, by which begin() restricts drawing to a rectangle.
     static void end();
     [[nodiscard]] const Target& target() const { return target_; }
     [[nodiscard]] const GlTexture& colors() const { return colors_; }

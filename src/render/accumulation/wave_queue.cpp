@@ -27,8 +27,8 @@ public:
         packaged();
         return packaged.get_future();
     }
-    // Returns the drawer, which only tasks of run() may use. Only the drawer's layers (targets) may also be used
-    // elsewhere.
+    // Returns the drawer. Only tasks of run() may use it, except for its layers (targets), which other code may use,
+    // too.
     [[nodiscard]] WaveDrawer& drawer() { return *drawer_; }
     [[nodiscard]] bool hasThread() const { return thread_ != nullptr; }
 
@@ -138,8 +138,8 @@ void WaveQueue::draw(std::uint32_t wave) {
         });
 }
 
-// Returns the WaveVisibility of the batch (wave) whose first sample is `firstSample`. Through it, a block's first batch
-// tells the block's other batches which triangles are hidden. Must be called in the order of samples.
+// Returns the WaveVisibility of the batch (wave) whose first sample is `firstSample`. With this object, a block's first
+// batch tells the block's other batches which triangles are hidden. Must be called with ascending `firstSample`.
 WaveVisibility WaveQueue::visibilityFor(std::uint32_t firstSample) {
     if (firstSample % blockSamples != 0) return {{}, blockVisibility_};
     std::promise<WaveVisibility::Value> made;

@@ -45,7 +45,7 @@ public:
     // Returns the next batch (wave), at most `shape.samples` samples of one block. The batch's layers can be read in
     // the current context until the next call. The plan must have samples left. Throws Error if a thread failed.
     DrawnWave next();
-    // Abandons the batches (waves) that have not been returned.
+    // Abandons the batches (waves) that next() has not yet returned.
     void stop();
 
     // Returns GPU times of the frame's passes, summed over all threads. Waits for the batches that are being drawn.

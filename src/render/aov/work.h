@@ -11,8 +11,8 @@
 
 namespace defocus::engine {
 
-// Computes the result of renderWork() as a texture, a few lens samples at a time, for successive frames of one world.
-// Needs a current OpenGL context.
+// Computes the number of triangles per pixel (see renderWork()) as a texture, a few lens samples at a time, for
+// successive frames of one world. Needs a current OpenGL context.
 class WorkPass {
 public:
     // `world` must outlive this object.

@@ -19,7 +19,8 @@ namespace {
 // The near field and the far field are the images of the surfaces in front of and behind the focus plane. They may have
 // a lower resolution than the full image. Sizes are in pixels of these fields.
 constexpr int tileSize = 16;
-constexpr int publishedLargest = 17;  // max blur diameter in pixels of a field: eight taps on each side and the centre
+// Max blur diameter in Garcia's slides, in pixels of the near or far field: eight taps on each side of the centre tap.
+constexpr int publishedLargest = 17;
 
 struct CircularOptions {
     int nearComponents = 2;
@@ -29,7 +30,7 @@ struct CircularOptions {
     double blendBias = 1;
     bool biasByLuminance = false;
     bool nearPremultiplied = true;
-    bool limited = false;  // true: blur is limited to publishedLargest
+    bool limited = false;  // true: the blur diameter is limited to the published max, publishedLargest
     ComplexStorage storage = ComplexStorage::half;
     ComplexTaps taps = ComplexTaps::exact;
     KernelConstants constants = KernelConstants::fitted;

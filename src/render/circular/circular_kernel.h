@@ -2,10 +2,10 @@
 // Disk-shaped blur by separable complex filters (Niemitalo 2010, Circularly symmetric convolution and lens blur; Garcia
 // 2018, Circular Separable Convolution Depth of Field).
 //
-// A component is F(x) = e^(−a·x²)·(cos b·x² + i·sin b·x²), where x is the offset divided by the disk's radius.
+// A component is F(x) = e^(−a·x²)·(cos(b·x²) + i·sin(b·x²)), where x is the offset divided by the disk's radius.
 // F(x)·F(y) = F(√(x² + y²)), so one complex pass along rows and one along columns apply a circular kernel. With u = r²,
 // the weighted sum over the components c,
-//     K(r) = Σ_c [A·Re F(r) + B·Im F(r)] = Σ_c e^(−a·u)·(A·cos b·u + B·sin b·u),
+//     K(r) = Σ_c [A·Re F(r) + B·Im F(r)] = Σ_c e^(−a·u)·(A·cos(b·u) + B·sin(b·u)),
 // approximates the disk D(r) = 1 for r < 1, 0 beyond. The passes visit taps with |x| ≤ 1, so the kernel's support is
 // the square [−1, 1]². All integrals below are over this square.
 
@@ -15,10 +15,10 @@
 namespace defocus::engine {
 
 struct CircularComponent {
-    double decay;      // a of the component's factor e^(−a·x²); x is the offset in disk radii
-    double frequency;  // b of the component's factor cos b·x² + i·sin b·x², in radians; x is the offset in disk radii
-    double cosine;     // weight A of the component's real part, e^(−a·x²)·cos b·x²
-    double sine;       // weight B of the component's imaginary part, e^(−a·x²)·sin b·x²
+    double decay;  // a of the component's factor e^(−a·x²); x is the offset in disk radii
+    double frequency;  // b of the component's factor cos(b·x²) + i·sin(b·x²), in radians; x is the offset in disk radii
+    double cosine;  // weight A of the component's real part, e^(−a·x²)·cos(b·x²)
+    double sine;    // weight B of the component's imaginary part, e^(−a·x²)·sin(b·x²)
 };
 
 inline constexpr int circularKernelLimit = 9;   // max number of components of a fitted kernel
@@ -34,11 +34,10 @@ enum class KernelConstants {
     // radii). The blur passes divide by the sum of the tap weights. After this division, the kernel's integral equals
     // the disk's area.
     rescaled,
-    // Niemitalo's constants (2010) as they are printed, for eight taps on each side of the centre, with offsets x =
-    // tap/8. Garcia's slides print the kernel with two components; the other kernels come from Garcia's public filter
-    // generator. The slides also print e^(−a·x²) with negative a, which grows with x; here a is positive. The kernels
-    // approximate disks of radii 1.07 to 1.10. The taps cover only the square [−1, 1]², which cuts off the edges of
-    // these disks.
+    // Niemitalo's constants (2010), for eight taps on each side of the centre, at the offsets x = tap/8. The kernel
+    // with two components is as printed in Garcia's slides; the others are as in Garcia's public filter generator. The
+    // slides also print e^(−a·x²) with negative a, which grows with x; here a is positive. The kernels approximate
+    // disks of radii 1.07 to 1.10. The taps cover only the square [−1, 1]², which cuts off the edges of these disks.
     published,
 };
 

@@ -28,7 +28,8 @@ constexpr int maxFittedInHalf = 5;
 // Max number of components of Niemitalo's kernels whose sums are stored as half floats. With more components, the large
 // weights amplify rounding errors too much.
 constexpr int maxPublishedInHalf = 3;
-// Largest tap offset, as a multiple of the blur radius. Taps reach 1/2 px beyond the radius, which is at least 1/2 px.
+// Largest tap offset, as a multiple of the blur radius. Taps reach up to 1/2 px beyond the radius. The radius is at
+// least 1/2 px, so the largest offset is at most twice the radius.
 constexpr double outermostTap = 2;
 constexpr int bracketSteps = 4096;
 constexpr int publishedTaps = 8;  // number of taps on each side of the centre
@@ -74,15 +75,15 @@ std::vector<double> imaginaryParts(const std::vector<std::complex<double>>& valu
     return parts;
 }
 
-// Returns the Bracket (mapping of a sum to [0, 1]) for taps that do not depend on the radius. `taps` holds the weights
-// of all taps.
+// Returns the Bracket (mapping of a sum to [0, 1]) for taps whose weights are the same at all blur radii. `taps` holds
+// one weight per tap.
 Bracket bracketOfSum(const std::vector<double>& taps) {
     const double offset = std::ranges::min(taps);
     return {offset, std::reduce(taps.begin(), taps.end()) / static_cast<double>(taps.size()) - offset};
 }
 
-// Returns the Bracket (mapping of a sum to [0, 1]) for taps whose number and positions depend on the radius. Only the
-// range of the tap weights is known: from the min to the max of `taps`.
+// Returns the Bracket (mapping of a sum to [0, 1]) for taps whose number and positions depend on the blur radius. The
+// mapping assumes only that each weight lies between the min and the max of `taps`.
 Bracket bracketOfRange(const std::vector<double>& taps) {
     const auto [min, greatest] = std::ranges::minmax(taps);
     return {min, greatest - min};

@@ -1,9 +1,9 @@
 #pragma once
 // Blurs an image by a disk of per-pixel radius, with separable complex kernels (circular_kernel.h).
 //
-// The image, a "field", has radiance times a weight in RGB and the weight in alpha. Rows and then columns are filtered
-// with the radius of the output pixel. Taps are normalised in each pass, so a constant image stays constant for any
-// radii.
+// The image, a "field", has a weight (such as coverage) in alpha, and in RGB the radiance times this weight. Rows and
+// then columns are filtered with the radius of the output pixel. Taps are normalised in each pass, so a constant image
+// stays constant for any radii.
 
 #include <cstdint>
 #include <filesystem>
@@ -77,7 +77,9 @@ private:
     std::vector<Group> groups_;
     Program direct_;
     Program reduce_, reduceColor_;
-    std::vector<GlTexture> brightest_;  // max radiance and max weight of tiles of 8², 64², … px; the last is one pixel
+    // Max radiance and max weight of each tile of 8 × 8, 64 × 64, … px, one texture per tile size. The last texture has
+    // one texel.
+    std::vector<GlTexture> brightest_;
     std::vector<GlTexture> sums_;
     Target sumTarget_;
     GlTexture result_;

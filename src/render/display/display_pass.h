@@ -58,8 +58,8 @@ public:
     // Returns the output of the latest draw(): display values as rgba8, row 0 at the bottom. Needs at least one draw().
     [[nodiscard]] const GlTexture& texture() const { return texture_; }
 
-    // Returns the PSNR in dB of two images of equal size, from display values at EV 0, as compareImages does; +∞ for
-    // equal images. Waits for the GPU, so it is too slow for every frame.
+    // Returns the PSNR in dB of two images of equal size; +∞ for equal images. As in compareImages, it is computed from
+    // display values at EV 0. Waits for the GPU, so it is too slow for every frame.
     [[nodiscard]] double psnr(const GlTexture& first, const GlTexture& second);
 
 private:

@@ -6,7 +6,8 @@
 
 namespace defocus::engine {
 
-// Returns a texture of map(t), t from 0 (left) to 1 (right): 256 x 1 texels, linear RGBA.
+// Returns a texture of 256 x 1 texels (linear RGBA) with the colours map(t), from t = 0 on the left to t = 1 on the
+// right.
 GlTexture colourMapTexture(glm::vec3 (*map)(float));
 
 }  // namespace defocus::engine

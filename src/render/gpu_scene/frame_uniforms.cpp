@@ -49,8 +49,8 @@ static_assert(sizeof(GpuFrame) <= everyDriversBlock && sizeof(GpuLighting) <= ev
 GpuLight gpuLight(const PlacedLight& placed) {
     const Light& light = placed.light;
     const glm::vec3 direction(glm::normalize(placed.direction));
-    // A spot light's cone attenuates by the square of a linear ramp between the cosines of its outer and inner angles
-    // (KHR_lights_punctual). The shader computes the square.
+    // The attenuation by a spot light's cone is the square of a ramp that is linear in the cosine of the angle: 0 at
+    // the outer and 1 at the inner cone angle (KHR_lights_punctual). The shader computes the square.
     const float inner = std::cos(light.innerConeAngle);
     const float outer = std::cos(light.outerConeAngle);
     const float scale = 1.0f / std::max(inner - outer, 1e-4f);
@@ -94,7 +94,8 @@ bool staysLitAlike(const World& world) {
     return world.lights.size() <= maxConstantLights && (world.scene->clips.empty() || world.pose.lights.empty());
 }
 
-// Returns whether all values are finite. Values from a file may be NaN or infinite, for which GLSL has no literals.
+// Returns whether all values are finite. Values from a file may be NaN or infinite. Shaders cannot contain such
+// lighting as constants, because GLSL has no literals for it.
 bool isFinite(const GpuLighting& block) {
     const auto finite = [](const glm::vec4& v) { return std::isfinite(v.x + v.y + v.z + v.w); };
     const auto finiteLight = [&](const GpuLight& light) {
@@ -219,10 +220,11 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     for (const SampleMoment& moment : plan.moments) moments.emplace_back(moment.moment, moment.fraction, moment.time);
     moments_ = moments.empty() ? Buffer() : Buffer::of(std::span<const glm::vec3>(moments));
 
-    // Compute the sky's offset per lens sample, in units of the image plane at distance 1. The circle of confusion C at
-    // depth w is a + b·w without blur controls. Then C/w = b at infinity, and lens point and jitter shift the sky by a
-    // fixed offset. With blur controls, C/w depends on the pixel, and the shader multiplies it by the lens point. The
-    // buffer is padded to complete blocks, which are bound one at a time.
+    // Compute by how much each lens sample shifts the sky, in units of the image plane at distance 1. A point at depth
+    // w is shifted by the lens point times C/w, where C is the clip-space circle of confusion. Without blur controls, C
+    // = a + b·w. Then C/w = b at infinity, and lens point and jitter shift the sky by a fixed offset. With blur
+    // controls, C/w depends on the pixel, and the shader multiplies it by the lens point. The buffer is padded to
+    // complete blocks of samples, which are bound one at a time.
     const glm::vec2 imagePlane(plan.tanHalfHorizontal, plan.tanHalfHorizontal * plan.view.height / plan.view.width);
     const double dioptres = plan.coc.chromatic > 0 ? plan.view.lens.axialChromaticAberration : 0;
     std::vector<float> bandShifts(samples.size());
@@ -250,9 +252,9 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     waves_ = Buffer::of(std::span<const glm::vec4>(waves));
 }
 
-// Uploads SampleBlock (shaders/accumulation/layer_light.glsl) for each block of samples. Each sample has the colour
-// weights of its wavelength, and the change that its wavelength causes in b. Here a + b·w is the circle of confusion at
-// depth w. The lens points of all samples follow.
+// Uploads SampleBlock (shaders/accumulation/layer_light.glsl) for each block of samples. It holds, for each sample, the
+// colour weights of the sample's wavelength and the resulting change of b, where a + b·w is the clip-space circle of
+// confusion at depth w. The lens points of the block's samples follow.
 void FrameUniforms::uploadBands(const FramePlan& plan, const std::vector<float>& bandShifts) {
     bandShifts_ = Buffer();
     sampleBands_ = Buffer();

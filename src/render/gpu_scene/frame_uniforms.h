@@ -35,11 +35,11 @@ public:
     // Returns one SampleMoment (time within the exposure) per lens sample, as a vec3: index of a shutter time,
     // interpolation weight of the next shutter time, and time. Empty if nothing moves.
     [[nodiscard]] const Buffer& moments() const { return moments_; }
-    // Returns one float per lens sample: the change that the sample's wavelength causes in b, where the circle of
-    // confusion at depth w is a + b·w. Empty without chromatic aberration.
+    // Returns one float per lens sample: the change that the sample's wavelength causes in b, where a + b·w is the
+    // clip-space circle of confusion at depth w. Empty without chromatic aberration.
     [[nodiscard]] const Buffer& bandShifts() const { return bandShifts_; }
-    // Returns whether the weight of a sample differs between pixels. If so, the sum's alpha counts the samples of a
-    // pixel.
+    // Returns whether the number of samples differs between pixels, because the lens barrel hides lens points (cat's
+    // eye). If so, the sum's alpha is the pixel's number of samples.
     [[nodiscard]] bool countsInAlpha() const { return countsInAlpha_; }
     // Returns whether surfaces have blur modifiers (factor and offset of their blur).
     [[nodiscard]] bool usesOwnBlur() const { return usesOwnBlur_; }
@@ -59,10 +59,13 @@ private:
     Buffer lightingBlock_;  // empty if shaders contain the lighting as constants
     Buffer samples_;        // GpuSample of each lens sample
     Buffer moments_;
-    Buffer waves_;         // WaveBlock (shaders/include/shading.glsl) of each batch of samples
-    Buffer sampleShifts_;  // one vec4 per lens sample: offset of the sky in the image
+    Buffer waves_;  // WaveBlock (shaders/include/shading.glsl) of each batch of samples
+    // One vec4 per lens sample: by how much the sample shifts the sky, on the image plane at distance 1.
+    Buffer sampleShifts_;
     Buffer bandShifts_;
-    Buffer sampleBands_;  // SampleBlock (shaders/accumulation/layer_light.glsl) of each block of samples
+    // Wavelength weights and lens points of the samples: SampleBlock (shaders/accumulation/layer_light.glsl), once per
+    // block of samples.
+    Buffer sampleBands_;
     bool countsInAlpha_ = false;
     bool usesOwnBlur_ = false;
     std::uint32_t layerCount_ = 1;

@@ -64,7 +64,7 @@ std::vector<glm::vec3> relative(const std::vector<glm::vec3>& positions, const g
 // Numbers of vertices and indices of meshes.
 struct Extent {
     std::size_t ofLevels = 0;  // number of vertices in per-level buffers
-    std::size_t ofMeshes = 0;  // number of vertices in buffers that all levels share
+    std::size_t ofMeshes = 0;  // number of vertices in the buffers shared by all levels
     std::size_t indices = 0;
 };
 

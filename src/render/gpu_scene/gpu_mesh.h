@@ -39,7 +39,7 @@ struct GpuMorphs {
     TexelBuffer texels;  // RGB32F; per target: displacements of positions, then normals, then tangents
     bool normals = false;
     bool tangents = false;
-    std::size_t vertexCount = 0;  // number of texels per attribute of a morph target
+    std::size_t vertexCount = 0;  // number of vertices, which is the number of texels per attribute of a morph target
     [[nodiscard]] int attributesPerTarget() const { return 1 + (normals ? 1 : 0) + (tangents ? 1 : 0); }
     explicit operator bool() const { return static_cast<bool>(texels); }
 };
@@ -48,7 +48,7 @@ struct GpuMesh {
     glm::dvec3 origin{0.0};  // object units; positions in the buffer are relative to this point
     AttributeSet attributes = 0;
     std::shared_ptr<const MeshBuffers> buffers;
-    std::size_t firstVertex = 0;  // index of the first vertex in buffers that all levels share
+    std::size_t firstVertex = 0;  // index of the first vertex in the buffers shared by all levels
     GpuMorphs morphs;
     std::vector<GpuLevel> levels;
     [[nodiscard]] bool has(AttributeLocation location) const { return (attributes & only(location)) != 0; }
@@ -70,7 +70,7 @@ void uploadMeshes(const World& world, std::span<const MeshUpload> uploads, std::
 glm::dvec3 meshOrigin(const Bounds& bounds);
 
 // Returns, for each vertex, the range of the vertex colours of all triangles at this vertex; `indices` is a triangle
-// list. Each channel is 256 · max + min, with max and min in 1/255, rounded outwards.
+// list. Each channel is 256 · max + min. Both are in units of 1/255, with max rounded up and min rounded down.
 std::vector<glm::u16vec4> cornerColorRanges(const std::vector<glm::vec4>& colors,
                                             std::span<const std::uint32_t> indices);
 

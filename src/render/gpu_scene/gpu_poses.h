@@ -11,8 +11,10 @@
 namespace defocus::engine {
 
 struct GpuPoses {
-    TexelBuffer texels;     // RGBA32F; empty if the object has a single matrix
-    glm::ivec4 layout{0};   // counts that describe the texels; see Object::posing in shaders/include/frame.glsl
+    TexelBuffer texels;  // RGBA32F; empty if the object has a single matrix
+    // Numbers of texels per pose, of joints, of active morph targets, and of texels per attribute of a morph target;
+    // see Object::posing in shaders/include/frame.glsl.
+    glm::ivec4 layout{0};
     std::size_t count = 1;  // number of poses
     bool skinned = false;
     bool moving = false;

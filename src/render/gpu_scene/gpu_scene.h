@@ -46,8 +46,8 @@ public:
 
 private:
     void addMissing(std::size_t mesh, const std::vector<bool>& used, std::vector<MeshUpload>& missing);
-    // Returns a texture, or nullptr if it is not used. With a cutoff > 0, the alpha of a texel in mip levels ≥ 1 is the
-    // fraction of its full-size texels whose alpha is at least the cutoff (cut_out.h).
+    // Returns a texture, or nullptr if it is not used. With a cutoff > 0, the alpha of a texel in mip levels ≥ 1 is a
+    // fraction: how many of the full-size texels that it covers have at least the cutoff as alpha (cut_out.h).
     const GlTexture* texture(const TextureUse& use, bool srgb, float cutoff = 0);
     // Uploads the textures that a material uses, if they are missing, and returns them.
     GpuMaterialTextures texturesOf(const Material& material);

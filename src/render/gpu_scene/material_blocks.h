@@ -35,7 +35,7 @@ struct GpuTransformedMaterial {
     std::array<glm::vec4, 2 * materialTextureCount> uvRows;
 };
 
-// Returns whether a texture is read at coordinates other than UV set 0.
+// Returns whether a texture is read at transformed coordinates, or at coordinates of a UV set other than 0.
 bool transformsUv(const TextureUse& use);
 
 class MaterialBlocks {

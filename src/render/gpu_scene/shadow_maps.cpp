@@ -33,8 +33,8 @@ bool tintsLight(const Scene& scene, const FramePlan& plan) {
     });
 }
 
-// Returns defines with the first shadow map and the number of maps of each light; the environment's entries are the
-// last.
+// Returns defines that give, for each light, the index of its first shadow map and its number of maps. The last entries
+// are those of the environment.
 ShaderDefines mapDefines(const FramePlan& plan, std::size_t lights) {
     std::vector<int> first(lights + 1, -1);
     std::vector<int> faces(lights + 1, 0);
@@ -118,7 +118,7 @@ void ShadowMaps::prepare(const FramePlan& plan, const FrameUniforms& frame) {
     if (!maps_ || maps_.info().width != plan.shadows.size || maps_.info().layers != layers ||
         static_cast<bool>(tintedMaps_) != tinted) {
         target_ = Target();
-        maps_ = GlTexture();  // free the old maps first: memory may not hold old and new maps
+        maps_ = GlTexture();  // free the old maps first: there may not be enough memory for both
         tintedMaps_ = GlTexture();
         const auto mapsOf = [&](TextureFormat format) {
             return GlTexture(

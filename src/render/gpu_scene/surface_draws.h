@@ -39,8 +39,8 @@ std::vector<IndexRun> indexRuns(const World& world, const ObjectPlan& object, co
 
 enum class SurfaceLook {
     flat,         // no lighting, and no textures except for the alpha test
-    caster,       // like `flat`, but transmitting surfaces output the fraction of light that passes
-    lit,          // full shading; transmitting surfaces are opaque
+    caster,       // for shadow maps: like `flat`, but transmitting surfaces output the fraction of light let through
+    lit,          // full shading; transmitting surfaces are drawn as if they were opaque
     seenThrough,  // like `lit`, but the background is visible through transmitting surfaces
 };
 

@@ -267,7 +267,7 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
         bindVertices(item, indices);
     if (otherProgram || bound_.sample != sample) {
         frame_->bindWave(sample);
-        if (shadows_ != nullptr) shadows_->bind(sample);  // bind() also sets a uniform of the current program
+        if (shadows_ != nullptr) shadows_->bind(sample);  // also for a new program: bind() sets one of its uniforms
         bound_.sample = sample;
     }
     if (otherProgram || bound_.object != item.object) {
@@ -387,7 +387,9 @@ std::uint64_t SurfacePass::drawOpaqueVisible(std::uint32_t first, std::uint32_t 
 // Draws the triangles that remain after the occlusion test. Returns the number of drawn triangles, summed over samples.
 std::uint64_t SurfacePass::drawRemaining(const RemainingDraws& remaining, std::uint32_t first, std::uint32_t count) {
     const Buffer indices = Buffer::of(std::span<const std::uint32_t>(remaining.indices));
-    bound_ = {};  // `indices` may have the OpenGL name of a deleted buffer that was bound
+    // Forget the bound buffers. `indices` may have the OpenGL name of a deleted buffer, so a comparison of names would
+    // wrongly skip a bind.
+    bound_ = {};
     std::uint64_t triangles = 0;
     for (const RemainingDraw& part : remaining.draws) {
         const SampleSpan samples = samplesOf(part, first, count);
@@ -492,7 +494,7 @@ void SurfacePass::drawSky(std::uint32_t first, std::uint32_t count) {
     sky_.use();
     glDisable(GL_CULL_FACE);
     glDepthMask(GL_FALSE);
-    glDepthFunc(GL_GEQUAL);  // the depth test passes only where nothing was drawn
+    glDepthFunc(GL_GEQUAL);  // depth is reversed: the sky, at depth 0, passes only where nothing was drawn
     glDrawArraysInstancedBaseInstance(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(count), first);
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 // Draws the surfaces of a FramePlan with one shader program per set of material features. A primitive needs at most two
 // instanced draws per batch (wave) of samples, because its level of detail changes at most once within a batch. Two
-// more draws are needed if the sample at the change draws both levels in different pixels. A level with culled clusters
-// needs one draw per index range.
+// more draws are needed if the sample at which the level changes draws both levels, each in some of the pixels. A level
+// with culled clusters needs one draw per index range.
 
 #include <array>
 #include <map>
@@ -26,10 +26,10 @@ struct SurfacePassInfo {
     // true: surfaces with BlendRun::stochastic are drawn with stochastic alpha; false: they are sorted and blended.
     bool stochasticAlpha = false;
     bool readsOwnBlur = false;       // true: the fragment shader reads the blur modifiers of surfaces
-    bool readsPosition = false;      // true: the fragment shader reads the positions of surfaces even without shadows
+    bool readsPosition = false;      // true: the fragment shader reads surface positions even without shadows
     bool vertexShaderLayers = true;  // false: geometry shaders select the layer
     bool writesLayers = false;       // true: the fragment shader is accumulation/layers.frag
-    bool writesNumbers = false;      // true: the fragment shader reads the material's index
+    bool writesNumbers = false;      // true: the fragment shader writes the indices of objects and materials
     std::filesystem::path shaderFolder;
 };
 
@@ -52,12 +52,12 @@ public:
     [[nodiscard]] std::vector<OccludableDraw> opaqueDraws() const;
     // Draws the same image as drawOpaque, but skips hidden triangles if there are enough of them. `occlusion` must have
     // been prepared with opaqueDraws(). Layer `layer` of `depths` is the depth buffer of sample `first`, and the next
-    // layers are the depth buffers of the next samples. The batch (wave) with the first sample of a block of 64 sets
-    // `block`, the classification of the block's triangles as visible or hidden; other batches wait for the
-    // classification. Returns the number of skipped triangles.
+    // layers are the depth buffers of the next samples. Triangles are classified as visible or hidden once per block of
+    // 64 samples. The batch (wave) with the block's first sample sets `block` to this classification; other batches
+    // wait for it. Returns the number of skipped triangles.
     std::uint64_t drawOpaqueVisible(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
                                     std::uint32_t layer, const Occlusion& occlusion, WaveVisibility& block);
-    // Draws sorted alpha-blended and transmitting surfaces, in FramePlan::blendOrder. `colors` is the render
+    // Draws alpha-blended and transmitting surfaces, in the order of FramePlan::blendOrder. `colors` is the render
     // target and already contains the environment. A transmitting surface shows a copy of `colors` made before its
     // object is drawn. The number of copies is limited: with more transmitting objects, only the nearest are visible
     // through each other. `objects` must contain all transmitting objects or none.
@@ -69,7 +69,7 @@ public:
     [[nodiscard]] bool hasTranslucent() const { return !translucent_.empty(); }
     // Draws alpha-blended and transmitting surfaces into depth and all colour attachments except the first.
     void drawTranslucentDepth(std::uint32_t first, std::uint32_t count, const ObjectSet& objects = {});
-    // Draws all surfaces as if they were opaque.
+    // Draws all surfaces of samples [first, first + count) as if they were opaque.
     void drawSurfaces(std::uint32_t first, std::uint32_t count);
     // Draws front and back faces of all surfaces into shadow map `slot` of each sample. `tinted`: the maps have a depth
     // per colour channel.
@@ -84,7 +84,7 @@ public:
 
 private:
     enum class ScreenDoor {
-        open,         // every pixel shows this level of detail
+        open,         // the level of detail is drawn in all pixels
         coarseShare,  // for a sample that mixes two levels: draws the pixels that show the coarser level
         fineShare,    // for a sample that mixes two levels: draws the pixels that show the finer level
     };
@@ -122,7 +122,8 @@ private:
         std::optional<std::size_t> materialSlot;
     };
 
-    // Programs that share the defines of their pass, keyed by the defines of their draws.
+    // Shader programs of one pass. All have the defines of the pass; the key stands for the additional defines of a
+    // draw.
     using Programs = std::map<std::string, Program>;
 
     void uploadMaterials();
@@ -157,7 +158,7 @@ private:
     std::map<std::string, Programs> programs_;  // all programs, keyed by the defines of their pass
     std::array<ShaderDefines, 2>
         passDefines_;  // defines of this frame; index 0: with a geometry shader that selects the layer; 1: without
-    std::array<Programs*, 2> passPrograms_{};  // programs compiled with the defines at the same index of passDefines_
+    std::array<Programs*, 2> passPrograms_{};  // entry i: the programs compiled with passDefines_[i]
     Bound bound_;
     Program sky_;
     ShaderDefines skyDefines_;

@@ -36,8 +36,8 @@ public:
     // Needs a current OpenGL context.
     DepthLayers(GpuScene& scene, const DepthLayersInfo& info);
 
-    // Prepares the passes for the plan `pinholes`, made by widened(). `frame` must hold the uniforms of `pinholes`,
-    // uploaded with a layerCount of 1, and must exist until the last peel().
+    // Prepares the passes for `pinholes`, a plan of pinhole images made by widened(). `frame` must hold the uniforms of
+    // this plan, uploaded for a single layer (layerCount 1), and must exist until the last peel().
     void prepare(const FramePlan& pinholes, const FrameUniforms& frame);
     // Draws the layers of the plan's sample `index`, up to the first empty layer.
     void peel(std::uint32_t index);
@@ -51,7 +51,8 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    // Draws into a layer the nearest surfaces behind the depths in front_. Returns whether any pixel was drawn.
+    // Draws into a layer, for each pixel, the nearest surface behind the depth in the texture front_. Returns whether
+    // any pixel was drawn.
     bool peelLayer(std::uint32_t index, std::uint32_t layer);
 
     DepthLayersInfo info_;

@@ -130,7 +130,7 @@ private:
                                     .blended = plan_.usesBlending,
                                     .shaderFolder = options_.shaderFolder};
         if (!layers_ || !(layers_->info() == depth)) {
-            layers_.reset();  // free the old layers first: memory might not suffice for old and new layers
+            layers_.reset();  // free the old layers first: there may not be enough memory for both
             layers_.emplace(scene_, depth);
         }
         const LensRaysInfo rays{.width = view.width,
@@ -200,7 +200,7 @@ private:
     FramePlan plan_;
     FramePlan pinholes_;  // pinhole images: one sample each, larger than the frame by borderOf() px on each side
     std::uint32_t pinholeCount_ = 1;
-    std::uint32_t run_ = 1;  // number of consecutive samples that read the same pinhole image; divides blockSamples
+    std::uint32_t run_ = 1;  // consecutive samples that read the same pinhole image; a divisor of blockSamples
     FrameUniforms pinholeFrame_, frame_;
     std::optional<DepthLayers> layers_;
     std::optional<LensRays> rays_;

@@ -47,7 +47,7 @@ public:
 private:
     LensRaysInfo info_;
     GlTexture extents_;  // per square of pixels: min and max blur of the surfaces in the layers
-    GlTexture reach_;    // per pixel: range of the blurs of the surfaces that its rays may hit
+    GlTexture reach_;    // per pixel: min and max blur of the surfaces that the pixel's rays may hit
     Program base_, extend_, bound_;
     Program trace_;
     ShaderDefines traceDefines_;

@@ -21,7 +21,7 @@ class ImageStack {
 public:
     static constexpr std::size_t maxImages = 64;
 
-    // Image that contributes to a mean, and its position.
+    // Image that contributes to a mean, and the corner of the rectangle that it contributes.
     struct Part {
         std::uint32_t image = 0;
         glm::ivec2 corner{0};  // pixel of this image that is added to the lower left pixel of the mean
@@ -36,8 +36,9 @@ public:
     void free();
     // Stores an image of the allocated size, rounded to half floats.
     void store(std::uint32_t image, const GlTexture& texture);
-    // Computes the mean of at least one image. The mean has `width` × `height` px. The rectangle of this size at
-    // Part::corner must lie within the image.
+    // Computes the mean of `parts`, of which there must be at least one. The mean has `width` × `height` px. Each part
+    // contributes a rectangle of this size, whose lower left pixel is Part::corner. It must lie within the part's
+    // image.
     void computeMean(std::span<const Part> parts, int width, int height);
 
     // Returns the latest mean, with row 0 at the bottom.
@@ -51,7 +52,7 @@ private:
 
     bool software_;
     GlTexture images_;               // all images; if OpenGL runs on the CPU, only the latest image
-    std::vector<HalfImage> halves_;  // all images if OpenGL runs on the CPU; row 0 at the bottom
+    std::vector<HalfImage> halves_;  // all images, row 0 at the bottom; empty unless OpenGL runs on the CPU
     std::vector<float> sums_;        // RGBA of the mean, if OpenGL runs on the CPU
     GlTexture mean_;
     Target meanTarget_;

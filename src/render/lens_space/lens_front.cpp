@@ -20,9 +20,9 @@ constexpr std::uint32_t maxSortedAtOnce = 65'536;
 constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // per vertex; see LightBlock of shade_vertices.comp
 constexpr std::size_t attributeBytes = 20 * sizeof(float);   // per vertex; output of shaders/lens_space/attributes.vert
 
-// Returns the end of the range of rays for which a level of an object is drawn. Ray i of each pixel sees the levels of
-// lens sample i. Two levels may share a sample: each is then drawn in some of its pixels. The rays of such a sample all
-// see the same level, the one that is drawn in more pixels.
+// Returns the end of the range of rays for which a level of an object is drawn. Ray i of each pixel sees the level that
+// the plan selects for lens sample i. If the plan divides a sample between two levels, each in some of the pixels, ray
+// i of all pixels sees the level with more pixels.
 std::uint32_t endOf(const ObjectPlan& object, const LevelDraw& level, bool coarse) {
     const std::uint32_t end = level.firstSample + level.sampleCount;
     const bool shared = boundarySample(object).has_value();
@@ -151,7 +151,7 @@ void LensFront::addLevel(std::uint32_t objectIndex, const LevelDraw& level, doub
     vertexCount_ += vertices.count;
 }
 
-// Assigns ranges of vertices and triangles to the small triangles into which triangles are divided. The new vertices
+// Assigns ranges of vertices and triangles to the small triangles that replace divided triangles. The new vertices
 // follow the vertices of all levels, and the small triangles follow the triangles that are not divided.
 void LensFront::addDivisions() {
     std::uint32_t bases = 0;
@@ -179,9 +179,9 @@ std::uint32_t LensFront::groupOf(int mesh, int material, std::uint32_t level) {
 }
 
 void LensFront::makeTriangles() {
-    // First convert the triangles that will be divided, for divided_.makeTriangles(). This also fills firstTriangles_,
-    // which holds the first triangle of each vertex. Clear it afterwards, because the frame contains only the small
-    // triangles that replace the divided triangles.
+    // First write the triangles that will be divided to bases_, the input of divided_.makeTriangles(). This also fills
+    // firstTriangles_, which holds the first triangle of each vertex. Clear firstTriangles_ afterwards, because small
+    // triangles replace these triangles in the frame.
     if (options_.lightsVertices) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, firstTriangles_.name());
     convertRuns(bases_, true);
     if (options_.lightsVertices) {
@@ -372,7 +372,7 @@ void LensFront::binInto(std::uint32_t firstTile, std::uint32_t endTile) {
 void LensFront::sort(const TileBand& band) {
     sortProgram_.use();
     bindTriangles();
-    // Buffer of the rays. It is restored below, because the depths temporarily use the same binding point.
+    // Save the ray buffer's binding, to restore it below: the depths temporarily use the same binding point.
     GLint rays = 0;
     glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 6, &rays);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, depths_.name());

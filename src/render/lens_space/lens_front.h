@@ -35,12 +35,12 @@ struct TileBand {
 
 struct BinStatistics {
     std::uint32_t tiles = 0;
-    std::uint64_t entries = 0;          // number of list entries of all tiles
-    std::uint32_t largestTile = 0;      // max number of list entries of a tile
+    std::uint64_t entries = 0;          // number of entries in the triangle lists of all tiles
+    std::uint32_t largestTile = 0;      // max number of entries in a tile's triangle list
     std::uint64_t bytes = 0;            // bytes of the buffer with the lists of one band of tiles
-    std::vector<std::uint32_t> counts;  // number of list entries of each tile
-    // Returns the number of list entries after the first `size` entries of each tile, summed over all tiles; 0 for size
-    // 0.
+    std::vector<std::uint32_t> counts;  // number of entries in each tile's triangle list
+    // Returns the number of entries after the first `size` entries of each tile's triangle list, summed over all tiles;
+    // 0 for size 0.
     [[nodiscard]] std::uint64_t entriesBeyond(std::uint32_t size) const;
 };
 
@@ -75,7 +75,7 @@ public:
     void bindVertexLight(GLuint point = 3) const;
     // Binds the inputs and outputs of shaders/lens_space/shade_vertices.comp.
     void bindVertices() const;
-    // Binds the triangles, draws and attributes for shaders/lens_space/let_through.comp.
+    // Binds the buffers of triangles, draw records and attributes for shaders/lens_space/let_through.comp.
     void bindTests() const;
 
     [[nodiscard]] const std::vector<TileBand>& bands() const { return bands_; }
@@ -153,8 +153,8 @@ private:
     std::uint32_t triangleCount_ = 0;
     std::uint32_t parts_ = 1;
     Buffer clips_, clipsAtEnd_, attributes_, triangles_, draws_;
-    Buffer bases_;                         // triangles that small triangles replace (DividedTriangles)
-    Buffer ownBlurs_;                      // blur modifiers of the vertices; used only to divide triangles
+    Buffer bases_;                         // original triangles that small triangles replace, see DividedTriangles
+    Buffer ownBlurs_;                      // blur modifiers of the vertices; used only if triangles are divided
     Buffer firstTriangles_, vertexLight_;  // used only with per-vertex lighting
     Buffer depths_;                        // min depth of each triangle, the sort key of the tiles' lists
     Buffer tileCounts_, tileEnds_, entries_;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t maxVariants = 64;
 constexpr std::uint32_t minVariants = 4;
-constexpr std::uint32_t maxRays = 1u << 18;  // max number of rays in all variants (sets of rays) together
+constexpr std::uint32_t maxRays = 1u << 18;  // max total number of rays in all variants (sets of rays)
 
 float coordinate(const LensSample& sample, int axis) {
     return axis == 0 ? sample.lens.x : axis == 1 ? sample.lens.y : sample.time;

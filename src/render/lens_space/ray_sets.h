@@ -25,13 +25,13 @@ struct GpuRay {
 struct RaySets {
     std::uint32_t rays = 0;      // rays per pixel
     std::uint32_t variants = 1;  // number of sets, a power of two, at most 64
-    std::vector<GpuRay> table;   // rays of all sets; ray i of set s has the index i · variants + s
+    std::vector<GpuRay> table;   // rays of all sets; ray i of set s has the index i · (number of sets) + s
     // Per ray, bounds of its lens points in all sets: min u, min k·v, max u, max k·v, where k = image width / height.
     std::vector<glm::vec4> lensBounds;
 };
 
-// Returns the number of different sets of rays (variants), for sets of `rays` rays: the largest power of two with at
-// most 262,144 rays in total, but at least 4 and at most 64.
+// Returns the number of variants, different sets of `rays` rays each: a power of two from 4 to 64. It is the largest
+// with at most 262,144 rays in all sets together, or 4 if there is none.
 std::uint32_t variantCount(std::uint32_t rays);
 
 // Returns the index of the first ray in part `part` of an exposure with `parts` parts of equal length, for `total` rays

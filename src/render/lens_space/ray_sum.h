@@ -8,8 +8,8 @@ namespace defocus::engine {
 
 class RaySum {
 public:
-    // `addShader`: path of the shader that adds the records (ray hits). Throws Error if the sum exceeds the buffer size
-    // that shaders can read.
+    // `addShader`: path of the shader that adds the records (ray hits). Throws Error if the buffer of the sums would be
+    // larger than shaders can read.
     RaySum(int width, int height, const char* addShader, const std::filesystem::path& shaderFolder);
 
     void reset() { rays_ = 0; }

@@ -85,7 +85,7 @@ void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint
         dispatchOver(count);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     };
-    // Buffer of the rays. It is restored below, because the dispatches temporarily use the same binding point.
+    // Save the ray buffer's binding, to restore it below: the dispatches temporarily use the same binding point.
     GLint rays = 0;
     glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 6, &rays);
     overRecords(countProgram_);

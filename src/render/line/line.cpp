@@ -21,7 +21,8 @@ constexpr std::size_t jobRanges = 2;  // elements of `ranges` (kernel.glsl) per 
 // Mesa's llvmpipe ends the loops of a shader invocation after a total of 65,535 iterations. Kernels may do up to twice
 // softwareRounds iterations before they defer the rest to the next dispatch.
 constexpr std::uint32_t softwareRounds = 30'000;
-constexpr std::size_t stateBytes = 32u << 20;   // approximate bytes for the states of jobs that take several dispatches
+// Approximate size in bytes of the saved states of jobs (one line in one tile each) that take several dispatches.
+constexpr std::size_t stateBytes = 32u << 20;
 constexpr std::uint64_t expectedRecords = 6;    // initial buffer size in records (ray hits) per line
 constexpr std::uint32_t maxShadingPoints = 16;  // max shading points per visible interval of a line
 constexpr std::uint32_t firstCapacity = 48;     // initial max number of intervals per line, for the exact kernel
@@ -168,7 +169,7 @@ private:
     struct Places {  // offsets in `ranges` of shaders/line/kernel.glsl
         std::uint64_t jobs = 0;
         std::uint64_t states = 0;
-        std::uint64_t slots = 0;  // number of jobs whose states can be saved at a time
+        std::uint64_t slots = 0;  // number of unfinished jobs (one line in one tile) whose states fit into the buffer
     };
     struct Totals {
         std::uint64_t records = 0;
@@ -191,17 +192,19 @@ private:
         program_ = Program({{exact_ ? "line/exact.comp" : "line/published.comp"}, all, shaderFolder_});
     }
 
-    // Returns the size of the state that a shader invocation saves between dispatches, in elements of `ranges`: 2 for
-    // the bit masks `sides` (shaders/line/visible.glsl) of visible triangles whose segments are not yet added, plus
-    // stateSize in shaders/line/envelope.glsl (exact) or shaders/line/segment_buffer.glsl (published).
+    // Returns the size of the state that a shader invocation saves between dispatches, in elements of `ranges`
+    // (shaders/line/kernel.glsl). Two elements are the bit masks `sides` (visible.glsl) of visible triangles whose
+    // segments are not yet added. The others are stateSize in envelope.glsl (exact kernel) or segment_buffer.glsl
+    // (published kernel).
     [[nodiscard]] std::size_t stateRanges() const {
         return 2 + (exact_ ? 2 + 4 * std::size_t{capacity_} : 3 + 3 * std::size_t{segments_});
     }
 
     // Finds the visible intervals on the lines of batch `wave` in all tiles.
     Counters draw(LensFront& front, const RayWave& wave) {
-        // Allocate one element of `ranges` per line. If jobs may be deferred, also allocate space for all jobs, and for
-        // as many saved states as fit into stateBytes.
+        // Allocate one element of `ranges` (shaders/line/kernel.glsl) per line. If jobs (one line in one tile each) may
+        // be deferred to later dispatches, also allocate space for all jobs, and for as many saved states of unfinished
+        // jobs as fit into stateBytes.
         const std::uint64_t rays = pixelCount(imageSize_.x, imageSize_.y) * wave.count;
         const std::size_t jobs = maxRounds_ > 0 ? std::size_t{front.statistics().tiles} * wave.count : 0;
         const std::size_t slotBytes = stateRanges() * rangeBytes * lineTile * lineTile;

@@ -39,7 +39,8 @@ double angleOfShare(const std::vector<double>& sums, double share) {
     return std::numbers::pi * (static_cast<double>(found - 1 - sums.begin()) + place) / angleSteps;
 }
 
-// Position of a line in the pixel, and position of the shading point in a segment.
+// For one line of a wagon wheel: the line's position in the pixel, and the position of the shading point in each
+// visible segment of the line, as a fraction of the segment.
 struct WheelPoint {
     glm::dvec2 pixel{0};  // position in the pixel, [0, 1)
     double shading = 0;

@@ -3,8 +3,9 @@
 // i has the angle π·(i + r)/n. Each variant (ray_sets.h) has its own rotation r of the wheel and its own positions of
 // the lines in the pixel. Equal lines in all pixels would be visible as strobing, an open problem in the paper.
 //
-// The lines' positions are well distributed over the pixel, because only they antialias surfaces in focus. Positions
-// and angles are also well distributed jointly: lines with similar angles have positions in all parts of the pixel.
+// The lines' positions are well distributed over the pixel, because surfaces in focus are antialiased by the positions
+// alone. Positions and angles are also well distributed jointly: lines with similar angles have positions in all parts
+// of the pixel.
 //
 // Angles are spaced so that equal amounts of the aperture's light pass between them. Thus all lines have equal weight
 // for any aperture that is not given by an image.
@@ -21,8 +22,9 @@ struct LineSets {
     // is the fraction of the line's light between the centre and the vector's end. values.z is the position of the
     // shading point within a visible segment of the line, [0, 1).
     RaySets sets;
-    // Per line: xy is the unit vector in (u, v) perpendicular to the mean of the line's variants (ray_sets.h); z is the
-    // max distance of a variant from that mean line.
+    // Per line: xy is the unit vector in (u, v) perpendicular to the mean direction of the line's variants, which are
+    // its versions in different pixels (ray_sets.h). z is the max distance of a variant from the line in the mean
+    // direction.
     std::vector<glm::vec4> strips;
 };
 

@@ -11,9 +11,9 @@ namespace defocus::engine {
 
 namespace {
 
-// Occlusion culling is off below these numbers of triangles, because the test would cost more than it saves.
-constexpr std::uint64_t minTriangles = 50'000;  // min triangles of one sample
-constexpr std::uint64_t minInAll = 500'000;     // min triangles summed over all samples after the first
+// Occlusion culling is off below either of these numbers of triangles, because the test would cost more than it saves.
+constexpr std::uint64_t minTriangles = 50'000;  // triangles that one sample draws
+constexpr std::uint64_t minInAll = 500'000;     // triangles that all samples except the first draw together
 constexpr double maxShown = 0.8;                // max fraction of visible triangles; above it, drawing all is faster
 
 std::uint64_t trianglesOfSample(const FramePlan& plan) {

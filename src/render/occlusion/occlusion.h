@@ -6,8 +6,8 @@
 // index_pieces.h) is classified as visible or hidden. In each later sample, the pieces classified as visible are drawn
 // first. The hidden pieces are then tested against the sample's depth buffer, and drawn if they may be visible, so no
 // visible triangle is lost. Source: Greene, Kass and Miller 1993, Hierarchical Z-Buffer Visibility, where the previous
-// frame takes the role of the first sample. Where two surfaces have equal depth, the visible surface may differ from
-// that without culling, because the order of draws differs.
+// frame takes the role of the first sample. Where two surfaces have equal depth, culling may change which of them is
+// visible, because it changes the order of draws.
 //
 // Several threads may draw the batches (waves) of samples of a frame. The thread that draws the first sample of a block
 // classifies the pieces, and the threads that draw the block's other batches wait for the classification.
@@ -38,7 +38,7 @@ struct OccludableDraw {
 };
 
 struct RemainingDraw {
-    std::size_t draw = 0;  // index into the draws of Occlusion::prepare
+    std::size_t draw = 0;  // index into the draws passed to Occlusion::prepare
     std::uint32_t firstSample = 0;
     std::uint32_t sampleCount = 0;
     std::uint32_t firstIndex = 0;  // offset into RemainingDraws::indices
@@ -55,18 +55,20 @@ struct RemainingDraws {
 // Classification of all pieces (groups of neighbouring triangles) as visible or hidden in the first sample of a block
 // of 64 lens samples.
 struct PieceVisibility {
-    std::vector<std::vector<bool>> shown;  // per draw of prepare(): whether each piece (group of triangles) is visible
-    RemainingDraws draws;                  // draws of the visible pieces, and of objects that cannot be tested
-    bool hidesMuch = false;                // whether enough triangles are hidden for culling to be faster
+    // For each draw passed to Occlusion::prepare: whether each of its pieces (groups of triangles) is visible.
+    std::vector<std::vector<bool>> shown;
+    RemainingDraws draws;    // draws of the visible pieces, and of objects that cannot be tested
+    bool hidesMuch = false;  // whether enough triangles are hidden for culling to save time
 };
 
 // Gives a batch (wave) access to its block's PieceVisibility, the classification of triangles as visible or hidden. The
-// batch with the block's first sample makes the classification, and all batches of the block use it. If that batch
-// cannot make the classification, because of an error or because the frame is abandoned, it destroys `made`, and the
-// waiting batches throw std::future_error.
+// batch with the block's first sample makes the classification and passes it to the promise `made`; all batches of the
+// block use it. If that batch fails or is abandoned, it destroys the promise, and the waiting batches throw
+// std::future_error.
 struct WaveVisibility {
     using Value = std::shared_ptr<const PieceVisibility>;
-    // Has a value only in the batch with the block's first sample, until this batch has classified the triangles.
+    // Promise of the classification. Set only in the batch with the block's first sample, until make() fulfils the
+    // promise.
     std::optional<std::promise<Value>> made;
     std::shared_future<Value> shared;
 
@@ -81,8 +83,8 @@ public:
     // `world` must outlive this object.
     explicit Occlusion(const World& world) : world_(&world) {}
 
-    // Prepares culling for `plan`, which must exist until the last draw. Nothing is culled if there are few triangles,
-    // or if the lens or motion makes the test impossible.
+    // Prepares culling for `plan`, which must outlive all draws. Nothing is culled if there are few triangles, or if
+    // the lens or motion makes the test impossible.
     void prepare(const FramePlan& plan, const std::vector<OccludableDraw>& draws);
     // Returns whether hidden triangles are culled. If so, the first sample of each block of 64 samples must be drawn
     // with all triangles, because its depth buffer is used to classify triangles as visible or hidden.
@@ -90,8 +92,8 @@ public:
 
     // Any number of threads may call the functions below. Each thread needs a current OpenGL context.
 
-    // Classifies the pieces (groups of triangles) as visible or hidden in sample `sample`, all of whose triangles were
-    // drawn into layer `layer` of `depths`.
+    // Classifies the pieces (groups of triangles) as visible or hidden in sample `sample`. All triangles of this sample
+    // must have been drawn into layer `layer` of `depths`.
     [[nodiscard]] PieceVisibility visibilityIn(std::uint32_t sample, const GlTexture& depths,
                                                std::uint32_t layer) const;
     // Returns the draws of pieces (groups of triangles) that are classified as hidden but may be visible in samples

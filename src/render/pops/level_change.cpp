@@ -51,7 +51,7 @@ std::optional<HeldPlan> asBefore(const FramePlan& plan, const FramePlan& before)
 }
 
 Image objectPixels(const Image& level, const Image& coc) {
-    // Mark the rows of each object pixel's blur disk: +1 where a row begins, −1 where it ends.
+    // For each pixel that shows an object, mark the rows of its blur disk: +1 where a row begins, −1 after its end.
     const int width = level.width;
     std::vector<int> runs(static_cast<std::size_t>(width + 1) * static_cast<std::size_t>(level.height));
     for (int y = 0; y < level.height; ++y)
@@ -85,7 +85,7 @@ Image pixelsOf(const std::vector<const ObjectPlan*>& changed, const FramePlan& p
     for (const ObjectPlan* object : changed) {
         CocBox box{.ndcMin = glm::dvec2(-1), .ndcMax = glm::dvec2(1)};
         if (object->nearestDepth > plan.view.nearPlane) box = cocBoxOf(object->viewBox, object->own, plan);
-        // The margin of 1 px is needed because a covered pixel extends half a pixel beyond its centre.
+        // The margin of 1 px is more than the half pixel by which a covered pixel extends beyond its centre.
         const double reach = 0.5 * object->coc.largest + 1;
         const int left = bounded(0.5 * (1 + box.ndcMin.x) * objects.width - reach, objects.width);
         const int right = bounded(0.5 * (1 + box.ndcMax.x) * objects.width + reach + 1, objects.width);

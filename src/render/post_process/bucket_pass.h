@@ -31,7 +31,9 @@ private:
     const PinholeImage* opaque_;
     PinholeImage image_;
     GlTexture surfaceDepth_, surfaceOwnBlur_;  // depth and blur modifiers of the bucket's nearest surfaces
-    GlTexture known_;                          // depth and blur modifiers with mip levels, for extrapolation
+    // Depth and blur modifiers of surfaceDepth_ and surfaceOwnBlur_, with mip levels. The mip levels provide values for
+    // pixels without a surface.
+    GlTexture known_;
     Target colorTarget_, surfaceTarget_, knownTarget_, imageTarget_;
     Program know_, fill_;
     Fullscreen fullscreen_;

@@ -26,7 +26,7 @@ struct PinholeImage {
 
     GlTexture color;    // premultiplied linear radiance, with coverage as alpha
     GlTexture depth;    // reversed: near plane / distance; 0 is infinity
-    GlTexture ownBlur;  // blur modifiers of surfaces: factor and offset; empty if no surface has blur controls
+    GlTexture ownBlur;  // blur modifiers of surfaces (factor and offset); empty if no surface has any
     // Rectangle outside which the blurred image is black with zero coverage and need not be drawn. nullopt: full image.
     std::optional<TexelRectangle> part;
     const PinholeImage* multisampled = nullptr;  // this image before its samples were averaged; null: not multisampled

@@ -28,8 +28,9 @@ public:
     PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool ownBlur, int samples,
                 const std::filesystem::path& shaderFolder);
 
-    // Prepares to draw `pinholes`. `frame` must hold the uniforms of `pinholes`, uploaded with a layerCount of 1, and
-    // must exist until the last draw. Objects in `buckets` are drawn only by drawBucket().
+    // Prepares the pass for the plan `pinholes`, made by pinholePlan(). `frame` must hold the uniforms of this plan,
+    // uploaded for a single layer (layerCount 1), and must exist until the last draw. Objects in `buckets` are drawn
+    // only by drawBucket().
     void prepare(const FramePlan& pinholes, const FrameUniforms& frame, const std::vector<TransparencyBucket>& buckets);
     // Draws sample `index`. Alpha-blended surfaces that are in no bucket (group of objects that is blurred separately)
     // write their depth in a second pass. The background visible through such a surface is thus blurred according to
@@ -41,8 +42,8 @@ public:
     [[nodiscard]] PinholeImage& image() { return image_; }
 
     [[nodiscard]] std::size_t buckets() const { return buckets_.size(); }
-    // Draws a bucket (blended objects of similar depth) on a transparent background, without the parts that surfaces in
-    // image() hide. `index` must be the sample of the latest draw(). Bucket 0 is the farthest.
+    // Draws a bucket (blended objects of similar depth) on a transparent background, without the parts that are hidden
+    // by surfaces in image(). `index` must be the sample of the latest draw(). Bucket 0 is the farthest.
     [[nodiscard]] PinholeImage& drawBucket(std::uint32_t index, std::size_t bucket);
 
     [[nodiscard]] bool hasOwnBlur() const { return static_cast<bool>(image_.ownBlur); }
@@ -55,13 +56,14 @@ private:
     LayerFormat format_;
     std::filesystem::path shaderFolder_;
     PinholeImage image_;
-    PinholeImage multisampled_;       // multisampled image; empty without multisampling
-    Target target_, resolvedTarget_;  // target to draw into; with multisampling, target for the resolved image_
+    PinholeImage multisampled_;  // multisampled image; empty without multisampling
+    // target_ is drawn into. With multisampling, its samples are then averaged into resolvedTarget_.
+    Target target_, resolvedTarget_;
     bool transparent_ = false;
     ShadowMaps shadows_;
     SurfacePass surfaces_;
     std::vector<ObjectSet> buckets_;
-    std::vector<TexelRectangle> reaches_;  // per bucket of objects: rectangle that contains its blurred image
+    std::vector<TexelRectangle> reaches_;  // per bucket of objects: rectangle that contains the bucket's blurred image
     ObjectSet inNoBucket_;
     std::optional<BucketPass> bucketPass_;
 };

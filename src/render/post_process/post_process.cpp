@@ -146,7 +146,9 @@ private:
     std::optional<WaveLayers> layer_;
     std::optional<LayerSum> sum_;
     std::optional<PinholePass> pinhole_;
-    GlTexture coverage_;  // blurred coverage; used only with a transparent background or with transparency buckets
+    // Blurred coverage. Used only with a transparent background or with transparency buckets, which are groups of
+    // blended objects that are blurred separately.
+    GlTexture coverage_;
     GlTexture radiance_;  // blurred radiance of a transparency bucket; used only with transparency buckets
     Target coverageTarget_, radianceTarget_;
     Program coverageToAlpha_, bucketOver_;

@@ -20,9 +20,10 @@ public:
     // Blurs `pinhole` and draws the result into `output`: linear radiance, alpha 1. The blur must be a linear function
     // of the radiance, because it is also applied to coverage. Pixels outside PinholeImage::part may be omitted.
     virtual void draw(const PinholeImage& pinhole, const FrameUniforms& frame, const Target& output) = 0;
-    // Returns whether the blur never exceeds the lens blur in the plan.
+    // Returns whether this method's blur never exceeds the blur of the plan's lens.
     [[nodiscard]] virtual bool blursAsTheLens() const { return true; }
-    // Returns the samples per pixel of the pinhole image that draw() takes. Above 1, the image is multisampled.
+    // Returns the number of samples per pixel of the pinhole image that is passed to draw(). Above 1, the image is
+    // multisampled.
     [[nodiscard]] virtual int samplesPerPixel() const { return 1; }
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };

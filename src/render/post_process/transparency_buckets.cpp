@@ -16,7 +16,9 @@ namespace defocus::engine {
 namespace {
 
 constexpr double minStep = 1;  // min difference between the blur diameters of two buckets, px
-constexpr double margin = 24;  // margin in px; the blur uses reduced images, whose pixels cover several image pixels
+// Margin in px around a bucket's blurred objects. The blur reads reduced images, whose pixels cover several image
+// pixels, so it reaches farther than its radius.
+constexpr double margin = 24;
 
 // Returns the middle of a range of signed blur diameters in px, clamped to the image's width.
 double middleOf(const CocRange& coc, double width) {
@@ -30,8 +32,8 @@ bool overlapInTheImage(const ObjectPlan& a, const ObjectPlan& b, const FramePlan
     return glm::all(glm::lessThan(boxA.ndcMin, boxB.ndcMax)) && glm::all(glm::lessThan(boxB.ndcMin, boxA.ndcMax));
 }
 
-// Returns the indices of blended objects for buckets, front to back. Omits transmitting objects and, in turn, each
-// object that is behind an omitted object and may overlap it in the image.
+// Returns the indices of the blended objects that get a bucket, front to back. Transmitting objects get none. Nor does
+// an object behind such an excluded object, if the two may overlap in the image.
 std::vector<std::size_t> blendedObjects(const FramePlan& plan) {
     std::vector<std::size_t> blended;
     std::vector<std::size_t> staying;
@@ -54,8 +56,8 @@ std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::
     if (blended.empty()) return {};
 
     struct Step {
-        double height = 0;  // difference in blur diameter (px) between two objects that are neighbours in depth order
-        std::size_t behind = 0;  // index into `blended` of the farther of the two objects
+        double height = 0;       // difference in blur diameter (px) of two neighbours in depth order
+        std::size_t behind = 0;  // index into `blended` of the farther neighbour
     };
     std::vector<Step> steps;
     const auto blurOf = [&](std::size_t i) { return middleOf(plan.objects[blended[i]].coc, plan.view.width); };
@@ -89,7 +91,8 @@ TexelRectangle reachOf(const TransparencyBucket& bucket, const FramePlan& plan) 
         min = everywhere ? glm::dvec2(0) : glm::min(min, (box.ndcMin + 1.0) * 0.5 * size);
         max = everywhere ? size : glm::max(max, (box.ndcMax + 1.0) * 0.5 * size);
     }
-    // For surfaces in front of the focus plane, a method may gather with the largest foreground blur of all objects.
+    // For surfaces in front of the focus plane, a method may gather from a disk as large as the largest foreground blur
+    // of all objects.
     for (const ObjectPlan& object : plan.objects) diameter = std::max(diameter, -object.coc.nearest);
     const double reach = margin + 0.5 * std::min(diameter, std::max(size.x, size.y));
     min = glm::clamp(glm::floor(min - reach), glm::dvec2(0), size);

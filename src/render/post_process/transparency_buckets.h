@@ -9,7 +9,7 @@
 
 namespace defocus::engine {
 
-// Indices into FramePlan::objects, front to back.
+// Alpha-blended objects that are blurred together, as indices into FramePlan::objects, front to back.
 using TransparencyBucket = std::vector<std::size_t>;
 
 // Returns at most `max` buckets, the farthest first. The blended objects, in depth order, are divided where the blur

@@ -14,8 +14,8 @@ namespace {
 // Max distance in px between a blurred point's images in neighbouring lens samples, if each sample is drawn at four
 // subpixel positions.
 constexpr double gapOfPositions = 1.25;
-// Min triangles per pixel in each sample at which drawing a quarter of the samples, at four subpixel positions each,
-// saves time.
+// From this number of triangles per pixel and sample on, it is faster to draw a quarter as many samples at four
+// subpixel positions each.
 constexpr double payingTriangles = 0.1;
 // Max side in px of images that are drawn at four subpixel positions per sample. Their layers are twice as wide and
 // high as the image.
@@ -37,8 +37,8 @@ struct SampleLimits {
 
 struct QualityLimits {
     double flip;             // target error, as FLIP
-    SampleLimits first;      // initial number of samples, if the error is then estimated and more can be added
-    SampleLimits unchecked;  // number of samples, if the error is not estimated while the frame is drawn
+    SampleLimits first;      // limits on the initial number of samples, if samples can be added after an estimate
+    SampleLimits unchecked;  // limits on the number of samples, if the error is not estimated during drawing
 };
 
 QualityLimits limitsOf(Quality quality) {

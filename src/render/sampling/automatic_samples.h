@@ -24,12 +24,12 @@ std::uint32_t firstSamples(const FramePlan& plan, Quality quality);
 // `blur` px.
 std::uint32_t firstSamples(double blur, Quality quality);
 
-// Returns whether `samples` / 4 lens samples with four subpixel positions each can replace `samples` with one position,
-// and save time. They can if the images of a blurred point in neighbouring lens samples are then at most 1.25 px apart,
-// and if nothing else differs between samples: shadows, motion, wavelengths, refraction and stochastic transparency
-// need the larger number of samples. They save time if a sample draws at least one triangle per ten pixels. Images
-// above 4,096 px a side or 4 megapixels have one position, because with four positions, the images of the samples would
-// take too much memory.
+// Returns whether `samples` / 4 lens samples at four subpixel positions each give the same quality as `samples` lens
+// samples at one position, and save time. The quality is the same if the images of a blurred point in neighbouring lens
+// samples are then at most 1.25 px apart, and if nothing else differs between samples: shadows, motion, wavelengths,
+// refraction and stochastic transparency need the larger number of samples. Time is saved if a sample draws at least
+// one triangle per ten pixels. Images above 4,096 px a side or 4 megapixels have one position, because with four
+// positions, the images of the samples would take too much memory.
 bool fourPositionsSuffice(const FramePlan& plan, double samples);
 
 // Returns `settings` with the number of samples that gives about the quality of `samples` samples drawn at one subpixel
@@ -40,12 +40,12 @@ bool fourPositionsSuffice(const FramePlan& plan, double samples);
 RenderSettings withSamples(RenderSettings settings, const FramePlan& plan, double samples, bool choosesPositions);
 
 // Returns the number of samples of a frame whose error cannot be estimated before it is complete, such as a frame in
-// tiles. The number is computed as in firstSamples(), but it is at least 16 (draft), 32 (good) or 64 (fine), and the
-// images of a blurred point in neighbouring samples are at most 3.5, 2 or 1.4 px apart.
+// tiles. The number is computed as in firstSamples(), with other limits for draft, good and fine: at least 16, 32 or 64
+// samples, and at most 3.5, 2 or 1.4 px between the images of a blurred point in neighbouring samples.
 std::uint32_t samplesForBlur(const FramePlan& plan, Quality quality);
 
-// Returns the blur diameter in px at which the blur disk has maxAutomaticSamples times the area of the image. In wider
-// disks, on average fewer than one of maxAutomaticSamples samples shows a blurred point inside the image.
+// Returns the blur diameter in px at which the blur disk has maxAutomaticSamples times the area of the image. If the
+// disk is wider, a blurred point falls inside the image in fewer than one of maxAutomaticSamples samples on average.
 double largestSampledBlur(const FramePlan& plan);
 
 // Returns whether the largest blur of an object is finite and exceeds largestSampledBlur(). More samples then barely

@@ -13,8 +13,8 @@ namespace {
 // Max error of levels of detail, relative to the intended error. The total error is then at most √(1 + 0.5²) = 1.12
 // times the intended error.
 constexpr double levelShare = 0.5;
-// If the error of levels of detail is unknown, levels are selected with the default thresholds for this many times the
-// expected number of samples. More samples mean finer levels, and thus a smaller unknown error.
+// If the error of levels of detail was not measured, levels are selected as for this multiple of the expected number of
+// samples. A larger number of samples gives finer levels, and thus a smaller error.
 constexpr double withoutLevelError = 4;
 constexpr double blockTolerance = 0.7;  // seconds after the time limit at which an unfinished block is stopped
 constexpr double maxThresholdSamples = 1e8;
@@ -23,8 +23,9 @@ constexpr double maxLevelPower = 1.4;
 constexpr std::uint32_t firstEstimate = 2 * blockSamples;
 // An error estimate after one block compares the image of the first half of the block with the image of the whole
 // block. It is too large by this factor, for two reasons. The first half draws coarse levels more often than the second
-// half. Its lens cells (one part of the lens per sample) are not centred on the lens. Measured factors: 1.3 (school of
-// fish) and 2.0 (bokeh). The smaller one is used so that the error is not underestimated.
+// half. The lens cells of the first half's samples (one part of the lens each) are not centred on the lens, which
+// shifts blurred surfaces. Measured factors: 1.3 (school of fish) and 2.0 (bokeh). The smaller one is used so that the
+// error is not underestimated.
 constexpr double excessWithinBlock = 1.3;
 
 // Returns `samples` rounded up to complete blocks.
@@ -50,8 +51,8 @@ const char* stopReasonText(StopReason reason) {
 
 double LevelError::at(double thresholdSamples) const {
     if (!(atCoarse > 0)) return 0;
-    // If the user sets the level-of-detail thresholds, both measurements draw the same levels: atCoarse and atFine are
-    // equal, and the exponent is 0.
+    // If the user sets the level-of-detail thresholds, both errors were measured with the same levels. Then atCoarse
+    // equals atFine, and the exponent is 0.
     const double measured = std::log(atCoarse / std::max(atFine, 1e-9)) / std::log(double{fine} / coarse);
     return atCoarse * std::pow(coarse / thresholdSamples, std::clamp(measured, 0.0, maxLevelPower));
 }
@@ -86,7 +87,7 @@ std::uint32_t BlockSchedule::expectedSamples() const {
     return std::min(stop_.sampleLimit, completeBlocks(std::clamp(expected_, std::min(samples_ + 1.0, max), max)));
 }
 
-// Returns the sample count whose default level-of-detail thresholds the next block uses. More samples mean finer
+// Returns the sample count for which the next block's level-of-detail thresholds are chosen. A larger count gives finer
 // levels.
 double BlockSchedule::thresholdSamples() const {
     const double expected = expectedSamples();
@@ -131,14 +132,14 @@ void BlockSchedule::predict() {
             expected_ = samples_ * std::pow(flip / *targetFlip_, 1 / lensSampleExponent);
     } else if (const double error = estimate_.error().value_or(0); stop_.targetError && error > 0) {
         // The squares of the sampling error and of the error of levels of detail sum to the square of the target. The
-        // error of levels counts as at most 90 % of the target, so at least √(1 − 0.9²) = 44 % is left for the sampling
-        // error.
+        // error of levels is clamped to 90 % of the target, so that at least √(1 − 0.9²) = 44 % is left for the
+        // sampling error.
         const double levels = std::min(withLevels(0), 0.9 * *stop_.targetError);
         const double aim = std::sqrt(*stop_.targetError * *stop_.targetError - levels * levels);
         expected_ = samples_ * std::pow(error / aim, 1 / lensSampleExponent);
     }
-    // The error is next estimated at 80 % of the expected final number of samples, but no later than at twice the
-    // current number, because an estimate after n samples needs an earlier image of about n/2 samples.
+    // The next estimate is due at 80 % of the expected final number of samples, but at the latest at twice the current
+    // number n: an estimate after 2n samples needs the image after about n samples, which has just been stored.
     const bool aims = targetFlip_ || stop_.targetError;
     const double due = aims ? std::clamp(0.8 * expected_, samples_ + 1.0, 2.0 * samples_) : 2.0 * samples_;
     nextEstimate_ = completeBlocks(due);
@@ -182,8 +183,8 @@ std::optional<StopReason> BlockSchedule::reasonToStop(const FramePlan& plan, dou
         return StopReason::targetError;
     if (targetFlip_ && estimated && *estimatedFlip() <= *targetFlip_) return StopReason::targetError;
     if (samples_ >= stop_.sampleLimit) return StopReason::sampleCount;
-    // Do not start a block that would end after the time limit: in an incomplete block, some objects lack samples at
-    // some levels.
+    // Do not start a block that would end after the time limit: an incomplete block would lack samples at one of the
+    // two levels that it draws of some objects.
     const double nextEnd = seconds + (seconds - secondsBefore_);
     if (stop_.timeLimit && nextEnd > *stop_.timeLimit) return StopReason::timeLimit;
     return {};

@@ -5,9 +5,9 @@
 //
 // The error of levels of detail cannot be estimated from differences between blocks that draw the same levels. It is
 // therefore measured before the first block (LevelError). The thresholds that select levels are chosen so that this
-// error is less than half the intended error. The intended error is the target error, or the error predicted for the
-// expected number of samples if this is larger or there is no target. Without the measurement, the thresholds are the
-// defaults for four times the expected number of samples, which select finer levels.
+// error is less than half the intended error. The intended error is the target error or, if larger, the error predicted
+// for the expected number of samples; without a target, it is the predicted error. Without the measurement, the
+// thresholds are the defaults for four times the expected number of samples, which select finer levels.
 
 #include <functional>
 #include <optional>
@@ -26,14 +26,14 @@ const char* stopReasonText(StopReason reason);
 // frame is planned. The RMSE is modelled as a power law in this number, fitted to two measurements.
 struct LevelError {
     static constexpr std::uint32_t drawn = 16;    // lens samples drawn for each measurement
-    static constexpr std::uint32_t coarse = 128;  // sample count whose default thresholds are used for `atCoarse`
-    static constexpr std::uint32_t fine = 2048;   // sample count whose default thresholds are used for `atFine`
-    double atCoarse = 0;                          // RMSE with the level-of-detail thresholds for `coarse` samples
-    double atFine = 0;                            // RMSE with the level-of-detail thresholds for `fine` samples
+    static constexpr std::uint32_t coarse = 128;  // `atCoarse` is measured with levels selected for this many samples
+    static constexpr std::uint32_t fine = 2048;   // `atFine` is measured with levels selected for this many samples
+    double atCoarse = 0;                          // RMSE with levels selected for 128 samples
+    double atFine = 0;                            // RMSE with levels selected for 2,048 samples
 
     [[nodiscard]] double at(double thresholdSamples) const;
-    // Returns the smallest sample count, at least `min`, whose default level-of-detail thresholds give an RMSE of at
-    // most `error`.
+    // Returns the smallest sample count, at least `min`, for which the default level-of-detail thresholds give an RMSE
+    // of at most `error`.
     [[nodiscard]] double samplesFor(double error, double min) const;
 };
 
@@ -48,11 +48,11 @@ public:
     // defaults for the expected number of samples.
     static BlockSchedule automatic(const RenderSettings& settings, Quality quality, double expected);
 
-    // Returns the settings of the next block, with its level-of-detail thresholds and its number of samples, limited by
-    // StopSettings::sampleLimit.
+    // Returns the settings of the next block, with its level-of-detail thresholds and its number of samples. The number
+    // is limited so that the frame has at most StopSettings::sampleLimit samples.
     [[nodiscard]] RenderSettings nextBlock() const;
     // Returns whether addImage() needs the frame's image after `samples` samples. For an automatic number of samples,
-    // the first error estimate compares the image at its sample count with the image at half this count.
+    // the first error estimate after n samples compares the images after n/2 and n samples.
     [[nodiscard]] bool wantsImage(std::uint32_t samples) const;
     void addImage(const Image& mean, std::uint32_t samples) { estimate_.add(mean, samples); }
     // Records that a block has been drawn with `plan`, made from the settings of nextBlock(). Returns whether another
@@ -60,7 +60,7 @@ public:
     // is called only if an error estimate is due.
     bool endBlock(const FramePlan& plan, double seconds, const std::function<Image()>& mean);
 
-    // Returns whether the time limit, plus a tolerance of 0.7 s for the end of a block, has passed.
+    // Returns whether the time limit has passed by more than 0.7 s, the tolerance for finishing a block.
     [[nodiscard]] bool outOfTime(double seconds) const;
     // Ends the frame within a block that has `drawn` complete samples.
     void endWithinBlock(std::uint32_t drawn);

@@ -28,8 +28,8 @@ namespace defocus::engine {
 // from 64 to 1,024 samples, is 0.59 (bench/results/llvmpipe-sequences.txt).
 inline constexpr double lensSampleExponent = 0.6;
 
-// Returns the expected ratio of RMS differences |M(n) − truth| / |M(n) − M(m)|, where M(k) is the mean of the first k
-// blocks, 0 < m < n, and the error of k blocks is proportional to k^(−exponent).
+// Returns the expected ratio of RMS differences |M(n) − truth| / |M(n) − M(m)|, 0 < m < n, where M(k) is the mean of
+// the first k blocks. The error of M(k) is assumed to be proportional to k^(−exponent).
 double errorOverDifference(double m, double n, double exponent = lensSampleExponent);
 
 // Returns the RMS difference of two images of equal size, over the same pixels and display-encoded values as
@@ -63,7 +63,8 @@ private:
 
     int width_ = 0;
     int height_ = 0;
-    std::vector<Kept> kept_;  // images by ascending sample count, going back to about a quarter of the latest count
+    // Images of the frame, sorted by sample count. The first has about a quarter of the samples of the last.
+    std::vector<Kept> kept_;
     std::optional<double> error_;
     std::optional<double> flip_;
 };

@@ -12,13 +12,13 @@ namespace defocus::engine {
 
 class FrameClock {
 public:
-    // Starts the setup; discards the times of the previous frame.
+    // Starts the timing of the setup; discards the times of the previous frame.
     void beginSetup();
-    // Waits for the GPU; ends the setup and starts the frame.
+    // Waits for the GPU, then ends the timing of the setup and starts the timing of the drawing.
     void beginFrame();
     void beginWave() { timer_.begin(); }
     void endWave() { timer_.end(); }
-    // Waits for the GPU; ends the frame.
+    // Waits until the GPU has drawn the frame, then ends the timing.
     void endFrame();
 
     // Sets times, device and driver of `stats`. Times of unfinished intervals are 0.

@@ -75,7 +75,7 @@ void ProgressiveImage::planBlock() {
 bool ProgressiveImage::endBlock() {
     ++block_;
     if (schedule_) return schedule_->endBlock(plan_, 0, [this] { return renderer_->image(); });
-    // A block with fewer than 64 samples is always the last block: nothing is blurred, or the method uses no lens
+    // No block follows if nothing is blurred, so that the plan has fewer than 64 samples, or if the method uses no lens
     // samples.
     return block_ < blocks_ && usesLensSamples_ && plan_.samples.size() >= blockSamples;
 }

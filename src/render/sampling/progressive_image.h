@@ -13,8 +13,9 @@ namespace defocus::engine {
 
 class ProgressiveImage {
 public:
-    // `world` must outlive this object; its pose may change between frames. grow() draws options.wave samples together,
-    // 4 if it is 0; a small number helps grow() to stay within its time limit. Needs a current OpenGL context.
+    // `world` must outlive this object; the pose of `world` may change between frames. grow() draws options.wave
+    // samples together, or 4 if options.wave is 0; a small number helps grow() to stay within its time limit. Needs a
+    // current OpenGL context.
     ProgressiveImage(const World& world, const MethodUse& use, const RendererOptions& options);
 
     // Draws a complete frame, with settings.sampleCount samples (first overload) or the samples of `plan` (second

@@ -12,7 +12,7 @@ namespace defocus::engine {
 // RenderSettings::sampleCount is ignored. Levels of detail are finer for a larger expected number of samples.
 struct StopSettings {
     // Target RMSE of the display-encoded image at EV 0, 1e-6 … 1. The error is estimated from differences between
-    // blocks.
+    // blocks of samples.
     std::optional<double> targetError = {};
     // Seconds from the start of the frame, 0.001 … 1e6. A block is not started if its predicted end is after the limit.
     // A block that takes longer than predicted is stopped 0.7 s after the limit; at least one sample is drawn.

@@ -21,10 +21,10 @@ namespace defocus::engine {
 namespace {
 
 constexpr double publishedLargest = 10;  // max blur diameter in px
-// Tap radius in px of the small image, relative to the tap radius in px of the full-size image. Pixels of the small
-// image are 4 times as wide.
+// Tap radius in the small image divided by the tap radius in the full-size image, each in pixels of its own image.
+// Pixels of the small image are 4 times as wide.
 constexpr float publishedSmallRadius = 0.4f;
-constexpr float trueSmallRadius = 0.25f;  // taps at the same positions as in the full-size image
+constexpr float trueSmallRadius = 0.25f;  // the ratio at which the taps have the same positions in both images
 constexpr int smallReduction = 4;         // width of a pixel of the small image in px of the full-size image
 constexpr std::uint32_t maxTaps = 64;
 constexpr std::uint32_t candidatesPerPoint = 32;
@@ -81,7 +81,7 @@ public:
 
     void draw(const PinholeImage& pinhole, const FrameUniforms& frame, const Target& output) override {
         frame.bind(0);
-        // Draw colour with blurriness, and a small pre-blurred copy.
+        // Draw the image with blurriness in alpha, and a small, pre-blurred copy of it.
         sharpTarget_.bind();
         const PinholeImage& drawn = samples_ > 1 ? *pinhole.multisampled : pinhole;
         drawn.color.attach(0);
@@ -94,7 +94,7 @@ public:
         reduced_.attach(0);
         fullscreen_.draw(preblur_);
 
-        // Draw the result by gathering the taps.
+        // Draw the result: each pixel is a weighted mean of taps in a disk.
         output.bind();
         sharp_.attach(0);
         small_.attach(1);
@@ -213,7 +213,9 @@ BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focus
         return planes;
     }
     planes.cutoff = coc.behind / radius;
-    // The cutoff is the blurriness at infinity. At twice the focus distance, the blurriness is half the cutoff.
+    // At depth w behind the focus plane, the lens has the blurriness cutoff · (1 − focusDistance/w): half the cutoff at
+    // twice the focus distance. Choose the far plane so that the blurriness, linear in depth, is also half the cutoff
+    // there.
     planes.far = focusDistance + focusDistance / (0.5 * planes.cutoff);
     return planes;
 }

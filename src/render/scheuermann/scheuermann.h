@@ -6,10 +6,10 @@
 //
 // One signed value is both blurriness and relative depth: −1 at the near plane, 0 in focus, 1 at the far plane, stored
 // as 0 … 1. As published, it is linear in depth between three planes. By default, the near and far planes are the
-// depths at which the lens has the max circle of confusion. The circle of confusion behind the focus plane may never
-// reach this max. The far plane is then chosen so that the value is correct at the depth of half the blur at infinity,
-// and the value is clamped to the blur at infinity. Settings of the method override the planes; in the slides, artists
-// set the planes.
+// depths at which the lens has the max circle of confusion. If this max is not reached behind the focus plane, the far
+// plane is chosen so that the value is correct at twice the focus distance, where the blur is half the blur at
+// infinity. The value is then clamped to the blur at infinity. Settings of the method override the planes; in the
+// slides, artists set the planes.
 //
 // The taps have the shape and density of the lens's aperture: blades, rings and aperture images. The cat's eye is
 // ignored.
@@ -46,8 +46,8 @@ struct PlanesByHand {
 // unless near < focus < far.
 BlurrinessPlanes withPlanesByHand(const BlurrinessPlanes& planes, const PlanesByHand& byHand);
 
-// Returns the planes of a lens with nonzero aperture. `largest` is the max diameter of the circle of confusion in px, >
-// 0; `width` is the image's width in px.
+// Returns the planes at which a lens with nonzero aperture has the blurriness −1, 0 and 1. `largest` is the max
+// diameter of the circle of confusion in px, > 0; `width` is the image's width in px.
 BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focusDistance, double largest, int width);
 
 // Returns `count` points in the unit disk that are far from each other and from the centre (best candidates, Mitchell

@@ -88,8 +88,10 @@ private:
     ShaderDefines defines_;
     Program program_;
     Buffer boundBlock_;
-    Buffer tests_;              // shader storage block TestBlock of shaders/stochastic/visible.comp
-    std::uint64_t groups_ = 0;  // number of workgroups so far; each traces one ray per pixel of a tile
+    Buffer tests_;  // shader storage block TestBlock of shaders/stochastic/visible.comp
+    // Number of pairs of a tile and a ray number that were traced so far. Each pair traces one ray per pixel of the
+    // tile.
+    std::uint64_t groups_ = 0;
     RecordBuffer records_;
 };
 

@@ -17,10 +17,10 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint64_t programBytes = 80u << 20;  // memory of a software driver's compiled shaders, bytes
-// Memory of a drawing thread in bytes, measured: compiled shaders, and triangles that the driver has not yet drawn.
+// Measured memory of a drawing thread in bytes: compiled shaders, and triangles that the driver has queued.
 constexpr std::uint64_t contextBytes = 144u << 20;
-constexpr std::uint64_t outputBytes = 16u << 20;      // memory of the libraries that write the image, bytes, measured
-constexpr std::uint64_t occlusionTriangleBytes = 12;  // bytes per triangle for the occlusion test, measured
+constexpr std::uint64_t outputBytes = 16u << 20;      // measured memory in bytes of the libraries that write the image
+constexpr std::uint64_t occlusionTriangleBytes = 12;  // measured bytes per triangle for the occlusion test
 
 std::uint64_t threeQuarters(std::uint64_t bytes) {
     return bytes / 4 * 3;
@@ -60,8 +60,8 @@ std::uint64_t sceneBytes(const World& world, const FramePlan& plan) {
     return bytes;
 }
 
-// Returns the needs of the frame and the memory that is available to the process now. `drawn`: bytes of layers and
-// accumulation buffers that will be replaced; `heldByDevice`: bytes of the scene on a GPU.
+// Returns the memory that the frame needs and the memory that is now available to the process. `drawn`: bytes of layers
+// and accumulation buffers that will be replaced; `heldByDevice`: bytes of the scene on a GPU.
 TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLimits& limits, std::uint64_t limit,
                          std::uint64_t drawn = 0, std::uint64_t heldByDevice = 0) {
     TilingNeeds needs;
@@ -114,8 +114,9 @@ std::uint32_t threadsIn(std::uint64_t bytes, std::uint64_t layer, std::uint32_t 
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, 1 + bytes / 2 / (contextBytes + 2 * layer)));
 }
 
-// Returns a tile of one row at the top of the image's first cell (plan/visible/tiles.h). Drawing this tile allocates
-// all memory that any tile needs, except the memory of the tile's pixels.
+// Returns a tile of one row at the top of the image's first cell, the largest part with its own window coordinates
+// (plan/visible/tiles.h). Drawing this tile allocates all memory that any tile needs, except the memory of the tile's
+// pixels.
 Tile trialTile(const FramePlan& plan) {
     const PixelRectangle frame{0, 0, plan.view.width, plan.view.height};
     const PixelRectangle cell = plan.usesTransmission ? frame : cellsOf(frame.width, frame.height).front();
@@ -187,10 +188,11 @@ TilingNeeds measuredNeeds(const World& world, const FramePlan& plan, const DrawL
     renderer.setWave({.samples = 1});
     renderer.start(tileOf(plan, trial));
     renderer.advance();
-    static_cast<void>(renderer.image());  // drivers may keep layers until the result is read
+    // Read the image before the memory is measured, because drivers may keep layers until then.
+    static_cast<void>(renderer.image());
     const std::uint64_t uploaded = remainder(renderer.stats().peakBytes, drawn);
     TilingNeeds needs = currentNeeds(world, plan, limits, limit, drawn, uploaded);
-    // Reserve memory for the objects outside the trial tile, which are not yet uploaded.
+    // Reserve memory for the objects outside the one-row tile drawn above, which are not yet uploaded.
     if (needs.shared) reserve(needs, remainder(sceneBytes(world, plan), uploaded));
     return needs;
 }

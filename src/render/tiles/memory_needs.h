@@ -26,14 +26,15 @@ std::uint64_t memoryLimit(const DrawLimits& limits);
 // a current OpenGL context if the method uses threads.
 std::uint32_t wantedThreads(const DrawLimits& limits, const Method& method);
 
-// Returns RendererOptions::waveBytes for a frame without tiles: the smaller of `threads` times the default and a
-// quarter of the memory still available within `limit`.
+// Returns RendererOptions::waveBytes, the max memory of all layers drawn at once, for a frame without tiles: `threads`
+// times the default, but at most a quarter of the memory still available within `limit`.
 std::uint64_t waveBytesWithin(std::uint64_t limit, std::uint32_t threads);
 
-// Returns how many threads, at most `wanted`, fit into half of the memory that remains when one thread draws the frame.
-// Each further thread needs memory for its context and layers.
+// Returns the number of threads, from 1 to `wanted`, that can draw the frame. The context and layers of all threads but
+// the first must fit into half of the memory that one drawing thread leaves free.
 std::uint32_t threadsWithin(const TilingNeeds& needs, std::uint32_t wanted);
-// Returns the number of threads, at most `wanted`, that fit. The frame must be one that surelyFits() accepts.
+// Returns the number of threads, from 1 to `wanted`, that can draw a frame of this size within `limit` bytes.
+// surelyFits() must be true for the frame.
 std::uint32_t threadsWithin(int width, int height, std::uint64_t limit, std::uint32_t wanted);
 
 // Subtracts the memory of the contexts of `threads` threads from the available memory.
@@ -42,9 +43,9 @@ void reserveThreads(TilingNeeds& needs, std::uint32_t threads);
 // Returns RendererOptions::pendingBytes for a frame: the default, or a twelfth of `limit` if this is less.
 std::uint64_t pendingBytesWithin(std::uint64_t limit);
 
-// Returns the number of samples that are drawn together, each into its layer: TilingNeeds::askedWave, or as many as
-// fit. Layers take at most a quarter of the memory, and at most the memory that sums and images leave free. `needs` is
-// the result of needsBeforeUpload().
+// Returns the number of samples that are drawn together, each into its own layer: TilingNeeds::askedWave, or as many as
+// fit. The layers together take at most TilingNeeds::waveBytes and a quarter of the device memory, and no more than
+// accumulation buffers and images leave free. `needs` is the result of needsBeforeUpload().
 std::uint32_t waveWithin(const TilingNeeds& needs);
 
 // Returns the memory needs of the full frame before its scene is uploaded. With software drivers, they include meshes

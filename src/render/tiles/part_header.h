@@ -15,7 +15,7 @@
 
 namespace defocus::engine {
 
-// Name of the metadata attribute with the frame's settings as text, which is equal for all parts of one frame.
+// Name of the metadata attribute that holds the frame's settings as text. The text is equal in all parts of one frame.
 inline constexpr const char* settingsAttribute = "defocus:settings";
 
 // Range [first, end) of a frame's lens samples.

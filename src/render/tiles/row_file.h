@@ -1,7 +1,7 @@
 #pragma once
-// Reads, writes and joins files with a range of rows of a frame, with the frame's full width and all lens samples. Each
-// is an EXR image whose display window is the frame and whose data window is the rows, so viewers show the rows at
-// their position in the frame. Files are joined by copying pixels, with a few rows in memory at a time.
+// Reads, writes and joins files that each hold a range of complete rows of a frame, with all lens samples. Each is an
+// EXR image whose display window is the frame and whose data window is the rows, so viewers show the rows at their
+// position in the frame. Files are joined by copying pixels, with a few rows in memory at a time.
 
 #include <filesystem>
 #include <string>
@@ -14,7 +14,7 @@
 namespace defocus::engine {
 
 struct RowFileHeader {
-    int width = 0;  // size of the frame in px
+    int width = 0;  // width of the entire frame in px
     int height = 0;
     RowRange rows;
     std::string settings;  // settings of the frame, equal for all parts

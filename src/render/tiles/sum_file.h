@@ -16,7 +16,7 @@
 namespace defocus::engine {
 
 struct FramePart {
-    SampleRange range;               // samples of the part, clamped to the frame's samples
+    SampleRange range;               // samples in the file, clamped to the frame's samples
     std::uint32_t frameSamples = 0;  // samples of the full frame
     std::string settings;            // settings of the frame, equal for all parts
     int width = 0;
@@ -36,7 +36,8 @@ struct MergedFrame {
 };
 
 // Merges the files of one frame, given in any order. Throws Error, with the paths in its message, if sample ranges
-// overlap, are missing or divide a block of 64 samples, or if settings differ. Needs a current OpenGL context.
+// overlap or leave gaps, if a range splits a block of 64 samples, or if settings differ. Needs a current OpenGL
+// context.
 MergedFrame mergeParts(const std::vector<std::filesystem::path>& paths);
 
 }  // namespace defocus::engine

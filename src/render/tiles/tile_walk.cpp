@@ -7,7 +7,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Returns the number of rows by which one tile of the band increases rowsDone().
+// Returns how much each finished tile of the band adds to rowsDone(): the band's rows divided by its number of tiles.
 double rowsOfTile(const Band& band) {
     return static_cast<double>(band.rows.end - band.rows.first) / static_cast<double>(band.tiles.size());
 }

@@ -27,7 +27,7 @@ std::uint64_t layerCopies(const TilingNeeds& needs) {
     return needs.shared ? 2 : 1;
 }
 
-// Returns the needs with TilingNeeds::keptBytes subtracted from the available memory.
+// Returns `needs` with the available memory reduced by TilingNeeds::keptBytes, the memory of images kept while drawing.
 TilingNeeds besidePictures(TilingNeeds needs) {
     const auto take = [&](std::uint64_t& memory) { memory -= std::min(memory, needs.keptBytes); };
     take(needs.hostMemory);
@@ -103,8 +103,8 @@ Tiling chosenTiling(const TilingNeeds& asked) {
     if (fitting < static_cast<std::uint64_t>(wanted)) failForMemory(asked, largest.width, tiling.wave * layer, wanted);
     const int rows = static_cast<int>(std::min<std::uint64_t>(fitting, static_cast<std::uint64_t>(needs.height)));
 
-    // Divide each row of cells (plan/visible/tiles.h) into bands of equal height; only the last band may be lower. Each
-    // change of height reallocates layers and accumulation buffers.
+    // Divide each row of cells (parts of a large image, plan/visible/tiles.h) into bands of equal height, because each
+    // change of height reallocates layers and accumulation buffers. Only the last band may have fewer rows.
     for (const PixelRectangle& cell : cells) {
         if (cell.left > 0) continue;
         const int first = std::max(cell.top, needs.rows.first);
