@@ -5,9 +5,10 @@
 #include "include/cells.glsl"
 
 layout(binding = 6) uniform sampler2DArray layerDepths;
-// Previous sums of the first drawnClasses blur classes; the new sums are written to colour attachments.
+// Sums of blur classes 0 to drawnClasses − 1 before this pass; the new sums are written to `cellsOut`.
 layout(binding = 7) uniform sampler2DArray drawnSums;
-// Sums of the blur classes from drawnClasses on, read and written as an image; layers below drawnClasses are unused.
+// Sums of the other blur classes, for which there are not enough colour attachments. Layers below drawnClasses are
+// unused.
 layout(rgba32f, binding = 0) uniform image2DArray cellSums;
 // Per tile, a bit mask of the blur classes with samples in the tile.
 layout(r32ui, binding = 1) uniform uimage2D heldClasses;
@@ -64,7 +65,8 @@ void main() {
         }
         addLayer(sum, compensation, light / float(positions), layer);
     }
-    // Alpha counts samples. Sums of integers are exact in floats, so alpha needs no compensation.
+    // Alpha counts the samples that the lens barrel does not block. Floats add small integers exactly, so alpha needs
+    // no compensated summation.
     if (backgroundType != 0) sum.a += catEye > 0.0 ? seen : float(layerCount);
     for (int k = 0; k < drawnClasses; ++k) cellsOut[k] = cells[k];
     for (int k = drawnClasses; k < cellClasses; ++k) imageStore(cellSums, ivec3(pixel, k), cells[k]);

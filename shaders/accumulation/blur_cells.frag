@@ -2,20 +2,19 @@
 // (include/cells.glsl), and the sample's image is blurred as this part of the lens would blur it. The samples are
 // sorted by blur into classes. A class is blurred by averaging its samples over squares of pixels and interpolating the
 // averages linearly. The blurred classes are composited from farthest to nearest. Unblurred samples are composited
-// between the classes behind the focus plane and the classes in front of the focus plane. Where all samples of a pixel
-// show the blurred foreground, no sample shows the background, so the foreground also takes the background's place.
+// between the classes behind the focus plane and the classes in front of the focus plane. If all samples of a pixel
+// belong to classes in front of the focus plane, the mean of these samples replaces the unknown background.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;
 layout(binding = 1) uniform sampler2D blockSum;
 layout(binding = 2) uniform usampler2D spreadClasses;
-// Averages over squares of pixels, from cell_means.frag. Layer 0 holds the blur classes in front of the focus plane,
-// and layer 1 the classes behind it. shownMeans: summed radiance (rgb) and number (alpha) of a class's samples per
-// pixel. openMeans: number of samples per pixel that nearer classes do not hide.
+// Per-pixel sums, averaged over squares of pixels by cell_means.frag. Layer 0 holds the blur classes in front of the
+// focus plane, and layer 1 the classes behind it. shownMeans: radiance (rgb) and number (alpha) of the class's samples.
+// openMeans: number of samples that nearer classes do not hide.
 layout(binding = 3) uniform sampler2DArray shownMeans;
 layout(binding = 4) uniform sampler2DArray openMeans;
-// Columns and rows of the grid of 1 × 1 px squares for which the averages of blur class 0, the least blurred class, are
-// stored.
+// Number of columns and rows of squares for blur class 0, the least blurred class, whose squares are 1 × 1 px.
 layout(location = 0) uniform ivec2 firstSquares;
 // > 0: number of samples in the block, by which the sum is divided. 0: the sum is divided by the number of samples in
 // the pixel. −1: the output is the undivided sum.

@@ -1,12 +1,12 @@
 // Reduces one blur class of lens cells (include/cells.glsl), a group of samples with similar blur, to one tent-weighted
 // mean per square of side × side px. The tent extends to the centres of the neighbouring squares. Squares of one pixel
-// are centred at pixel corners, so that the tent covers 2 × 2 pixels; centred in a pixel, it would cover only that
+// are centred at pixel corners, where the tent covers 2 × 2 pixels. A tent centred in a pixel would cover only that
 // pixel.
 //
-// meanOut is the radiance and the number of the class's lens samples, summed per pixel and averaged over the square.
-// openOut is the number of samples per pixel that no nearer class hides, averaged over the square. The quotient
-// meanOut / openOut is the colour and coverage of the class where it is not hidden. A blurred surface therefore keeps
-// its colour and coverage up to the edges of its occluders.
+// meanOut is the sum of the radiance (rgb) and the number (alpha) of the class's lens samples in a pixel, averaged over
+// the square. openOut is the number of samples in a pixel that no nearer class hides, averaged over the square. The
+// quotient meanOut / openOut is the colour and coverage of the class where it is not hidden. A blurred surface
+// therefore keeps its colour and coverage up to the edges of its occluders.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform sampler2DArray cellSums;
@@ -44,7 +44,7 @@ void main() {
     if ((texelFetch(spreadClasses, tile, 0).r & 1u << classIndex) == 0u) return;
     vec4 mean = vec4(0.0);
     float open = 0.0;
-    // Each bilinear fetch reads a weighted mean of 2 × 2 pixels.
+    // One bilinear fetch reads a weighted mean of 2 × 2 pixels, which quarters the number of fetches.
     vec2 perPixel = 1.0 / vec2(textureSize(blockSum, 0));
     for (int y = 0; y < 2 * side; y += 2) {
         for (int x = 0; x < 2 * side; x += 2) {

@@ -5,7 +5,7 @@
 
 layout(binding = 2) uniform usampler2D spreadClasses;
 layout(location = 0) uniform int classIndex;
-// Side in px of the squares over which the samples of the blur class are averaged; each square has one mean.
+// Side in px of the squares over which the samples of the blur class are averaged.
 layout(location = 1) uniform int side;
 // Number of tiles along the side of a point sprite; > 1 for blur classes whose samples are averaged over large squares.
 layout(location = 2) uniform int pointTiles;

@@ -37,7 +37,7 @@ vec4 covering(vec3 data, float alpha) {
 }
 
 #ifdef DRAWS_COC
-// Returns the signed CoC in px of the surface at its position in the pinhole image.
+// Returns the surface's signed CoC in px, evaluated at the surface point's position in the pinhole image.
 float pinholeCoc() {
     vec3 place = transpose(mat3(frame.worldFromView)) * surface.position;
     return circleOfConfusion(gl_FragCoord.z, place.xy * frame.projection.xy / -place.z, surface.ownBlur);
@@ -67,8 +67,8 @@ vec2 movement() {
 #ifdef NUMBER_SLOT
 // Returns 1 if the surface's object and material are counted in this lens sample, else 0. An alpha-blended surface is
 // counted with probability alpha, independently of other surfaces, and replaces the surfaces behind it. A surface is
-// therefore counted in the fraction alpha · Π (1 − alpha of each nearer surface) of the samples, its weight in the
-// image.
+// therefore counted in the fraction alpha · Π (1 − alpha of each nearer surface) of the samples, which is also its
+// weight in the image.
 float chosen(float alpha) {
 #ifdef CHOOSES_BY_ALPHA
     if (alphaBlended) return alpha > alphaThreshold(pixelOfImage()) ? 1.0 : 0.0;

@@ -102,8 +102,8 @@ void main() {
     if (any(lessThan(beyondNear, vec3(0.0)))) whole = kept(whole, beyondNear);
     if (whole.count < 3) return;
 
-    // Without a range of sharp depths, the blur follows the same function in front of and behind the focus plane. The
-    // circle of confusion then has no kink between its two limits.
+    // True if a range of depths is sharp. Otherwise, one function of depth gives the blur on both sides of the focus
+    // plane. The circle of confusion then has kinks only where the max blur limits it.
     bool range = frame.coc.x != frame.cocOther.x || frame.coc.y != frame.coc.w;
     if (any(lessThan(atLimitInFront, vec3(0.0)))) emit(kept(whole, -atLimitInFront));
     Piece middle = any(lessThan(atLimitInFront, vec3(0.0))) ? kept(whole, atLimitInFront) : whole;

@@ -1,5 +1,5 @@
-// Divides the frame's compensated sum by the frame's number of samples, or by the number of samples in the pixel, which
-// is stored in alpha.
+// Divides the frame's compensated sum by the frame's number of samples. If this number differs between pixels, divides
+// by the pixel's number of samples, which is stored in alpha.
 layout(binding = 0) uniform sampler2D frameSum;
 layout(binding = 1) uniform sampler2D frameCompensation;
 layout(location = 0) uniform float sampleCount;   // number of samples in the sum; 0: divide by alpha

@@ -1,7 +1,7 @@
-// Writes, for each tile, two bit masks of the blur classes of lens cells (include/cells.glsl), which are groups of
-// samples with similar blur. The means of a class are its radiance, averaged over squares of pixels. Bit k is set if a
-// pixel of the tile may read a non-zero mean of class k. Bit besideSpread + k is set if the means of class k must be
-// written in the tile, even if they are 0: interpolation in the tile or its neighbours may read them.
+// Writes two bit masks for each tile, with one bit per blur class, a group of samples with similar blur
+// (include/cells.glsl). The means of a class are the radiance of its samples, averaged over squares of pixels. Bit k is
+// set if a pixel of the tile may read a non-zero mean of class k. Bit besideSpread + k is set if the means of class k
+// must be written in the tile, even if they are 0: interpolation in the tile or its neighbours may read them.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform usampler2D heldClasses;
@@ -23,9 +23,9 @@ void main() {
         for (int x = -6; x <= 6; ++x) {
             uint held = texelFetch(heldClasses, clamp(tile + ivec2(x, y), ivec2(0), last), 0).r;
             int away = max(abs(x), abs(y));
-            // The means of blur class k are non-zero up to 2 · 2^k px from the samples of the class. Interpolation also
-            // reads the squares next to these means, up to 3 · 2^k px from the samples. Each mask holds the classes
-            // that reach a tile at the distance `away`, in tiles.
+            // Blur class k is averaged over squares of 2^k px. Its means are non-zero up to 2 · 2^k px from its
+            // samples. Interpolation also reads the squares next to these means, up to 3 · 2^k px from the samples. In
+            // each mask, bit k is set if class k reaches tiles that are `away` tiles away.
             spread |= held & ofBothSides(away <= 1 ? 0x1fu : away <= 2 ? 0x18u : away <= 4 ? 0x10u : 0u);
             beside |= held & ofBothSides(away <= 2 ? 0x1fu : away <= 3 ? 0x18u : 0x10u);
         }

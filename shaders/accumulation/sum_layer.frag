@@ -23,8 +23,8 @@ void main() {
         addCompensated(sum.rgb, compensation.rgb, value.rgb);
         if (sumsAlpha) addCompensated(sum.a, compensation.a, value.a);
     }
-    // In the depth layer, alpha is the second component. The fourth component of the sum is the nearest depth, and the
-    // fourth component of the compensation is the number of samples.
+    // In the depth layer, alpha is the second component. The fourth component of `sum` therefore holds the nearest
+    // depth, and that of `compensation` the number of samples.
     if (keepsNearest) {
         sum.a = nearest;
         compensation.a = seen;

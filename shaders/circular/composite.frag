@@ -7,7 +7,7 @@
 
 layout(binding = 2) uniform sampler2D farBlurred;
 layout(binding = 3) uniform sampler2D nearBlurred;
-layout(binding = 4) uniform sampler2D nearRadii;     // radius of the near field's blur, in pixels of its image
+layout(binding = 4) uniform sampler2D nearRadii;     // blur radius of the near field, in field pixels
 layout(location = 2) uniform float perNearDiameter;  // 1 / (largest CoC diameter in px in front of the focus plane)
 // 0: there is no near field. ≥ 1: factor by which the near field's coverage is multiplied.
 layout(location = 0) uniform float blendBias;
@@ -25,8 +25,9 @@ vec3 radianceOf(vec4 field, float own, vec3 sharp) {
 // Returns the near field's coverage of a pixel, from the blurred weight `weight`.
 float coverageOf(float weight, vec2 place) {
     if (nearPremultiplied) {
-        // Divide the blurred weight by the weight that split.frag gives to a surface whose blur radius is the gathering
-        // radius. Surfaces with this blur then cover the pixel fully, and less blurred surfaces cover it partially.
+        // Divide the blurred weight by the weight that split.frag gives to a surface whose blur radius equals the
+        // radius that this pixel is blurred with (nearRadii). Surfaces with this blur then cover the pixel fully, and
+        // less blurred surfaces cover it partially.
         float diameter = 2.0 * float(reduction) * textureLod(nearRadii, place, 0.0).r;
         weight /= max(clamp(diameter, 0.0, 1.0) * min(diameter * perNearDiameter, 1.0), 1e-6);
     }
@@ -37,8 +38,8 @@ float coverageOf(float weight, vec2 place) {
 // the near field, and `behind` the radiance of the image behind it.
 float biasOf(float coverage, vec3 before, vec3 behind) {
     if (!biasByLuminance) return blendBias;
-    // blendBias applies fully where the near field covers most of the pixel and is brighter than the background.
-    // Without the bias, the sharp image would show through there.
+    // The factor is close to blendBias where a near field much brighter than the background covers most of the pixel,
+    // because the sharp image would show through there. It is close to 1 elsewhere.
     const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
     float near = dot(before, luminance);
     return 1.0 + (blendBias - 1.0) * coverage * near / max(near + dot(behind, luminance), 1e-12);

@@ -4,7 +4,7 @@
 
 layout(binding = 0) uniform sampler2D field;
 layout(binding = 1) uniform sampler2D radii;
-// Max radiance (red) and max weight (green) of the field. Read only if `bracketed` is set, which means that the sums
+// Max radiance (red) and max weight (green) of the near or far field. Read only with `bracketed`, that is, if the sums
 // are mapped to [0, 1] for storage in ten bits.
 layout(binding = 2) uniform sampler2D brightest;
 // per component: offset and scale of the real part for the mapping to [0, 1], then of the imaginary part

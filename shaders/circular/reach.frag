@@ -1,7 +1,7 @@
 // Computes, for each tile, the max blur radius of the near surfaces whose disks reach this tile or a neighbouring tile.
 // Disks spread beyond the edges of their surfaces.
 layout(binding = 0) uniform sampler2D tiles;
-// Only disks of tiles at most this many tiles away can reach this tile or a neighbouring tile.
+// Max distance, in tiles, from which a blur disk can reach this tile or a neighbouring tile.
 layout(location = 0) uniform int farthest;
 
 layout(location = 0) out float reaching;

@@ -1,10 +1,10 @@
 // Filters the columns of the complex row sums from horizontal.frag and adds the components. The output is the blurred
 // near or far field, divided by the sum of the kernel over all taps. If the radii of the rows differ from this pixel's
-// radius, that sum is inexact, but the ratio of radiance to weight stays correct. kernelAxes: horizontal and vertical
+// radius, this sum is inexact, but the ratio of radiance to weight stays correct. kernelAxes: horizontal and vertical
 // semi-axis of an elliptical blur, relative to the disk's radius.
 #include "include/complex_kernel.glsl"
 
-// Sums over rows, the output of horizontal.frag.
+// Input: the sum along each row, as written by horizontal.frag.
 layout(binding = 0) uniform sampler2D sums[bracketed ? 3 * components + 1 : 2 * components];
 layout(binding = 9) uniform sampler2D brightest;
 layout(location = 16) uniform vec4 brackets[components];
@@ -76,7 +76,7 @@ void main() {
             kernelSum += times(times(weightOf(kernel[c]), rowNorm), norm).x;
         }
     }
-    // The factor tapCount() undoes the division by the number of taps in horizontal.frag.
+    // horizontal.frag divides by the number of taps; the factor tapCount() undoes this.
     blurred = sum * (tapCount(rowTaps) / kernelSum);
     if (bracketed) blurred *= texelFetch(brightest, ivec2(0), 0).rrrg;
 }

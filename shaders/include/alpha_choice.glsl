@@ -28,8 +28,9 @@ uint mixed(uint bits) {
 float alphaThreshold(uvec2 pixel) {
     uint surfaceSeed = mixed(uint(object.values.z) * 0x9e3779b9u + uint(surface.facet) * 2u + uint(gl_FrontFacing));
     uint seed = mixed(surfaceSeed + pixel.x * 0x85ebca6bu + pixel.y * 0xc2b2ae35u);
-    // Permutes the sample indices in each aligned block of 2ᵏ samples, and reverses their bits (Laine and Karras 2011,
-    // Stratified Sampling for Stochastic Transparency).
+    // Reverses the bits of the sample index (van der Corput) and scrambles them. In each aligned block of 2ᵏ samples,
+    // each interval of length 2⁻ᵏ still contains one threshold (Laine and Karras 2011, Stratified Sampling for
+    // Stochastic Transparency).
     uint order = bitfieldReverse(uint(surface.sampleNumber));
     order ^= order * 0x3d20adeau;
     order += seed;

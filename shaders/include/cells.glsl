@@ -3,6 +3,7 @@
 // sorted by this blur into classes of increasing blur, separately in front of and behind the focus plane. The array
 // texture of sums has one layer per class.
 //
+// Each layer sums all samples beyond some depth, because compositing needs the samples that nearer classes do not hide.
 // Layer k < cellsInFront sums all samples except the samples in front of the focus plane that belong to class k or to a
 // class of larger blur. Layer cellsInFront + k sums the samples behind the focus plane that belong to class k or to a
 // class of larger blur. A class is the difference of two adjacent layers. RGB is radiance, and alpha counts samples.
@@ -12,7 +13,8 @@ const int cellClasses = cellsInFront + cellsBehind;
 // takes one. The sums of further classes are written with imageStore.
 const int drawnClasses = min(cellClasses, 7);
 
-// Side in px of the tiles. A bit mask records the blur classes of each tile's samples; most tiles contain few classes.
+// Side in px of the tiles. For each tile, a bit mask records which blur classes (groups of samples with similar blur)
+// occur in it, so that passes skip the other classes.
 const int cellTile = 8;
 // spread_classes.frag packs two bit masks of blur classes into an integer: the classes that a tile reads, and the
 // classes that must be written in it. This is the index of the first bit of the second mask.
@@ -23,15 +25,16 @@ const int besideSpread = 16;
 float classVariance(int k) { return k < 0 ? 0.0 : exp2(float(2 * k)) / 3.0 + 1.0 / 6.0; }
 
 // Returns the total weight, 0 … 1, with which a lens sample of blur variance `variance` is counted in blur class k and
-// all classes of larger blur. It increases linearly from 0 at the variance of class k − 1 to 1 at that of class k.
+// all classes of larger blur. It increases linearly from 0 at the variance of class k − 1 to 1 at the variance of class
+// k.
 float reachOfClass(float variance, int k) {
     return clamp((variance - classVariance(k - 1)) * (1.0 / (classVariance(k) - classVariance(k - 1))), 0.0, 1.0);
 }
 
-// Returns the lower left texel of class k in the texture with the mean radiance of all blur classes over squares of
-// pixels. Class 0 is on the left; the other classes are stacked to its right. `firstSquares`: columns and rows of the
-// squares of class 0. Separate textures or mip levels are slower, because software drivers query their size for each
-// pixel.
+// All blur classes share one texture for their means over squares of pixels. Returns the lower left texel of class k:
+// class 0 is on the left, and the other classes are on its right, one above another. `firstSquares`: number of columns
+// and rows of squares of class 0. One texture or mip level for each class would be slower, because software drivers
+// query the size of each texture for each pixel.
 ivec2 meansOrigin(ivec2 firstSquares, int k) {
     return k == 0 ? ivec2(0) : ivec2(firstSquares.x, firstSquares.y - (firstSquares.y >> (k - 1)));
 }

@@ -1,4 +1,5 @@
-// Computes the smooth terms of the clip-space circle of confusion C, the signed CoC times the depth w:
+// Computes the smooth terms factor, front, behind and added of the clip-space circle of confusion (CoC) C, which is the
+// signed CoC times the depth w:
 //   C = clamp(factor·(min(0, front) + max(0, behind)) + added, −R₁·w, R₂·w)
 // R₁ and R₂ are the max blur in front of and behind the focus plane, as fractions of the image's width
 // (src/lens/circle_of_confusion.h). Unlike C itself, the terms have no kinks, and they are also defined behind the near
@@ -9,9 +10,9 @@ struct CocPieces {
     // Blur factor of the surface times the radial gain 1 + g·r², with the distance r from the image's centre and the
     // coefficient g in frame.cocField.
     float factor;
-    float front;    // w times the blur of the lens in front of the focus plane, where it is negative
-    float behind;   // w times the blur of the lens behind the focus plane, where it is positive
-    float added;    // w times the added blur of the surface
+    float front;    // w times the lens's signed CoC for points in front of the focus plane (< 0 there)
+    float behind;   // w times the lens's signed CoC for points behind the focus plane (> 0 there)
+    float added;    // w times the blur that the surface's modifiers add, as a fraction of the image's width
 };
 
 CocPieces cocPieces(vec3 pinhole, vec2 own) {

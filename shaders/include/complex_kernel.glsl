@@ -20,7 +20,7 @@ Taps tapsOf(float radius) {
 
 float fade(Taps taps, int i) { return exactTaps ? clamp(taps.radius + 0.5 - float(i), 0.0, 1.0) : 1.0; }
 
-// Returns the number of taps of the kernel. With exactTaps, the outermost taps count as the fraction fade() ≤ 1.
+// Returns the number of taps of the kernel. With exactTaps, the outermost taps count only by their weight fade().
 float tapCount(Taps taps) {
     float sum = 1.0;
     for (int i = 1; i <= taps.count; ++i) sum += 2.0 * fade(taps, i);

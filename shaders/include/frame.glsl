@@ -41,7 +41,7 @@ layout(std140, binding = 2) uniform MaterialBlock {
     vec4 emissiveCutoff;  // rgb: emissive radiance; w: alpha cutoff
     vec4 surface;         // metallic, roughness, normal scale, occlusion strength
     vec4 reflectance;     // rgb: dielectric reflectance at normal incidence, without specularFactor; w: specularFactor
-    vec4 transmission;    // fraction, thickness (object units), 1/ior, blur of the background per roughness
+    vec4 transmission;    // fraction, thickness (object units), 1/ior, factor on roughness for the background's blur
     vec4 absorption;      // rgb: absorption coefficient (1/m); w: dispersion, 20 / Abbe number
     vec4 coat;            // coated fraction, roughness, normal scale
     vec4 sheen;           // rgb: colour; w: roughness

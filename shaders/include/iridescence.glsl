@@ -42,8 +42,8 @@ vec3 filmReflectance(float cosine, vec3 base, float filmIor, float thickness) {
     vec3 baseIor = (1.0 + root) / (1.0 - root);
     vec3 back0 = reflectanceBetween(baseIor, ior);
     vec3 back = vec3(schlick(back0.x, inside), schlick(back0.y, inside), schlick(back0.z, inside));
-    // Phase shifts at the film's two surfaces: π where the medium outside the film is less dense, which is always true
-    // for air.
+    // Sum of the phase shifts at the film's two surfaces. Each shift is π if the medium beyond the surface has a lower
+    // refractive index than the film, as air always has.
     vec3 shift = filmPi + filmPi * vec3(lessThan(baseIor, vec3(ior)));
     vec3 both = clamp(front * back, 1e-5, 0.9999);
     vec3 several = through * through * back / (1.0 - both);

@@ -1,8 +1,9 @@
 // Applies the clip-space lens shear p' = p + C·(u, k·v, 0, 0) for lens point (u, v) and aspect ratio k (Munkberg, Toth
 // and Akenine-Möller 2012; here C > 0 behind the focus plane). C is the signed circle of confusion times the depth w;
-// src/lens/circle_of_confusion.h documents C and its terms. Without the define cocControls, C is that of a thin lens,
-// a + b·w. `own` holds the surface's blur modifiers: a factor and an added fraction of the image's width. Depth is
-// reversed with an infinite far plane: z = near, so z/w runs from 1 at the near plane to 0 at infinity.
+// src/lens/circle_of_confusion.h documents C and its terms. Without cocControls, C = a + b·w with constants a and b, as
+// for a thin lens. The parameter `own` holds the surface's blur modifiers: own.x scales its blur, and own.y is added to
+// it, as a fraction of the image's width. Depth is reversed with an infinite far plane: z = near, so z/w runs from 1 at
+// the near plane to 0 at infinity.
 
 // Change in the CoC coefficients b₁ and b₂ (frame.coc) due to the sample's wavelength; 0 unless chromatic.
 float bandShift = 0.0;
@@ -12,8 +13,8 @@ struct CocTerms {
     // Blur factor of the surface times the radial gain 1 + g·r², with the distance r from the image's centre and the
     // coefficient g in frame.cocField.
     float factor;
-    float front;    // CoC of the lens in front of the focus plane, where it is negative: a/depth + b₁·q (frame.coc)
-    float behind;   // CoC of the lens behind the focus plane, where it is positive: a₂/depth + b₂·q (frame.coc)
+    float front;    // lens's CoC for depths in front of the focus plane (< 0 there): a/depth + b₁·q (see frame.coc)
+    float behind;   // lens's CoC for depths behind the focus plane (> 0 there): a₂/depth + b₂·q (see frame.coc)
 };
 
 CocTerms cocTerms(float inverseDepth, vec2 ndc, float ownFactor) {
@@ -32,8 +33,8 @@ float relativeCircleOfConfusion(float inverseDepth, vec2 ndc, vec2 own) {
     return clamp(blur, -frame.cocLimits.x, frame.cocLimits.y);
 }
 
-// Returns the image offset that astigmatism and coma cause for a lens point (u, k·v) with the aspect ratio k, in
-// normalised device coordinates; see src/lens/aberrations.h.
+// Returns the image offset, in normalised device coordinates, that astigmatism and coma cause (src/lens/aberrations.h).
+// `lensPoint`: (u, k·v), where k is the image's aspect ratio.
 vec2 aberration(vec2 ndc, vec2 lensPoint) {
     vec2 perAspect = vec2(1.0, sqrt(frame.cocLimits.z));
     vec2 field = ndc * perAspect;
@@ -42,8 +43,8 @@ vec2 aberration(vec2 ndc, vec2 lensPoint) {
     return (frame.cocOther.z * along * field + frame.cocOther.w * (2.0 * along * lens + dot(lens, lens) * field)) / perAspect;
 }
 
-// Returns the image shift of a point at depth 1/inverseDepth for a lens point (u, k·v) with the aspect ratio k, in
-// normalised device coordinates.
+// Returns the image shift, in normalised device coordinates, of a point at depth 1/inverseDepth. `lensPoint`: (u, k·v),
+// where k is the image's aspect ratio.
 vec2 shiftThroughLens(float inverseDepth, vec2 ndc, vec2 own, vec2 lensPoint) {
     vec2 shift = relativeCircleOfConfusion(inverseDepth, ndc, own) * lensPoint;
     if (aberrations) shift += aberration(ndc, lensPoint);
@@ -55,9 +56,9 @@ vec3 pinholePosition(vec3 viewPosition) {
     return vec3(viewPosition.xy * frame.projection.xy, -viewPosition.z);
 }
 
-// Returns the clip position as seen from a lens point; `pinhole` is pinholePosition(). `lensAndJitter` holds the lens
-// point (u, k·v), with the aspect ratio k, and the pixel jitter in normalised device coordinates. With cocControls, w
-// must be > 0.
+// Returns the clip position as seen from a lens point. `pinhole`: result of pinholePosition(); with cocControls, its
+// third component w must be > 0. `own`: the surface's blur modifiers. `lensAndJitter`: lens point (u, k·v), where k is
+// the image's aspect ratio, and pixel jitter in normalised device coordinates.
 vec4 throughLens(vec3 pinhole, vec2 own, vec4 lensAndJitter) {
     float w = pinhole.z;
     vec2 shift;

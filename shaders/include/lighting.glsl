@@ -5,7 +5,7 @@
 struct LightData {
     vec4 directionType;   // direction of the light's rays; w: 0 directional, 1 point, 2 spot
     vec4 colorScale;      // rgb: colour · intensity / π; w: scale of the spot cone's falloff
-    vec4 cone;            // x: offset of the spot cone's falloff
+    vec4 cone;            // x: offset o of the spot cone's falloff: cosine · scale + o, clamped to [0, 1] and squared
 };
 
 #define LIGHTING_MEMBERS \

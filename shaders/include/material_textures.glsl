@@ -1,5 +1,5 @@
 // Textures of the material. The array materialTextures holds only textures that the material uses. textureUnits[slot]
-// is the index in this array of the texture for a slot (base colour, normal, …), or −1 without such a texture.
+// is the index in this array for a slot (base colour, normal, …), or −1 if the material has no texture for it.
 
 layout(binding = 8) uniform sampler2D materialTextures[textureCount];
 

@@ -15,7 +15,7 @@ layout(std140, binding = 6) uniform WaveBlock {
     // samples filters the texture over the full pixel. The area is below 1/N, because trilinear lookups cover more than
     // the square.
     float footprint;
-    float mipBias;        // log2(footprint): bias on the mip level, which OpenGL chooses for a full pixel
+    float mipBias;        // log2(footprint), bias on the mip level: without it, OpenGL filters over a full pixel
 } wave;
 
 // Directional albedo of the specular part (src/scene/specular_albedo.h).
@@ -35,7 +35,7 @@ struct SurfacePoint {
     float spread;         // spread of the unit normals that `normal` represents, from normalSpread()
     vec3 seen;            // mean of the visible normals, see seenNormal()
     float grazing;        // reflectance at grazing angles, F90; 1 unless the define ownReflectance is set
-    vec3 transmitted;     // radiance from behind the surface, before the loss by reflection
+    vec3 transmitted;     // radiance from behind the surface, not yet reduced by the specular reflectance
     // The next two members are set only if the material has sheen.
     vec3 sheen;           // colour of the sheen
     float sheenRoughness; // perceptual roughness
@@ -44,8 +44,8 @@ struct SurfacePoint {
     float coatRoughness;  // perceptual roughness
     vec3 coatNormal;      // unit vector
     // The next four members are set only if the material is anisotropic.
-    vec3 stretch;         // unit vector along the surface in which highlights are stretched
-    vec3 across;          // unit vector along the surface, perpendicular to `stretch`
+    vec3 stretch;         // direction along which highlights are stretched: a unit vector tangent to the surface
+    vec3 across;          // unit vector tangent to the surface, perpendicular to `stretch`
     vec2 widths;          // GGX widths α along `stretch` and `across`
     vec3 mirror;          // normal for reflections of the environment
     // The next three members are set only if the material is iridescent (KHR_materials_iridescence).
@@ -53,15 +53,16 @@ struct SurfacePoint {
     float film;           // thickness of the thin film (nm)
     vec3 filmBase;        // F0 for which Schlick's approximation equals the film's reflectance in the view direction
     vec3 through;         // albedo for diffuse light that comes from behind the surface; set only if diffusesThrough
-    // Irradiance from the environment that occluders block, divided by π. Set only if `shadowed`.
+    // Part of the environment's irradiance that occluders block, divided by π. Set only if `shadowed`.
     vec3 hidden;
 };
 
 vec3 lightShares[lightCount + 1];   // fraction of each light that reaches the surface; set only if `shadowed`
 
-// Reflected light without the factors F0 and albedo. Σ: sum over all lights. n, l, v, h: unit vectors of the normal, to
-// the light, to the eye, and halfway between l and v. The irradiance of a light is its illuminance of a surface that
-// faces the light, times n·l. D: distribution of normals. V: visibility, masking / (4·(n·l)·(n·v)).
+// Reflected light without the factors F0 and albedo. Σ: sum over all lights. n, l, v, h: unit vectors of the normal,
+// the direction to the light, the direction to the eye, and the half vector of l and v. The irradiance of a light is
+// n·l times the irradiance of a surface that faces the light. D: distribution of normals. V: visibility, masking /
+// (4·(n·l)·(n·v)).
 struct LightSums {
     vec3 diffuse;         // diffuse light beneath the Fresnel reflection: Σ irradiance·(1 − g)/π, with g = (1 − v·h)⁵
     vec3 specular;        // specular light for reflectance 1: Σ irradiance·D·V (normal distribution D, visibility V)
@@ -70,8 +71,8 @@ struct LightSums {
     vec3 sheen;           // sheen of colour 1: Σ irradiance·D·V, with the sheen's distribution D and visibility V
     // The next two sums are for iridescent surfaces, which a thin film covers.
     vec3 film;            // specular light of the thin film: Σ irradiance·D·V·F, with the film's reflectance F at v·h
-    vec3 beneathFilm;     // diffuse light beneath the film: Σ irradiance·(1 − F)/π, with F of the strongest channel
-    vec3 behind;          // diffuse light from behind: Σ (irradiance of the back)/π; set only if diffusesThrough
+    vec3 beneathFilm;     // diffuse light beneath the film: Σ irradiance·(1 − F)/π, with F's largest colour channel
+    vec3 behind;          // diffuse light from behind: Σ (irradiance of the back side)/π; set only if diffusesThrough
 };
 
 // Returns the mean of max(n·l, 0) over the normals n that a coarse level's normal represents. `mean` is the mean of
@@ -93,11 +94,11 @@ float normalSpread(float agreement) {
 }
 
 // Returns the mean of the normals that a coarse level's normal represents, weighted by their visible area, because
-// normals that face the eye cover more pixels: Σ n·(n·v) / Σ (n·v). Seen along the mean normal, the weighted mean has
-// the length |n| = `agreement`. In other views the weighted mean is tilted towards the eye by about (1 − |n|) / mean(n·v)
-// times the component of v perpendicular to the mean normal. At grazing angles few normals are visible, and this tilt
-// would be too large. It is therefore limited to the largest tilt that is possible for this |n|; the limit is fitted to
-// the von Mises–Fisher distribution.
+// normals that face the eye cover more pixels: Σ n·(n·v) / Σ (n·v), with the direction v to the eye. Seen along the
+// mean normal, the weighted mean has the length `agreement`, here a. Seen from other directions, it is tilted towards
+// the eye by about (1 − a) / mean(n·v) times the component of v perpendicular to the mean normal. At grazing angles few
+// normals are visible, and this tilt would be too large. It is therefore limited to the largest tilt that is possible
+// for this a; the limit is fitted to the von Mises–Fisher distribution.
 vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     float nv = dot(normal, toEye);
     float seen = max(meanCosine(agreement * nv, nv, spread), 1e-3);
@@ -106,15 +107,15 @@ vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     return agreement * normal + turn * inversesqrt(1.0 + bound) * (toEye - nv * normal);
 }
 
-// Returns 2σ², where σ² is the variance of the slopes of the full-detail normals that one normal n of a coarse level
-// averages: σ² ≈ (1 − |n|)/|n| (Toksvig 2005, Mipmapping Normal Maps).
+// Returns 2σ², where σ² is the variance of the slopes of the full-detail normals whose mean is the normal n of a coarse
+// level: σ² ≈ (1 − |n|)/|n| (Toksvig 2005, Mipmapping Normal Maps).
 float coarseSpread(SurfacePoint point) {
     return 2.0 * (1.0 - point.agreement) / point.agreement;
 }
 
 // Variance σ² of the slopes of all normals that a sample represents, in two perpendicular directions along the surface.
 struct Spread {
-    vec3 axis;            // unit vector of the direction with the larger variance; 0 if the variances are equal
+    vec3 axis;            // unit vector along which the slopes have the largest variance; 0 if all directions are equal
     float along;          // 2σ² of the slopes along `axis`
     float across;         // 2σ² of the slopes across `axis`
 };
@@ -123,9 +124,10 @@ struct Spread {
 // (Filtering Distributions of Normals for Shading Antialiasing), with the bound of Tokuyoshi and Kaplanyan 2019
 // (Improved Geometric Specular Antialiasing). σ² is the variance of the normals over a square whose area is 8 times the
 // area over which a sample's texture lookups are filtered (WaveBlock::footprint), but at most one pixel. The points of
-// the square are weighted by a Gaussian whose standard deviation is half the square's side. With half of this area, 64
-// samples miss up to 12 % of the sun's light that a mirror ball reflects, because its highlight is far smaller than a
-// pixel. With a larger area, the additional blur of highlights outweighs the lower noise.
+// the square are weighted by a Gaussian whose standard deviation is half the square's side. If the square's area is
+// halved, 64 samples miss up to 12 % of the sun's light that a mirror ball reflects, because the ball's highlight is
+// far smaller than a pixel. If the area is larger, the additional blur of highlights adds more error than the lower
+// noise removes.
 //
 // The same variance is used in all directions. On a wire, however, normals vary by half a turn across the wire and
 // hardly along it. A highlight that is widened along the wire would light parts that face away from the light. Along
@@ -136,7 +138,8 @@ Spread slopeSpread(SurfacePoint point) {
     float product = dot(point.normalRight, point.normalUp);
     float mean = 0.5 * (right2 + up2);
     float difference = 0.5 * (right2 - up2);
-    float deviation = sqrt(difference * difference + product * product);   // eigenvalues: mean ± deviation
+    // The matrix of the dot products of normalRight and normalUp has the eigenvalues mean ± deviation.
+    float deviation = sqrt(difference * difference + product * product);
     vec3 axis = difference >= 0.0 ? (deviation + difference) * point.normalRight + product * point.normalUp
                                   : product * point.normalRight + (deviation - difference) * point.normalUp;
     axis -= point.normal * dot(point.normal, axis);
@@ -162,17 +165,17 @@ float meanSpread(Spread spread) { return 0.5 * (spread.along + spread.across); }
 //
 // Coarse levels: normals that face the eye cover more pixels, so each is weighted by v·h divided by the mean of v·h. In
 // the masking of the Beckmann term, the cosine to the eye is therefore this mean. The variance of a coarse level moves
-// weight from the GGX term to the Beckmann term. A fraction α of this weight stays with the masking of the GGX term.
+// weight from the GGX term to the Beckmann term, but only the fraction 1 − α of the weight that 2σ² gives above.
 struct Lobe {
     float width;          // width α of the GGX distribution of microfacets
     float alpha2;         // squared GGX width α² + 2σ²; σ²: variance of the normals' slopes, mean of both directions
     vec3 axis;            // direction in which the normals' slopes vary more (Spread::axis)
     vec2 widths2;         // squared Beckmann widths α² + 2σ² along and across `axis`; σ²: variance of the slopes
     float share;          // weight of Beckmann's distribution
-    // Masking of the Beckmann term uses the cosine `shown` + `shownOfH` · (v·h) between its normals and the view
-    // direction v, where h is the half vector.
+    // The masking of the Beckmann term uses `shown` + `shownOfH` · (v·h) as the cosine between the view direction v and
+    // the reflecting normals; h is the half vector.
     float shown;
-    float shownOfH;       // factor of v·h in that cosine: 1 for full detail
+    float shownOfH;       // 1 at full detail, where `shown` is 0
 };
 
 Lobe lobeOf(SurfacePoint point, float nv, Spread spread) {
@@ -188,8 +191,9 @@ Lobe lobeOf(SurfacePoint point, float nv, Spread spread) {
     return Lobe(width, alpha2, spread.axis, widths2, share, ofCoarse * seen, 1.0 - ofCoarse);
 }
 
-// Returns 2·(n·l)·V for height-correlated Smith masking by GGX slopes of width α, for the cosines n·l to the light and
-// n·v to the eye. Normals that face away from the light or the eye reflect nothing. `width2`: α².
+// Returns 2·(n·l)·V, where V is the height-correlated Smith visibility of GGX with width α. `nl`, `nv`: cosines n·l and
+// n·v between the normal and the directions to the light and to the eye; the result is 0 if one of them is ≤ 0.
+// `width2`: α².
 float unmasked(float nl, float nv, float width2) {
     if (nl <= 0.0 || nv <= 0.0) return 0.0;
     float masking = nl * sqrt(nv * nv * (1.0 - width2) + width2) + nv * sqrt(nl * nl * (1.0 - width2) + width2);
@@ -276,8 +280,9 @@ vec3 reflectanceOf(SurfacePoint point) {
     return iridescent ? mix(point.specular, point.filmBase, point.iridescence) : point.specular;
 }
 
-// Returns the factor on single scattering that accounts for the light that is reflected several times (Turquin 2019,
-// Practical Multiple Scattering Compensation for Microfacet Models). `albedo`: specularAlbedos2(…).
+// Returns the factor by which single scattering is multiplied to include multiple scattering (Turquin 2019, Practical
+// Multiple Scattering Compensation for Microfacet Models). `albedo`: result of specularAlbedos2(), whose x + y is the
+// directional albedo for reflectance 1.
 vec3 severalReflections(vec3 specular, vec2 albedo) {
     return 1.0 + specular * (1.0 / max(albedo.x + albedo.y, 0.1) - 1.0);
 }

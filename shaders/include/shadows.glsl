@@ -20,7 +20,7 @@
 
 #include "include/shadow_projection.glsl"
 
-// Reversed depth; 0: empty. With tintedShadows, one channel per colour.
+// Reversed depth; 0: empty. With tintedShadows, one depth per colour channel.
 layout(binding = 29) uniform sampler2DArray shadowMaps;
 
 struct Facet {
@@ -28,8 +28,8 @@ struct Facet {
     vec3 normal;    // unit normal of the surface
 };
 
-// Returns the change of depth along the facet's plane from the position `clip` to the centre of its shadow map texel,
-// at offset `toMiddle` (NDC). `width` is the size of a texel at this depth, in m.
+// Returns how much the depth of the facet's plane changes between `clip` and the centre of the shadow map texel that
+// contains `clip`. `toMiddle`: offset to this centre (NDC). `width` is the size of a texel at this depth, in m.
 float depthAlongFacet(int texel, vec4 clip, vec3 normal, float width, vec2 toMiddle) {
     const float farthest = 4.0;   // max distance along the facet over which depth is extrapolated, in texels
     vec3 across = normalize(cross(normal, abs(normal.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
@@ -45,7 +45,8 @@ float depthAlongFacet(int texel, vec4 clip, vec3 normal, float width, vec2 toMid
 }
 
 // Returns, for each colour channel, 1 if the facet is lit according to shadow map `slot` of this layer's sample, else
-// 0. `toLight` is a unit vector.
+// 0. The channels differ only with tintedShadows, where coloured casters block only some channels. `toLight` is a unit
+// vector.
 vec3 litAt(int slot, Facet facet, vec3 toLight) {
     int texel = shadowTexel(gl_Layer, slot);
     float cosine = dot(facet.normal, toLight);
@@ -60,7 +61,8 @@ vec3 litAt(int slot, Facet facet, vec3 toLight) {
     vec2 toMiddle = (vec2(at) + 0.5) * (2.0 / float(shadowSize)) - 1.0 - place;
     float rise = depthAlongFacet(texel, clip, facet.normal, width, toMiddle);
     vec4 diagonal = shadowDirection(texel, toLight * (0.5 * float(shadowSize) * length(toMiddle) * width));
-    // depth change from the receiver to the texel centre along a plane that rises towards the light at 45° to the map
+    // depth change from the receiver to the texel centre on a plane inclined by 45° to the map, rising towards the
+    // light
     float steepest = (diagonal.z - clip.z / clip.w * diagonal.w) / clip.w;
     float depth = clip.z / clip.w + (rise < 0.0 ? min(-rise, steepest) : rise);
     vec3 nearest = texelFetch(shadowMaps, ivec3(at, gl_Layer * (shadowPoints * shadowMapCount) + slot), 0).rgb;

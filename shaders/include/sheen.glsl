@@ -34,8 +34,9 @@ float sheenReflectance(SurfacePoint point, float nv, float nl, vec3 toLight) {
     return distribution * min(visibility, 1.0);
 }
 
-// Returns the fraction of a white environment that a white sheen reflects. The logarithm of ∫ D·V·(n·l) dl is fitted by
-// a polynomial of n·v and √roughness; for roughness ≥ 0.1 and n·v ≥ 0.035, the error of the fraction is at most 0.006.
+// Returns the fraction of a white environment that a white sheen reflects. The logarithm of ∫ D·V·(n·l) dl is
+// approximated by a polynomial in n·v and √roughness; for roughness ≥ 0.1 and n·v ≥ 0.035, the error of the fraction is
+// at most 0.006.
 float sheenAlbedo(float nv, float roughness) {
     vec4 powers = vec4(1.0, nv, nv * nv, nv * nv * nv);
     float root = sqrt(max(roughness, 0.1));

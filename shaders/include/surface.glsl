@@ -3,8 +3,10 @@
 
 struct Surface {
     vec4 color;
-    vec4 minColor;        // min of the vertex colours of all triangles that share the vertex
-    vec4 maxColor;        // max of the vertex colours of all triangles that share the vertex
+    // Min and max of the vertex colours of all triangles that share this vertex, per channel. Fragments read the values
+    // of the triangle's last vertex and clamp `color` to them.
+    vec4 minColor;
+    vec4 maxColor;
     vec3 normal;          // in world axes, like all directions in this struct
     float agreement;      // coarse levels: length of the mean of the unit normals that `normal` represents
     vec3 toEye;           // vector from the surface to this sample's lens point (m)
@@ -17,6 +19,6 @@ struct Surface {
     int facet;            // index of the triangle's last vertex, used as its id; set only with CHOOSES_BY_ALPHA
     float sampleNumber;   // index of the lens sample within the frame
     float layer;
-    vec3 opening;         // clip position (x, y, w) through a pinhole at shutter opening; set only with MOTION_SLOT
-    vec3 closing;         // clip position (x, y, w) through a pinhole at shutter closing; set only with MOTION_SLOT
+    vec3 opening;         // pinhole clip position (x, y, w) when the shutter opens; set only with MOTION_SLOT
+    vec3 closing;         // pinhole clip position (x, y, w) when the shutter closes; set only with MOTION_SLOT
 };

@@ -28,7 +28,8 @@ vec4 surfaceTexel(int unit, int slot) { return texture(materialTextures[unit], u
 bool showsFront() { return gl_FrontFacing; }
 
 void addNormalChanges(inout SurfacePoint point, vec3 normal) {
-    point.normalRight = dFdx(normal);   // Use the interpolated normal only, because mip levels already average normal maps.
+    // `normal` excludes the normal map, because the mip levels of the map already average its variation.
+    point.normalRight = dFdx(normal);
     point.normalUp = dFdy(normal);
 }
 

@@ -2,7 +2,8 @@
 
 // Each shader that includes this file defines the following two functions.
 bool showsFront();                       // true if the triangle's front is visible
-// Sets the changes of the normal from pixel to pixel. `normal` is the normalised interpolated normal.
+// Sets normalRight and normalUp of `point`, the changes of the normal from pixel to pixel. `normal` is the normalised
+// interpolated normal.
 void addNormalChanges(inout SurfacePoint point, vec3 normal);
 
 // Returns the interpolated unit normal perturbed by the value `texel` of a normal map. `scale`: the map's normal scale.

@@ -7,8 +7,8 @@
 
 layout(location = 6) in vec4 lensAndJitterIn;   // per instance: lens point (u, k·v), k: aspect ratio; jitter (NDC)
 layout(location = 7) in vec4 eyeAndSampleIn;    // per instance: lens point (m); sample index in the frame; layer
-layout(location = 13) in vec3 momentIn;         // per instance: shutter time, `moment` of vertexAt()
-layout(location = 14) in float bandShiftIn;     // per instance: bandShift (lens.glsl), the CoC change by the wavelength
+layout(location = 13) in vec3 momentIn;         // per instance: shutter time, passed to vertexAt() as `moment`
+layout(location = 14) in float bandShiftIn;     // per instance: bandShift (lens.glsl), CoC change with wavelength
 // Min and max of the vertex colours of all triangles that share the vertex. Each channel is 256 · max + min, in units
 // of 1/255.
 layout(location = 15) in vec4 colorRangeIn;

@@ -1,5 +1,5 @@
-// Varyings that the stages before the lens shear pass on, in addition to the surface attributes: the vertex position
-// before the shear (x, y, w of clip space), the blur modifiers, and the lens sample of the instance.
+// Additional varyings of the shader stages that run before the lens shear is applied: the unsheared vertex position (x,
+// y, w of clip space), the blur modifiers, and the lens sample of the instance.
 
     vec3 pinhole;
     vec2 ownBlur;

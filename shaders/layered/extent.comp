@@ -2,8 +2,8 @@
 // covers a square of 2^(l + 1) pixels per side. Without a surface, min > max.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-// With finestExtents, the output surfaceOut of layered/peel.frag; otherwise this pyramid of extents, whose next finer
-// level is read.
+// Input. With finestExtents: the surfaces from layered/peel.frag (surfaceOut). Otherwise: the pyramid that this shader
+// builds, of which level `finer` is read.
 layout(binding = 0) uniform sampler2DArray source;
 layout(location = 0) uniform int finer;              // pyramid level to read from `source`
 layout(binding = 0, rg32f) writeonly uniform image2DArray extentOut;

@@ -7,8 +7,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2DArray extents;   // pyramid of min and max blur from layered/extent.comp
 layout(binding = 0, rg32f) writeonly uniform image2DArray reachOut;
 layout(location = 0) uniform int border;        // border in px by which the layers extend beyond the image
-layout(location = 1) uniform float farthest;    // max distance (px) from a pixel at which a ray can meet a surface
-layout(location = 2) uniform float bandBlur;    // max change of the blur that a wavelength causes (px)
+layout(location = 1) uniform float farthest;    // max distance (px) of a pixel from surfaces that its rays can meet
+layout(location = 2) uniform float bandBlur;    // max change of the blur due to the wavelength (px)
 
 const int maxRounds = 5;
 

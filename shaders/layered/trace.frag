@@ -1,9 +1,9 @@
 // Traces one lens sample: outputs, for each pixel, the nearest surface over all layers that its lens ray hits.
 //
 // A surface of signed blur c px (diameter) at position q of the pinhole image appears in pixel p through the lens point
-// (u, v) if q = p − c/2·(u, v). The ray is therefore a line in the pinhole image, along which c grows with the
-// distance. In each pixel of a layer the surface is a plane, c = c₀ + slope·(q − centre). The ray hits the plane if it
-// enters the pixel on one side of the plane (in front or behind) and leaves the pixel on the other side.
+// (u, v) if q = p − c/2·(u, v). The ray is therefore a line in the pinhole image, with the parameter c. In each pixel
+// of a layer the surface is a plane, c = c₀ + slope·(q − centre). The ray hits the plane if it enters the pixel on one
+// side of the plane (in front or behind) and leaves the pixel on the other side.
 //
 // Neighbouring pixels whose planes differ by less than a pixel of blur form one surface without a gap between them.
 // Rays start at a random position in their pixel, which smooths blurred surfaces and does not affect focused ones.
@@ -16,16 +16,16 @@ in Sky {
 
 layout(binding = 0) uniform sampler2DArray layerColors;     // premultiplied colours of the depth layers
 layout(binding = 1) uniform sampler2DArray layerSurfaces;   // surfaceOut of layered/peel.frag
-layout(binding = 2) uniform sampler2DArray layerReach;      // min and max blur from layered/reach.comp
+layout(binding = 2) uniform sampler2DArray layerReach;      // min and max blur that each pixel's rays may meet
 layout(location = 0) uniform int layerCount;
 layout(location = 1) uniform int border;                    // border in px by which the layers extend beyond the image
 layout(location = 2) uniform vec2 pinhole;                  // subpixel position (px) at which the layers were drawn
 
 layout(location = 0) out vec4 layerOut;
 
-const float rounded = 0.05;   // tolerance for rounding errors of a ray's hit on a plane, as a blur diameter in px
-// The planes of two neighbouring pixels belong to one surface if their blur diameters differ by less than this (px) at
-// the pixels' common border.
+const float rounded = 0.05;   // tolerance for rounding errors where a ray hits a surface, in px of blur diameter
+// Two neighbouring pixels show one surface if the blur diameters of their planes differ by less than this (px) at the
+// pixels' common border.
 const float oneSurface = 1.0;
 const int maxSurfaces = blendedLayers ? 16 : 1;
 
@@ -49,8 +49,8 @@ vec2 placeAt(Ray ray, float blur) { return ray.start + blur * ray.slope; }
 // considered.
 void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
     vec2 reach = texelFetch(layerReach, ivec3(gl_FragCoord.xy, layer), 0).xy + vec2(-rounded, rounded) + ray.shift;
-    // Blur grows with depth along the ray unless surfaces modify their blur, so no surface beyond hit.end is nearer
-    // than `hit`.
+    // Blur grows with depth along the ray, so surfaces with more blur than hit.end are farther away than `hit`. This
+    // does not hold if surfaces modify their blur.
     if (!usesOwnBlur) reach.y = min(reach.y, hit.end);
     ivec2 size = textureSize(layerSurfaces, 0).xy;
     vec2 toFirst = -ray.start * ray.perSlope;
@@ -63,7 +63,7 @@ void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
     ivec2 forward = ivec2(ray.slope.x < 0.0 ? -1 : 1, ray.slope.y < 0.0 ? -1 : 1);
     ivec2 texel = clamp(ivec2(floor(placeAt(ray, reach.x))), ivec2(0), size - 1);
     float begin = reach.x;
-    bool connected = false;   // true if the previous pixel has a surface
+    bool connected = false;   // true if the previous pixel on the ray has a surface, which this pixel may continue
     float before = 0.0;       // how far the ray was behind the surface, in px of blur, when it left the previous pixel
     while (true) {
         vec2 ends = (vec2(texel + max(forward, 0)) - ray.start) * ray.perSlope;
@@ -96,7 +96,8 @@ void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
 void main() {
     vec2 lens = vec2(sky.lensAndJitter.x, sky.lensAndJitter.y * frame.window.w / frame.window.z);
     vec2 inPixel = -0.5 * sky.lensAndJitter.zw * frame.window.zw - pinhole;
-    // The clamp leaves a margin for rounding errors, so that rays to surfaces in focus stay inside their pixel.
+    // The clamp leaves a margin for rounding errors, so that each ray crosses the focus plane inside the pixel where it
+    // starts.
     vec2 start = gl_FragCoord.xy + vec2(border) + clamp(inPixel, -0.47, 0.47);
     vec2 slope = -0.5 * lens;
     vec2 perSlope = vec2(abs(slope.x) > 1e-9 ? 1.0 / slope.x : 1e9, abs(slope.y) > 1e-9 ? 1.0 / slope.y : 1e9);

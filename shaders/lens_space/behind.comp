@@ -24,7 +24,7 @@ vec2 lens = vec2(0.0);
 vec2 place = vec2(0.0);
 float time = 0.0;
 uint number = 0u;
-float behindDepth = 0.0;   // depth w of the ray's latest hit; the next hit is behind it
+float behindDepth = 0.0;   // depth w of the ray's latest hit; only hits behind it are searched for
 uint behindTriangle = noTriangle;
 float nearest = 3e38;
 uint triangle = noTriangle;
@@ -69,7 +69,7 @@ void main() {
     // entriesAtOnce triangles (see_through.cpp).
     uint end = tileEnds[tile];
     for (uint at = tile == tiles.x ? 0u : tileEnds[tile - 1u]; at < end; at += 8u) {
-        // Triangles are sorted by min depth, so all further triangles are behind the nearest hit.
+        // Triangles are sorted by min depth, so all remaining triangles are behind the nearest hit.
         if (nearest * (1.0 + 1e-5) < minDepthOf(triangles[entries[at]].xyz)) break;
         test(entries[at]);
         if (at + 1u < end) test(entries[at + 1u]);

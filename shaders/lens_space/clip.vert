@@ -6,7 +6,8 @@
 #include "include/vertex.glsl"
 #include "lens_space/clip_blur.glsl"
 
-layout(location = 0) uniform vec3 moment;   // index of a shutter time, fraction of the way to the next, time in [0, 1]
+// x: index of a shutter time; y: fraction of the way to the next; z: time in the exposure, [0, 1]
+layout(location = 0) uniform vec3 moment;
 
 layout(xfb_buffer = 0, xfb_offset = 0) out vec4 clipOut;       // x, y, w in clip space, and the signed CoC C
 #ifdef PASSES_OWN_BLUR

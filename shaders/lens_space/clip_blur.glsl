@@ -1,6 +1,6 @@
 // Computes the circle of confusion C of a vertex in clip space, the signed CoC times the depth w. Behind the camera, C
-// is extrapolated with the terms of coc_pieces.glsl and without the max blur behind the focus plane. Inside a triangle
-// the lens-space methods interpolate C linearly (Munkberg, Toth and Akenine-Möller 2012).
+// is extrapolated with the formula of coc_pieces.glsl, but without the upper limit, the max blur behind the focus
+// plane. Inside a triangle the lens-space methods interpolate C linearly (Munkberg, Toth and Akenine-Möller 2012).
 
 #include "include/coc_pieces.glsl"
 

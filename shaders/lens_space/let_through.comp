@@ -18,7 +18,8 @@
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 4) readonly buffer DrawBlock { Draw draws[]; };
-layout(std430, binding = 5) buffer CountBlock { uint goOn; };   // number of rays that pass through their hit
+// goOn: number of rays that pass through the surface they hit
+layout(std430, binding = 5) buffer CountBlock { uint goOn; };
 
 layout(location = 2) uniform uint group;
 layout(location = 3) uniform uint recordCount;
@@ -37,9 +38,9 @@ uint scrambled(uint reversed, uint seed) {
     return reversed;
 }
 
-// Returns a threshold in [0, 1) for the ray at the triangle. At one triangle, the thresholds of a pixel's rays form a
-// shuffled and scrambled van der Corput sequence, so they are evenly spread. Thresholds at different triangles are
-// independent.
+// Returns the threshold in [0, 1) with which alpha is compared to decide whether ray `number` stops at the triangle. At
+// one triangle, the thresholds of a pixel's rays form a shuffled and scrambled van der Corput sequence, so they are
+// evenly spread. Thresholds at different triangles are independent.
 float thresholdOf(uint number, uvec2 pixel, uint triangle) {
     uint seed = mixedBits(triangle + mixedBits(pixel.x + mixedBits(pixel.y)));
     uint shuffled = bitfieldReverse(scrambled(bitfieldReverse(number), seed));
@@ -83,8 +84,8 @@ void main() {
     Ray ray = rayOf(numberOf(record), pixel);
     readHit(record.triangle, ray.values.x, lensPointOf(record, ray), placeOf(ray, pixel));
     float threshold = thresholdOf(firstRay + numberOf(record), pixel, record.triangle);
-    // All points on a line sample have the same ray index, so their thresholds are offset by their positions along the
-    // line.
+    // All points on a line sample have the same ray index, so thresholdOf() gives them the same threshold. Offset each
+    // threshold by the point's position along the line.
     if (lineSamples) threshold = fract(threshold + 7.236 * record.place);
     bool stopped = stops(threshold);
     records[index].weight = stopped ? abs(record.weight) : -abs(record.weight);

@@ -10,7 +10,7 @@
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
-layout(std430, binding = 4) buffer GroupBlock { Group groups[]; };   // surfaces grouped by shader; group 0 is the sky
+layout(std430, binding = 4) buffer GroupBlock { Group groups[]; };   // one group per shader; group 0: the sky
 layout(std430, binding = 5) writeonly buffer ListBlock { uint list[]; };
 
 layout(location = 0) uniform uint recordCount;

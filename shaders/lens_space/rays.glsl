@@ -1,16 +1,16 @@
 // Looks up the rays of each pixel. There are rayVariants sets of rays. Each set contains all rays of one pixel, well
 // distributed over lens and pixel. The pixels of a square of up to 8 × 8 pixels use different sets, in a different
-// order in each square (src/render/lens_space/ray_sets.h). Each pixel also scrambles its samples (lens point, position in
-// the pixel, time), so that no two pixels have the same ones.
+// order in each square (src/render/lens_space/ray_sets.h). Each pixel also scrambles its samples (lens point, position
+// in the pixel, time), so that no two pixels have the same samples.
 
 struct Ray {
-    // xy: for a point sample, the lens point (u, k·v), where k is the image's aspect ratio; for a line sample, a line
-    // through the lens centre, the vector from the centre to the lens's rim along the line. zw: position in px relative
-    // to the pixel's centre.
+    // xy: for a point sample, the lens point (u, k·v), where k is the image's aspect ratio; for a line sample (a line
+    // through the lens centre), the vector along the line from the centre to the lens's rim. zw: position in px
+    // relative to the pixel's centre.
     vec4 lensAndPixel;
-    // Point sample: x is the time within the current part of the exposure, [0, 1]. Line sample: the line's points are p
-    // times the vector to the rim, with p from −x to 1; y is the fraction of the line's light that passes at p > 0; z
-    // is the position, [0, 1), at which each visible segment of the line is shaded.
+    // Point sample: x is the time within the current part of the exposure, [0, 1]. Line sample: the points of the line
+    // are p times the vector lensAndPixel.xy, with p from −x to 1. y is the fraction of the line's light that passes at
+    // p > 0. z tells where each visible segment is shaded, as a fraction of its light, [0, 1).
     vec4 values;
 };
 

@@ -1,4 +1,5 @@
-// Shades the records (ray hits) of all surfaces with one shader. Each file that includes this one defines lightOf().
+// Shades the records (ray hits) of one group: all surfaces that use the same shader, or the sky. Each file that
+// includes this one defines lightOf().
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"

@@ -1,7 +1,8 @@
-// Third part of kernel 1 of the lens-space methods, which prepares vertices and triangles: shades both sides of the
-// surface at each vertex, as seen from the lens centre. One dispatch shades surfaces with the same material and
-// features. The radiance is interpolated between vertices. Texture lookups and highlights are therefore filtered over
-// half the distance to the two neighbouring vertices in the frame's first triangle that contains the vertex.
+// Third part of kernel 1 of the lens-space methods, the kernel that prepares vertices and triangles: shades both sides
+// of the surface at each vertex, as seen from the lens centre. One dispatch shades surfaces with the same material and
+// features. The radiance is interpolated between vertices, so texture lookups and highlights are filtered over an area
+// around the vertex. This area extends halfway to the other two corners of the frame's first triangle that has this
+// vertex.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"

@@ -1,7 +1,7 @@
-// Sorts each tile's triangles by min depth, so that rays finish before the hidden triangles at the end of the list.
-// Triangles of equal depth are sorted by index, which makes the result deterministic. In this bitonic sort (Batcher
-// 1968) the first step of each block is mirrored. All steps therefore put the smaller value first, and positions beyond
-// the end of the list can be skipped.
+// Sorts each tile's triangles by min depth, so that rays can stop before they reach the hidden triangles at the end of
+// the list. Triangles of equal depth are sorted by index, which makes the result deterministic. In this bitonic sort
+// (Batcher 1968) the first step of each block is mirrored. All steps therefore put the smaller value first, and
+// positions beyond the end of the list can be skipped.
 
 layout(local_size_x = 256) in;
 

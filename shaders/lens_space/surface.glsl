@@ -1,4 +1,5 @@
-// Shades surfaces of one material in compute shaders, which interpolate the attributes of vertices themselves.
+// Shades surfaces of one material in compute shaders. Without a rasterizer, they must interpolate the vertex attributes
+// in their own code.
 
 struct Attributes {
     vec4 position;   // position relative to the camera, in m, world axes
@@ -19,12 +20,10 @@ struct Surface {
     vec4 tangent;
     float agreement;
     bool showsFront;
-    // UV at the right and upper edges of the area over which textures are filtered, as seen from the lens point of the
-    // ray that hit the surface.
+    // UV at the right and upper edges of the texture filter's footprint, as seen from the ray's lens point.
     vec4 uvRight;
     vec4 uvUp;
-    // Interpolated normals one pixel to the right and one pixel up, as seen from the lens point of the ray that hit the
-    // surface.
+    // Interpolated normals one pixel to the right and one pixel up, as seen from the ray's lens point.
     vec3 normalRight;
     vec3 normalUp;
 };

@@ -1,6 +1,6 @@
-// Second part of kernel 1 of the lens-space methods, which prepares vertices and triangles: converts a range of the
-// vertex indices of a level of detail to triangles of the frame. A triangle is counter-clockwise in the image if its
-// front is visible.
+// Second part of kernel 1 of the lens-space methods, the kernel that prepares vertices and triangles: converts a range
+// of the vertex indices of a level of detail to triangles of the frame. A triangle is counter-clockwise in the image if
+// its front is visible.
 
 layout(local_size_x = 256) in;
 
@@ -14,7 +14,7 @@ layout(std430, binding = 3) buffer FirstBlock { uint firstTriangles[]; };
 layout(location = 0) uniform uint firstIndex;
 layout(location = 1) uniform uint triangleCount;
 layout(location = 2) uniform uint firstVertex;     // index of the level's first vertex among the frame's vertices
-layout(location = 3) uniform uint firstTriangle;   // index in `triangles` at which the range's triangles begin
+layout(location = 3) uniform uint firstTriangle;   // index in `triangles` of the first triangle to write
 layout(location = 4) uniform uint draw;
 layout(location = 5) uniform bool mirrored;
 

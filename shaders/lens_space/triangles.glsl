@@ -7,7 +7,8 @@
 //   e_ij = q_i × q_j,
 // the volume spanned by the ray and the edge. All three functions are ≥ 0 if the ray meets the triangle's front at w >
 // 0, and ≤ 0 if it meets the back. This also holds for vertices behind the camera (Olano and Greer 1997, Triangle Scan
-// Conversion Using 2D Homogeneous Coordinates). Divided by their sum, they are the barycentric coordinates of the hit.
+// Conversion Using 2D Homogeneous Coordinates). Divided by their sum, the three functions are the barycentric
+// coordinates of the hit.
 //
 // With `precise`, neighbouring triangles compute the same value with opposite sign for a shared edge, so no ray passes
 // between them.
@@ -33,8 +34,8 @@ vec4 clipAtEnd(uint vertex) { return clips[vertex]; }
 // xyz: vertex indices; w: index of the Draw
 layout(std430, binding = 2) readonly buffer TriangleBlock { uvec4 triangles[]; };
 
-// Returns a vertex, clip position (x, y, w) and clip-space circle of confusion, at the time `fraction` in the current
-// part of the exposure. All four values are linear in time.
+// Returns a vertex as (x, y, w, C), its clip position and clip-space circle of confusion, at the time `fraction` in the
+// current part of the exposure. All four values are linear in time.
 vec4 clipAt(uint vertex, float fraction) {
     return moving ? mix(clips[vertex], clipAtEnd(vertex), fraction) : clips[vertex];
 }
@@ -48,7 +49,7 @@ vec2 relativeTo(vec4 clip, vec2 lens, vec2 place) {
         q = clip.xy + clip.w * lens - clip.z * place;
     else
         q = clip.xy + frame.coc.x * lens + clip.z * (frame.coc.y * lens - place);
-    // The image offset by astigmatism and coma is not proportional to the lens point.
+    // The image offset that astigmatism and coma cause is not proportional to the lens point, so C does not include it.
     if (aberrations) {
         float w = max(clip.z, frame.projection.z);
         q += w * aberration(clip.xy / w, lens);

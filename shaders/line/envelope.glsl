@@ -1,14 +1,14 @@
-// Keeps the visible pieces of a line over the lens: disjoint intervals, sorted by the position p along the line. Each
+// Keeps the visible pieces of a line across the lens: disjoint intervals, sorted by the position p along the line. Each
 // piece belongs to the triangle that is nearest there among the triangles added so far.
 
 struct Piece {
     float first;
     float last;
     uint triangle;
-    uint index;      // index of the next piece in the line's list
+    uint index;      // index of the next piece in the current list
 };
 
-// Double buffer of the list of pieces: adding a segment reads one list and writes the other.
+// Double buffer for the list of the line's visible pieces: adding a segment reads one half and writes the other.
 vec2 pieceEnds[2 * segmentCapacity];
 // The inverse depth of a piece is E/D, where E and D are linear in the position p along the line (line.glsl). x: E at
 // p = 0; y: slope of E; z: D at p = 0; w: slope of D.
@@ -21,8 +21,8 @@ uint nextList = 0u;
 vec2 lineSides;
 float lost = 0.0;                 // fraction of the line's light in pieces that were dropped because the list was full
 uint lostPieces = 0u;
-float hidden = 0.0;               // min visible 1/w (w: depth) if the entire line is covered, else 0
-float nextMin = 1e30;           // min visible 1/w in the list being written
+float hidden = 0.0;               // surfaces with a smaller 1/w (w: depth) are hidden; 0 if the line has gaps
+float nextMin = 1e30;           // min of 1/w over the pieces of the list that is being written
 bool nextHasGaps = false;
 
 void beginLine(vec2 sides) { lineSides = sides; }
@@ -65,7 +65,7 @@ bool nearer(vec3 f, float p, uint a, uint b) {
 }
 
 // Returns the two positions p along the line, in ascending order, where two segments intersect. `f`: nearness() of the
-// segments, which is 0 there. Values above 2 mean no intersection.
+// segments, a polynomial in p whose roots are these positions. A position above 2 stands for no intersection.
 vec2 crossings(vec3 f) {
     if (f.z == 0.0) return vec2(f.y == 0.0 ? 4.0 : -f.x / f.y, 4.0);
     float discriminant = f.y * f.y - 4.0 * f.x * f.z;
@@ -79,7 +79,8 @@ vec2 crossings(vec3 f) {
 // Returns true if a surface at inverse depth 1/w may be visible on the line.
 bool maySee(float inverseDepth) { return inverseDepth >= hidden * (1.0 - 1e-5); }
 
-// Returns true if any part of a segment may be visible. The max of 1/w on a segment is at one of the segment's ends.
+// Returns true if any part of a segment may be visible. Tests only the nearer end, because 1/w (w: depth) has its max
+// on a segment at an end.
 bool mayChange(Interval interval, OnLine line) {
     if (!(interval.last > interval.first)) return false;
     return maySee(max(inverseDepth(line, interval.first), inverseDepth(line, interval.last)));
@@ -113,7 +114,7 @@ void addSegment(Interval interval, uint triangle, OnLine line, bool front) {
     nextHasGaps = false;
     float cursor = interval.first;
     for (uint i = 0u; i < pieceCount; ++i) {
-        ownRounds += 4u;   // four iterations per piece: one of this loop and three of the inner loop
+        ownRounds += 4u;   // one iteration of this loop and three of the inner loop
         vec2 ends = pieceEnds[current + i];
         vec4 otherDepth = pieceDepths[current + i];
         uint other = pieceTriangles[current + i];

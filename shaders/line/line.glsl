@@ -2,20 +2,21 @@
 // Using Line Samples).
 //
 // The line has the direction d = (cos φ, k·sin φ), k = image width / height. A vertex has the clip position (x, y, w)
-// and the clip-space circle of confusion C, the signed CoC times w. Seen from lens point p·d, the vertex lies at
+// and the clip-space circle of confusion (CoC) C, the signed CoC times w. Seen from lens point p·d, the vertex lies at
 // q(p) = α + p·β relative to an image position s, with α = (x, y) − w·s and β = C·d. All β are parallel, so the
 // functions of the edges from vertex i to vertex j are linear in p:
 //   e_ij(p) = α_i × α_j + p·(α_i × β_j + β_i × α_j).
 // The triangle's front is visible from the positions p where all e_ij ≥ 0. There, the depth w of the triangle follows
 // from 1/w = E/D. E is the sum of the e_ij. The determinant D is their sum weighted by the w of the vertex opposite to
-// each edge. Both are linear in p. So is D − near·E, which is ≥ 0 for the part of the triangle beyond the near plane.
+// each edge. Both are linear in p, and so is D − near·E, which is ≥ 0 for the part of the triangle beyond the near
+// plane.
 
 struct OnLine {
     vec3 edgesAt0;
     vec3 edgeSlopes;
-    // x: value at the position p = 0 on the line; y: slope in p.
-    vec2 sums;         // sum E of the edge functions
-    vec2 determinant;  // the triangle's determinant D; the inverse depth is E/D
+    // Linear functions of the position p along the line. x: value at p = 0; y: slope.
+    vec2 sums;         // E, the sum of the three edge functions
+    vec2 determinant;  // D, the triangle's determinant; the inverse depth is E/D
 };
 
 struct Interval {

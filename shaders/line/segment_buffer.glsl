@@ -9,19 +9,19 @@
 // sweep along the line finds the nearest segments. Where segments intersect, the sweep switches between them only at an
 // end of a segment.
 //
-// shortIntervals: 16 bits hold the interval of a segment, 8 for each end. Colour (16 bits) and depth are stored in
-// addition. The paper stores a segment in 16 bits; the layout here is this program's choice.
+// With shortIntervals, the interval of a segment takes 16 bits, 8 for each end, beside its colour (16 bits) and depth.
+// In the paper, an entire segment takes 16 bits.
 
 struct Piece {
     float first;
     float last;
     uint triangle;
-    float nextLast;      // end of the next part of the line, in which another triangle is visible
-    uint nextTriangle;   // triangle visible in the next part of the line
+    float nextLast;      // end of the part of the line after this piece
+    uint nextTriangle;   // triangle visible in the part of the line after this piece
 };
 
 struct Segment {
-    vec2 ends;        // positions p of both ends on the line
+    vec2 ends;        // positions p along the line of the segment's two ends
     vec2 depths;      // inverse depth 1/w at both ends
     uint triangle;
     bool front;       // true: the triangle's front is visible
@@ -56,7 +56,8 @@ float hidden = 0.0;      // a segment over the entire line hides all surfaces wi
 // Two values per vertex: the radiance of the front, then the radiance of the back.
 layout(std430, binding = 8) readonly buffer LightBlock { vec4 lights[]; };
 
-// Returns the radiance of a triangle at position p along the line. The radiance is mapped to [0, 1].
+// Returns the radiance L of a triangle at position p along the line, mapped to [0, 1] by L / (1 + L) for storage in few
+// bits.
 vec3 colorAt(uint triangle, OnLine line, bool front, float p) {
     vec3 edges = line.edgesAt0 + p * line.edgeSlopes;
     vec3 weights = edges / (edges.x + edges.y + edges.z);
@@ -151,7 +152,8 @@ bool mergedInto(uint i, Segment segment) {
 // Returns true if a surface at inverse depth 1/w may be visible on the line.
 bool maySee(float inverseDepth) { return inverseDepth >= hidden * (1.0 - 1e-5); }
 
-// Returns true if any part of a segment may be visible. The max of 1/w on a segment is at one of the segment's ends.
+// Returns true if any part of a segment may be visible. Tests only the nearer end, because 1/w (w: depth) has its max
+// on a segment at an end.
 bool mayChange(Interval interval, OnLine line) {
     if (!(interval.last > interval.first)) return false;
     return maySee(max(inverseDepth(line, interval.first), inverseDepth(line, interval.last)));
@@ -167,7 +169,7 @@ void addSegment(Interval interval, uint triangle, OnLine line, bool front) {
     segment.color = colorAt(triangle, line, front, 0.5 * (interval.first + interval.last));
     ownRounds += 3u * segmentCount;
 
-    // Occlusion: drop the segment if a stored segment hides it, and remove stored segments that it hides.
+    // Step "occlusion": drop the segment if a stored segment hides it, and remove stored segments that it hides.
     for (uint i = 0u; i < segmentCount; ++i)
         if (hides(load(i), segment)) return;
     if (segment.ends.x <= -lineSides.x && segment.ends.y >= 1.0) hidden = max(hidden, min(segment.depths.x, segment.depths.y));
@@ -180,18 +182,18 @@ void addSegment(Interval interval, uint triangle, OnLine line, bool front) {
         store(i, load(segmentCount));
     }
 
-    // Merge: join the segment with a stored segment that it continues.
+    // Step "merge": join the segment with a stored segment that it continues.
     for (uint i = 0u; i < segmentCount; ++i)
         if (mergedInto(i, segment)) return;
 
-    // Length: drop segments that are too short.
+    // Step "length": drop segments that are too short.
     if (lengthOf(segment) < minLength) {
         segment.ends = vec2(interval.first, interval.last);
         drop(segment);
         return;
     }
 
-    // Eviction: if the buffer is full, drop the shortest segment.
+    // Step "eviction": if the buffer is full, drop the shortest segment.
     if (segmentCount < uint(segmentCapacity)) {
         store(segmentCount, segment);
         ++segmentCount;

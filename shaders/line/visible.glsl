@@ -1,4 +1,4 @@
-// Kernel 3 of the method "line": finds the surfaces that are visible along each line over the lens, for the line
+// Kernel 3 of the method "line": finds the surfaces that are visible along each line across the lens, for the line
 // samples of a tile's pixels. The including file (exact.comp, published.comp) chooses how the segments of a line are
 // stored.
 
@@ -25,14 +25,14 @@ bool mayCover(vec4 corners[3], Bounds bounds, vec2 tileMin, vec2 tileMax) {
     return range.x <= dot(middle, across) + reach && range.y >= dot(middle, across) - reach;
 }
 
-// Returns the number of shading points of the visible piece from p1 to p2: one for each shadingStep px that the surface
-// moves in the image.
+// Returns the number of shading points of the visible piece from p1 to p2. The surface moves in the image as the lens
+// point moves along the piece; there is one shading point per shadingStep px of this movement.
 uint shadingPoints(uint triangle, float p1, float p2, vec2 direction) {
     if (shadingStep == 0.0) return 1u;
     float blur = 0.0;   // CoC diameter, as a fraction of the image's width
     if (triangle == noTriangle) {
-        // Only an environment map varies enough within its blur to need several shading points; other backgrounds use
-        // one.
+        // Only an environment map varies enough within the background's blur to need several shading points; other
+        // backgrounds need one.
         if (backgroundType == 3) blur = frame.coc.w;
     } else {
         uvec4 vertices = triangles[triangle];
@@ -41,7 +41,7 @@ uint shadingPoints(uint triangle, float p1, float p2, vec2 direction) {
             blur = max(blur, abs(clip.w) / max(clip.z, frame.projection.z));
         }
     }
-    // Distance in px that the surface moves in the image between the ends of the piece.
+    // Distance in px that the surface moves in the image as the lens point moves from p1 to p2.
     float way = 0.5 * abs(blur) * (p2 - p1) * length(direction * vec2(imageSize));
     return uint(clamp(ceil(way / shadingStep), 1.0, float(maxShadingPoints)));
 }
@@ -142,8 +142,8 @@ uvec4 seenOfKept(vec2 direction, vec2 place, Interval whole) {
     return sides;
 }
 
-// Adds the segments of the triangles whose bits are set in the masks `sides` (seenOfKept()) to this thread's line, and
-// clears these bits. Stops when the max number of loop iterations is reached.
+// Adds to this thread's line the segments of the triangles whose bits are set in `sides`, the result of seenOfKept(),
+// and clears these bits. Stops when the max number of loop iterations is reached.
 void addSeen(inout uvec4 sides, vec2 direction, vec2 place, Interval whole) {
     while (sides != uvec4(0u) && hasRoundsFor(0u, maxRounds)) {
         ++ownRounds;
@@ -198,8 +198,8 @@ void main() {
     while (!finished) {
         uint first = base;
         keepMore(base, end, ray, tileMin, tileMax);
-        // Triangles are sorted by min depth. The tile is finished once surfaces nearer than all remaining triangles
-        // cover all its lines.
+        // Triangles are sorted by min depth. A line is open if the next triangle may be visible on it. The tile is
+        // finished once none of its lines is open.
         if (isOpen()) atomicOr(open, 1u);
         barrier();
         if (open == 0u) {
@@ -221,8 +221,8 @@ void main() {
         }
         if (halted == 0u) continue;
 
-        // A job that does not finish in the first dispatch is deferred and restarts later. In later dispatches, the
-        // state of an unfinished job is saved.
+        // A job that does not finish in the first dispatch is put off and starts again in a later dispatch, because the
+        // buffer may have no room for the states of all jobs. Later dispatches save the state of an unfinished job.
         bool putOff = jobs.x == 0u;
         if (gl_LocalInvocationIndex == 0u) {
             if (putOff) {

@@ -1,7 +1,7 @@
 // Chooses the depth and blur modifiers with which each pixel of a bucket (a group of alpha-blended objects of similar
 // depth) is blurred. They come from the bucket's surface in the pixel; without such a surface, they are the mean over
-// the bucket's surfaces around the pixel. A nearer opaque surface overrides both. Blur is linear in reversed depth, so
-// the mean depth has the mean blur.
+// the bucket's surfaces around the pixel. If an opaque surface is nearer, its depth and modifiers are used instead.
+// Blur is linear in reversed depth, so the mean depth has the mean blur.
 
 layout(binding = 0) uniform sampler2D known;         // output of bucket_surfaces.frag, with mip levels
 layout(binding = 1) uniform sampler2D opaqueDepth;

@@ -1,4 +1,4 @@
-// Copies the blurred coverage to the alpha channel of the blurred radiance. Coverage is blurred like an image.
+// Copies the coverage, which was blurred as an image of its own, to the alpha channel of the blurred radiance.
 layout(binding = 0) uniform sampler2D coverage;
 
 layout(location = 0) out vec4 alpha;

@@ -20,8 +20,8 @@ void main() {
     readSurface();
     vec4 color = texturedColor(surface.color);
 #ifdef CHOOSES_BY_ALPHA
-    // The alpha thresholds of texels are chosen as if the shadow maps of a lens sample lay side by side. The thresholds
-    // therefore differ between maps.
+    // alphaThreshold() depends on the texel's position. Positions are counted as if the shadow maps of a lens sample
+    // lay side by side, so that each map gets different thresholds.
     uint map = uint(surface.layer) % uint(shadowPoints * shadowMapCount);
     uvec2 texel = uvec2(gl_FragCoord.xy) + uvec2(map * uint(shadowSize), 0u);
     if (alphaTested && maskHides(color.a, surface.color.a, texel, 0.0)) discard;

@@ -15,11 +15,11 @@ layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
 // End of each tile's triangle list, as an index into `entries`.
 layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };
 layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
-// For each index of a ray, the bounding box of its lens points (u, v) in all ray sets (rays.glsl): min (u, k·v), max
-// (u, k·v). k is the aspect ratio.
+// For each ray index, the bounding box of the lens points of the rays with this index in all ray sets (rays.glsl). xy:
+// min (u, k·v); zw: max (u, k·v); k: the image's aspect ratio.
 layout(std140, binding = 7) uniform BoundBlock { vec4 lensBounds[maxRays]; };
 
-// Number of tests of a triangle against all rays of a workgroup; 64-bit, low word first.
+// Counter of tests, each of one triangle against all rays of a workgroup; 64-bit, low word first.
 layout(std430, binding = 8) buffer TestBlock { uint tests[2]; };
 
 layout(location = 2) uniform uint firstTile;   // first tile whose triangle list is in `entries`
@@ -33,7 +33,7 @@ const uint stride = moving ? 6u : 3u;
 shared vec4 keptCorners[threads * stride];
 shared uvec2 kept[threads];   // triangles that the tile's rays may hit; x: index, y: 1 if double-sided, else 0
 shared uint keptCount;
-shared uint open;             // 1 if a ray may still hit a later triangle of the list, else 0
+shared uint open;             // 1 if any ray of the workgroup may still hit a later triangle of the list, else 0
 
 // Extends the bounds (normalised device coordinates) by the image positions of a vertex as seen from all lens points in
 // the box `lens`.

@@ -7,12 +7,12 @@ layout(binding = 1) uniform sampler2D secondImage;
 layout(binding = 2) uniform sampler2D cocImage;      // signed CoC diameter (px)
 layout(binding = 3) uniform sampler2D levelImage;    // fractional level of detail λ (0: full detail); −1: no surface
 layout(binding = 4) uniform sampler2D wireImage;     // display-encoded
-layout(binding = 5) uniform sampler2D workImage;     // triangle count, summed over lens samples
+layout(binding = 5) uniform sampler2D workImage;     // number of triangles over a pixel, summed over lens samples
 layout(binding = 6) uniform sampler2D mapColours;    // linear colour map of the overlay
 
-layout(location = 0) uniform vec4 size;        // xy: output size in px; z: exposure gain; w: gain of the difference image
+layout(location = 0) uniform vec4 size;        // xy: output size in px; z: exposure gain; w: gain of difference image
 layout(location = 1) uniform ivec4 choices;    // x: tone curve; y: overlay; z: flags; w: unused
-layout(location = 2) uniform float divider;    // fraction of the width in which the first image is drawn
+layout(location = 2) uniform float divider;    // fraction of the width, from the left, that shows the first image
 layout(location = 3) uniform float cocScale;   // output px per px of cocImage
 // x: 1 / number of lens samples in workImage; y: 1 / log2(1 + n), where n is the number of triangles per lens sample
 // that the last colour of the colour map stands for.

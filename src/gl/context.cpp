@@ -182,8 +182,8 @@ private:
         context_ = eglCreateContext(display_, config, shared, attributes);
     }
 
-    // Reads the device and driver names from the current context. When share() calls this function, the current context
-    // is another context with the same driver.
+    // Reads the device and driver names from the current context. share() calls this function while the context to
+    // share with is current; both contexts have the same driver.
     void readDriver() {
         device_ = currentDevice();
         driver_ = currentDriver();
@@ -197,7 +197,7 @@ private:
                 eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
             eglDestroyContext(display_, context_);
         }
-        // Do not terminate the display: EGL displays are shared by the process, so other contexts may use this one.
+        // Do not terminate the display: all contexts of the process share the EGL display, so others may still use it.
         context_ = EGL_NO_CONTEXT;
         display_ = EGL_NO_DISPLAY;
     }
@@ -245,7 +245,7 @@ bool currentIsSoftware() {
 
 bool drawsInThreads(const std::string& device, const std::string& driver) {
     if (device.find("llvmpipe") == std::string::npos) return true;
-    if (device.find("zink") != std::string::npos) return false;  // zink over lavapipe is not tested
+    if (device.find("zink") != std::string::npos) return false;  // zink over lavapipe is untested, so assume no
     constexpr std::string_view mesa = "Mesa ";
     const std::size_t at = driver.find(mesa);
     int version = 0;

@@ -20,7 +20,8 @@ public:
     [[nodiscard]] virtual const std::vector<std::string>& log() const = 0;
 };
 
-// Creates a context and makes it current on this thread. Throws Error with the log if no display works.
+// Creates a context and makes it current on this thread. Throws Error with the reasons from the log if no display
+// provides OpenGL 4.5.
 std::unique_ptr<GlContext> createHeadlessContext();
 // Creates a context that shares buffers, textures, programs and fences with the current context, but does not make it
 // current. Returns nullptr if the current context is not an EGL context. Throws Error if the driver cannot create it.

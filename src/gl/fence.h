@@ -1,6 +1,6 @@
 #pragma once
-// Fence (GL sync object): a point in the commands of a context. Other contexts that share objects can wait until the
-// GPU has reached this point before they use results of the commands.
+// Fence (GL sync object): marks a point in a context's command stream. Other contexts that share objects can wait until
+// the GPU has reached this point before they use results of the commands.
 
 #include <epoxy/gl.h>
 

@@ -7,7 +7,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr std::size_t openBatches = 2;            // max pending batches of triangles while another batch is submitted
+constexpr std::size_t openBatches = 2;            // max number of undrawn batches while another batch is submitted
 constexpr GLuint64 longestWait = 10'000'000'000;  // max wait in ns; after a timeout, drawing continues
 
 bool softwareDriver() {

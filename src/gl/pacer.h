@@ -16,7 +16,7 @@ class SubmissionPacer {
 public:
     static constexpr std::uint64_t defaultBytes = 1'500'000 * pendingTriangleBytes;
 
-    // `bytes`: max memory of all pending triangles of a software driver.
+    // `bytes`: max memory that a software driver may use for triangles that are not yet drawn.
     explicit SubmissionPacer(std::uint64_t bytes = defaultBytes);
 
     // Returns the maximum number of triangles per draw call; 0: unlimited.
@@ -26,7 +26,7 @@ public:
     void submitted(std::uint64_t triangles);
 
 private:
-    std::uint64_t batch_ = 0;  // triangles between two fences; 0: no limit
+    std::uint64_t batch_ = 0;  // number of triangles after which a fence is inserted; 0: no fences
     std::uint64_t open_ = 0;   // triangles since the last fence
     std::deque<Fence> fences_;
 };

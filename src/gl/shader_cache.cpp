@@ -48,7 +48,7 @@ std::string protectedFolder() {
     return folder.string();
 }
 
-// Folder of the disabled shader cache; empty if the cache is enabled.
+// Folder of the shader cache if the cache is disabled for lack of disk space, else empty.
 std::string& folderWithoutRoom() {
     static std::string folder;
     return folder;

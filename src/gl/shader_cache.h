@@ -1,5 +1,5 @@
 #pragma once
-// Turns Mesa's shader cache on disk off if the disk is nearly full. Mesa maps the cache's index into memory, so a full
+// Disables Mesa's on-disk shader cache if the disk is nearly full. Mesa maps the cache's index into memory, so a full
 // disk would end the process with SIGBUS.
 
 #include <string>

@@ -21,12 +21,12 @@ struct ShaderConstant {
 // Shaders branch on these constants with `if`, and compilers drop the branches that are never taken.
 constexpr ShaderConstant constants[] = {
     // Constants of a frame: lens, environment, lights and accumulation
-    {"int", "blockSamples", "64"},     // lens samples that are summed as one block
+    {"int", "blockSamples", "64"},     // number of lens samples that are summed as one block
     {"int", "positionsPerAxis", "1"},  // width of an image pixel, in pixels of a lens sample's layer
     {"int", "environmentType", "0"},
     {"int", "backgroundType", "0"},
     {"float", "environmentLevels", "0.0"},    // coarsest mip level of the environment map
-    {"float", "environmentLighting", "1.0"},  // scale of the environment's light on surfaces
+    {"float", "environmentLighting", "1.0"},  // factor on the light that surfaces receive from the environment
     {"bool", "multipleScattering", "false"},
     {"int", "lightCount", "0"},
     {"int", "maxLights", "1"},         // length of the lights' uniform arrays
@@ -38,8 +38,8 @@ constexpr ShaderConstant constants[] = {
     {"float", "layerLargest", "0.0"},  // colours in a layer are clamped to this value; 0: no clamping
     {"bool", "startsBlock", "false"},
     {"bool", "keepsNearest", "false"},  // true for the depth layer, which also stores the nearest depth
-    {"bool", "sumsAlpha", "false"},     // true: no depth layer, so the first data layer also sums alpha, the coverage
-    {"int", "waveSamples", "1"},        // samples that a pass adds up; a constant, so that drivers unroll the loop
+    {"bool", "sumsAlpha", "false"},     // true for a data layer that also sums alpha in place of a missing depth layer
+    {"int", "waveSamples", "1"},        // number of samples that a pass adds up; constant, so drivers unroll the loop
     {"int", "tableEntries", "1"},       // max number of objects or materials counted separately in a pixel
 
     // Constants of a surface's material and mesh
@@ -71,7 +71,7 @@ constexpr ShaderConstant constants[] = {
     {"bool", "coarseShare", "false"},  // draws only the coarser level's pixels in samples that mix two levels of detail
     {"bool", "fineShare", "false"},    // draws only the finer level's pixels in samples that mix two levels of detail
 
-    // Constants of poses, in which vertex shaders place moving, skinned and morphed objects
+    // Constants for the poses that vertex shaders apply to moving, skinned and morphed objects
     {"bool", "moving", "false", "MOVING"},
     {"int", "lastPose", "0"},  // index of the pose at the end of the exposure
     {"bool", "cameraMoves", "false"},
@@ -105,14 +105,14 @@ constexpr ShaderConstant constants[] = {
     {"int", "extentLevels", "1"},
 
     // Constants of the lens-space methods
-    {"int", "tileSize", "1"},  // tile side in px; also used by the circular method
-    {"int", "maxRays", "1"},   // max lens samples drawn in one pass
+    {"int", "tileSize", "1"},  // tile side in px; the circular method has tiles, too
+    {"int", "maxRays", "1"},   // max number of lens samples drawn in one pass
     {"uint", "rayVariants", "1u"},
     {"bool", "countsOnly", "false", "COUNTS_ONLY"},
     {"bool", "lineSamples", "false"},
     {"int", "segmentCapacity", "1"},
     {"bool", "shortIntervals", "false"},  // true: the interval of a line segment is stored in 16 bits
-    {"bool", "areaWeights", "true"},      // true: parts of lines are weighted by κ (weights.glsl); false: by length
+    {"bool", "areaWeights", "true"},      // true: a part of a line sample is weighted by its light; false: by length
     {"bool", "lightsVertices", "false", "LIGHTS_VERTICES"},
     {"int", "maxShadingPoints", "1"},
 
