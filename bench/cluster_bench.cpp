@@ -6,8 +6,8 @@
 //   defocus_cluster_bench [SCENE …]      without scenes: the school of fish
 //
 // Held constant: camera, lens, levels, samples, size (1024 x 768), renderer and process. Variants are drawn
-// alternately. The table shows the fastest times and the median ratios. `CPU` is the time of all threads, which depends
-// less on other load. The images are compared bit by bit.
+// alternately. The table shows the fastest time of each variant, and the median ratio of the times without and with a
+// culling step. `CPU` is the time of all threads, which depends less on other load. The images are compared bit by bit.
 
 #include <fmt/format.h>
 

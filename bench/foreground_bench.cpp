@@ -1,15 +1,15 @@
 // Measures the time that a limit on the foreground blur saves (Munkberg, Toth and Akenine-Möller 2012), in two scenes.
 // The first is seen through leaves that nearly touch the lens, as in their Figure 7. The second is a game of chess with
-// a moving queen in front, as in their Figure 4. The rasteriser draws the scene once per lens sample, so its pixel work
-// per triangle doesn't grow with the blur. A limit saves only the work for triangles that lie outside the image and
-// would be blurred into the image. On the other hand, objects with less blur use finer levels of detail.
+// a moving queen in front, as in their Figure 4. The rasteriser draws the scene once per lens sample, so the number of
+// pixels that a triangle covers doesn't grow with the blur. A limit saves only the work for triangles that lie outside
+// the image and would be blurred into the image. On the other hand, objects with less blur use finer levels of detail.
 //
 //   defocus_foreground_bench [--stochastic]   --stochastic: measures only method "stochastic"
 //
-// Held equal: camera, lens, size, lens samples, renderer and process. Runs of all limits alternate; the table has the
-// fastest run for each limit. Column "CPU" is the CPU time of all threads, which depends less on other load. Columns
-// "work" and "most" are the mean and the max over the heat map of --aov work: the number of triangles that cover a
-// pixel, per lens sample.
+// Held constant: camera, lens, size, lens samples, renderer and process. Runs of all limits alternate; the table has
+// the fastest run for each limit. Column "CPU" is the CPU time of all threads, which depends less on other load.
+// Columns "work" and "most" are the mean and the max over the heat map of --aov work: the number of triangles that
+// cover a pixel, per lens sample.
 //
 // Then measures method "stochastic", with the circle of confusion interpolated linearly inside triangles, as in the
 // paper. The table has the time and the number of triangles tested for each ray, which is the paper's measure of work.
@@ -121,16 +121,16 @@ void measureStochastic(const Figure& figure) {
     fmt::print("\n{}, method stochastic, {} x {}, {} rays per pixel, fastest of {} interleaved runs\n\n", figure.scene,
                frame.view.width, frame.view.height, frame.settings.sampleCount, stochasticRuns);
     std::vector<Row> rows;
-    // figure.limits are for an image 512 px wide. A limit is in px, so it is scaled with the width of the image.
+    // figure.limits are in px of an image 512 px wide; scale them to the width of this image.
     for (const double of512 : figure.limits) {
         const double limit = of512 * frame.view.width / 512;
         View view = frame.view;
         view.lens.foregroundLimit = limit;
         rows.push_back({.limit = limit, .plan = planFrame(frame.world, view, frame.settings)});
     }
-    // Interpolate the circle of confusion (CoC) linearly in triangles, as preset munkberg2012 does. The default
-    // subdivides triangles in which the CoC isn't linear. Such triangles occur only with a limit, so subdivision would
-    // slow only the frames with a limit.
+    // Interpolate the circle of confusion (CoC) linearly in triangles, as preset munkberg2012 does. By default, the
+    // method subdivides triangles in which the CoC isn't linear. These occur only if the foreground blur is limited, so
+    // subdivision would slow only the frames with a limit.
     RendererOptions linear;
     linear.settings = {{"coc-interpolation", "linear"}};
     const auto renderer = methodNamed("stochastic").make(frame.world, linear);

@@ -10,10 +10,10 @@
 // then the methods take turns. Errors are RMSE of display-encoded images. The reference of Table 1 is accumulation with
 // 1,600 samples of another seed at full detail. The reference of Figure 7 is the same method at full detail. Errors "of
 // 8 x 8 px" compare means over squares of this size, which suppresses noise and keeps structure. "As published" is the
-// method of preset tzeng2012. Its frames and its reference have focus breathing, because the paper's circle of
-// confusion is that of the thin lens with its focal length. Levels of detail are selected by the paper's score, the
-// ratio of blur to edge length. We select among the fractional levels of a pyramid; the paper has three levels with
-// 100, 75 and 50 % of the vertices. The bench checks that every RMSE is below 0.1.
+// method of preset tzeng2012. It is drawn and compared with focus breathing, because the paper's circle of confusion is
+// that of a thin lens whose sensor moves to focus. Levels of detail are selected by the paper's score, the ratio of
+// blur to edge length. We select among the fractional levels of a pyramid; the paper has three levels with 100, 75 and
+// 50 % of the vertices. The bench checks that every RMSE is below 0.1.
 
 #include <fmt/format.h>
 
@@ -42,8 +42,8 @@ using namespace defocus::engine;
 
 constexpr int timedFrames = 3;
 constexpr std::uint32_t referenceSamples = 1600;
-constexpr double tableBlur = 0.1;     // largest blur in Table 1, as a fraction of the image's width
-constexpr double largestError = 0.1;  // max RMSE relative to the reference of the table
+constexpr double tableBlur = 0.1;     // blur of the most blurred object in Table 1, as a fraction of the image's width
+constexpr double largestError = 0.1;  // limit on the RMSE against the reference image
 
 struct Measured {
     double milliseconds = 0;

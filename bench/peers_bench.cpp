@@ -1,10 +1,10 @@
 // Renders one scene with several methods and numbers of lens samples, for `scripts/figures peers`.
 //
 // Writes FOLDER/scene.glb, the scene with lighting baked into vertex colours (unlit_file.h), and renders this file.
-// Each image is FOLDER/METHOD-SAMPLES.exr; METHOD-reference.exr has another seed and full detail. Prints a line of JSON
-// for the file, and one for each image. Times run from the first sample to the image in main memory. Each method first
-// draws an untimed frame. CPU time is the time of all threads. METHOD can be auto-4: method auto with four pixel
-// positions per lens sample.
+// Writes one image for each method and number of samples, FOLDER/METHOD-SAMPLES.exr, and METHOD-reference.exr with
+// another seed at full detail. Prints a line of JSON for scene.glb, and one for each image with its render time. The
+// time ends when the image is in main memory. Each method first draws an untimed frame. CPU time is the time of all
+// threads. METHOD can be auto-4: method auto with four pixel positions per lens sample.
 //
 //   defocus_peers_bench FOLDER [SCENE] [--fstop 16] [--size 512x384]
 //       [--methods auto,auto-4,accumulation,embree-shared,embree]

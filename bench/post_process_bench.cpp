@@ -3,8 +3,8 @@
 //   its complete square;
 // - the times of the variants that the performance slide of Garcia 2018 compares.
 //
-// All rows of a table have the same image and the same process (run of the program). Variants run alternately, and the
-// tables have median times. Checks that the separable and the direct blur agree.
+// All rows of a table are measured on the same image, in one run of the program. Variants run alternately; the tables
+// have median times. The bench also checks that the separable and the direct blur agree.
 
 #include <fmt/format.h>
 
@@ -148,8 +148,8 @@ void printDifferences(const Image& reference, const std::vector<Measured>& all) 
 }
 
 // Repeats the comparison on the performance slide of Garcia 2018: blur at half the width and height with one kernel
-// component, and at a quarter with two. The baseline is a direct gather over the kernel's square, at both of these
-// sizes, and at full size without a limit on the blur.
+// component, and at a quarter with two. The baselines are direct gathers over the kernel's square: one at each of these
+// sizes, and one at full size without a limit on the blur.
 void slideOfPerformance() {
     Request scene;
     scene.size.width = 512;

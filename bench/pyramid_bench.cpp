@@ -2,11 +2,12 @@
 //
 // Time (CPU time). Held constant: the mesh, one thread, levels with half the triangles each, down to 64. "pyramid" is
 // the complete buildPyramid: repair, collapses, errors, clusters, fitted positions, normals and colours. "levels" is
-// repair and collapses only, by quadrics of positions and attributes, with the triangles of each level. "meshoptimizer"
-// is meshopt_simplify, applied from level to level. "DecimaterT" is OpenMesh's decimater with its quadric module on a
-// mesh with welded positions. meshoptimizer and DecimaterT produce no attributes. "times as fast" is the time of
-// DecimaterT divided by the time of "levels" or "pyramid". "bytes each" is the peak memory of buildPyramid per triangle
-// of the mesh, including the result. --million adds a fish with a million triangles, smooth and flat-shaded.
+// only the repair, the collapses by quadrics of positions and attributes, and each level's list of triangles.
+// "meshoptimizer" is meshopt_simplify, applied from level to level. "DecimaterT" is OpenMesh's decimater with its
+// quadric module on a mesh with welded positions. meshoptimizer and DecimaterT produce no attributes. "times as fast"
+// is the time of DecimaterT divided by the time of "levels" or "pyramid". "bytes each" is the peak memory of
+// buildPyramid per triangle of the mesh, including the result. --million adds a fish with a million triangles, smooth
+// and flat-shaded.
 //
 // Distance. Held constant: the mesh, welded by position, and the triangle count of each level. meshoptimizer simplifies
 // level 0 directly to that count. The distance is the larger of the mean distances to and from level 0. The table lists
@@ -158,8 +159,8 @@ std::size_t decimaterChain(const JoinedSurface& surface) {
     return mesh.n_faces();
 }
 
-// Builds the levels of a pyramid without fitted attributes and measured errors. Returns the number of triangles in the
-// last level.
+// Builds the levels of a pyramid, but neither fits attributes nor measures errors. Returns the number of triangles in
+// the last level.
 std::size_t levelsAlone(const Mesh& mesh) {
     TriangleSet<MeshVertexNumber> triangles;
     for (const Primitive& primitive : mesh.primitives) {
@@ -205,7 +206,7 @@ void timeRow(const std::string& name, const Mesh& mesh) {
 struct DistanceRatios {
     double sum = 0;
     int levels = 0;
-    int within = 0;  // number of levels whose distance is at most 1.1 times that of meshoptimizer
+    int within = 0;  // number of levels with a ratio of at most 1.1
     double worst = 0;
 
     void add(double ratio) {
@@ -250,8 +251,8 @@ void distanceRow(const std::string& name, const Mesh& mesh, DistanceRatios& all)
         const auto meanDistance = [&](std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles) {
             return surfaceDistance(prepareSurface(positions, triangles), reference, distancePoints).both.mean;
         };
-        // Raise distances to the precision of float positions. On flat meshes, the ratio would otherwise compare
-        // rounding errors.
+        // Clamp distances to at least the precision of float positions. On flat meshes, both distances are rounding
+        // errors.
         const double exact = 1e-7 * glm::length(mesh.bounds().size());
         const double ratio = std::max(exact, meanDistance(level.positions, indices)) /
                              std::max(exact, meanDistance(joined.positions, peer));
@@ -338,8 +339,8 @@ Mesh peerLevel(const Mesh& mesh, const PyramidLevel& level) {
     return peer;
 }
 
-// Calls visit(level, CoC) for each level that is selected at a CoC from 1 to 60 px (a ninth of the image's width). Sets
-// the stage to the level's CoC before each call.
+// Calls visit(level, CoC) for each level that is selected at a CoC from 1 to 60 px (a ninth of the image's width).
+// Before each call, sets the f-number of `stage` so that the mesh has this CoC.
 void forEachLevelInUse(Stage& stage, const std::function<void(std::uint32_t, double)>& visit) {
     const std::size_t count = stage.world.pyramids[0].levels.size();
     if (count < 2) return;

@@ -4,8 +4,8 @@
 // For the first table, the fraction of the points inside a region estimates the region's area. The table shows the
 // errors of these estimates, for regions of the lens and of the pixel. The second table shows image errors by number of
 // lens samples. Held constant: scene, camera, lens, full detail, 32-bit layers, and one reference per scene. The
-// reference has 4,096 samples from a separate part of the Halton sequence. Over the seeds 0 and 1, the RMSE of
-// display-encoded values is averaged as a root mean square, and FLIP as a mean. The patterns are used on the lens only;
+// reference has 4,096 samples from a separate part of the Halton sequence. Errors are combined over the seeds 0 and 1:
+// the RMSE of display-encoded values by the root mean square, FLIP by the mean. The patterns are used on the lens only;
 // their points in the pixel come from `sobol`.
 //
 //   defocus_sequence_bench [MODEL…]
@@ -43,7 +43,7 @@ const std::vector<std::uint32_t> counts = {8, 16, 32, 64, 128, 256, 512, 1024};
 
 struct Pattern {
     std::string name;
-    bool needsCount = false;  // true: points depend on their number N, so the first n < N are unevenly spread
+    bool needsCount = false;  // true: points depend on their count N, so the first n < N are unevenly spread
     std::function<std::vector<LensSample>(std::uint32_t count, std::uint32_t seed)> samples;
 };
 
@@ -74,8 +74,8 @@ std::vector<glm::dvec2> hexagonalRings(std::uint32_t count, std::uint32_t seed) 
     return points;
 }
 
-// Returns points that repel each other, starting from Sobol' points. Distances wrap around at the edges of the unit
-// square, before it is mapped to the disk.
+// Returns points of the unit disk, mapped from points of the unit square that repel each other. These begin as Sobol'
+// points; their distances wrap around at the edges of the square.
 std::vector<glm::dvec2> relaxed(std::uint32_t count, std::uint32_t seed) {
     std::vector<glm::dvec2> square;
     for (std::uint32_t i = 0; i < count; ++i) square.push_back(sequencePoint(Sequence::sobol, i, seed + 1).lens);
@@ -138,7 +138,7 @@ std::vector<Region> halfPlanes() {
     return regions;
 }
 
-// Returns rectangles in the pixel that all start at its lower left corner.
+// Returns rectangles in the pixel that share its lower left corner.
 std::vector<Region> boxes() {
     std::vector<Region> regions;
     for (int x = 1; x <= 16; ++x)
@@ -149,8 +149,8 @@ std::vector<Region> boxes() {
     return regions;
 }
 
-// Errors of a point set as an estimate of the areas of regions. The area error of a region is the fraction of the
-// points inside it, minus its area.
+// Errors of a point set that estimates the areas of regions. The area error of a region is the fraction of the points
+// inside it, minus its area.
 struct Discrepancy {
     double all = 0;     // RMS of the area errors of all regions
     double prefix = 0;  // max |area error| over all regions and all sets of the first n ≥ 16 points
@@ -238,8 +238,8 @@ RenderSettings fullDetailSettings(const PreparedFrame& frame, std::uint32_t coun
     return settings;
 }
 
-// Renders a plan once. Returns its images after each number of samples in `reads` (ascending). `samples` replaces the
-// plan's samples unless `samples` is empty.
+// Renders a plan once. Returns the images after reads[0], reads[1] … samples; `reads` is ascending. If `samples` isn't
+// empty, it replaces the plan's samples.
 std::vector<Image> rendered(Renderer& renderer, FramePlan plan, const std::vector<LensSample>& samples,
                             const std::vector<std::uint32_t>& reads) {
     if (!samples.empty()) plan.samples = samples;

@@ -7,8 +7,8 @@
 // px. The exit code is 1 if "psnr", from the first comparison, is below 45 dB for any scene.
 //
 // With --shadows ANGLE, diffuse surfaces are lit by a sun with this angular diameter in degrees, which casts shadows.
-// Images without shadows show how much time the shadows take in each renderer and how much error they add. In this
-// mode, no PSNR is required, because shadow maps have a finite resolution.
+// The scene is also rendered without shadows, to measure how much time they take in each renderer and how much error
+// they add. In this mode, no PSNR is required, because shadow maps have a finite resolution.
 //
 //   defocus_truth_bench [--samples 1024] [--size 1024x768] [--sequence sobol] [--foreground-limit 8] [--shadows 5]
 //   [--output FOLDER] [SCENE.glb …]
@@ -39,7 +39,7 @@ struct Options {
     std::string size = "1024x768";
     Sequence sequence = RenderSettings{}.sequence;                     // sequence of the rasteriser's lens samples
     double foregroundLimit = std::numeric_limits<double>::infinity();  // limit on the foreground blur, px
-    std::optional<double> shadows;                                     // diameter of the sun, degrees; nullopt: no sun
+    std::optional<double> shadows;  // angular diameter of the sun, degrees; nullopt: no sun
     std::string output;
     std::vector<std::string> scenes;
     int width = 0;
@@ -58,14 +58,15 @@ Rendered rendered(const char* method, const TruthScene& subject, const Options& 
     RenderSettings settings = fullDetailSettings(wanted.samples);
     settings.sequence = wanted.sequence;
     settings.shadows = shadows;
-    // Max error in px of the blur interpolated inside triangles. It is small, because the slope of the blur over depth
-    // jumps where a limit on the foreground blur begins.
+    // Max error in px of the blur interpolated inside triangles. It is small, because a limit on the foreground blur
+    // adds a kink to the blur over depth, which interpolation smooths.
     settings.cocTolerance = 0.05;
     Image image = imageOf(*renderer, planFrame(subject.world, subject.view, settings));
     return {std::move(image), renderer->stats()};
 }
 
-// Makes the scene's surfaces diffuse, and lights them only by a sun from the upper right behind the camera.
+// Makes the scene's surfaces diffuse, and lights them only by a sun with an angular diameter of `degrees`, from the
+// upper right behind the camera.
 void lightByASun(TruthScene& subject, double degrees) {
     for (Material& material : subject.scene.materials) {
         material.unlit = false;
@@ -115,7 +116,7 @@ void compareShadows(const std::string& name, const TruthScene& subject, const Op
 }
 
 // Compares the rasterized image of a scene with the ray-traced one, and prints the differences. Returns whether the
-// PSNR is at least 45 dB; always true with shadows.
+// PSNR is at least 45 dB; always true with shadows, whose maps have a finite resolution.
 bool compareScene(const std::string& name, Scene scene, const Options& options) {
     const std::unique_ptr<TruthScene> subject = truthScene(std::move(scene), options.width, options.height);
     subject->view.lens.foregroundLimit = options.foregroundLimit;

@@ -7,8 +7,9 @@
 
 namespace defocus::engine {
 
-// Writes the frame's meshes with the colours of unlitScene (eval/convergence/unlit_scene.h), and its camera with the
-// lens in the extras. Lengths are in metres. Throws Error for skins and morph targets, and if writing fails.
+// Writes the frame's meshes with the colours of unlitScene (eval/convergence/unlit_scene.h), and the frame's camera,
+// with the lens settings in the camera's extras. Lengths are in metres. Throws Error for skins and morph targets, and
+// if writing fails.
 void writeUnlitFile(const std::filesystem::path& path, const PreparedFrame& frame);
 
 }  // namespace defocus::engine

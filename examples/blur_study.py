@@ -27,7 +27,7 @@ OUTPUT = Path(sys.argv[2] if len(sys.argv) > 2 else "blur-study.png")
 SIZE = (240, 180)
 F_STOPS = (1.4, 2.8, 5.6, 11)
 SAMPLES = (4, 8, 16, 32, 64, 128)
-# Full detail. Seed 1 gives other lens points than the compared images, which use seed 0.
+# Full detail. With seed 1, the lens points differ from those of the compared images, which use seed 0.
 REFERENCE = {"samples": 512, "lod": "off", "seed": 1}
 
 # %% Render the images, their references and their blur with one renderer, which reads and simplifies the scene once.

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes the keywords of defocus/_defocus.pyi from the settings table of the built module.
 
-    PYTHONPATH=build/release/python /usr/bin/python3 scripts/python_stubs.py          # writes the file
-    PYTHONPATH=build/release/python /usr/bin/python3 scripts/python_stubs.py --check  # exit code 1 if it is outdated
+    PYTHONPATH=build/release/python /usr/bin/python3 scripts/python_stubs.py          # writes the stub
+    PYTHONPATH=build/release/python /usr/bin/python3 scripts/python_stubs.py --check  # exit code 1: stub is outdated
 """
 
 import sys

@@ -256,7 +256,7 @@ std::array<glm::vec2, packetSize> EmbreeRenderer::lightPointsOf(const Tile& tile
     return points;
 }
 
-// ---- tracing of rays ------------------------------------------------------------------------------------------------
+// ---- ray tracing ----------------------------------------------------------------------------------------------------
 
 LaneMask EmbreeRenderer::lanesInside(const Tile& tile, int place) const {
     const int left = tile.left + place % packetsPerTileRow * packetSide;
@@ -268,8 +268,8 @@ LaneMask EmbreeRenderer::lanesInside(const Tile& tile, int place) const {
 }
 
 // Traces a packet for a camera that limits the blur in the foreground. The limit is modelled by a separate lens for
-// each pixel, at a distance from the eye (lens_rays.h). Rays first go from the eye to their pixel's lens. Rays that hit
-// nothing on the way are refracted by this lens and continue behind it.
+// each pixel, at depth LensCamera::lensDepth (lens_rays.h). Rays first go from the eye to their pixel's lens. Rays that
+// hit nothing on the way are refracted by this lens and continue behind it.
 void EmbreeRenderer::traceLimited(const Tile& tile, int place, const PacketPoints& points, const LaneMask& mask,
                                   RTCRayHit16& packet) const {
     const int left = tile.left + place % packetsPerTileRow * packetSide;

@@ -1,14 +1,14 @@
 #pragma once
-// Renders independent references with a thin-lens ray tracer on Embree 3 that shares no code with the rasteriser. The
-// ray tracer takes from a FramePlan only the view and the sample count, seed and offset. It has its own lens model
-// (lens_rays.h) and sampling, and traces the loaded meshes without any culling.
+// Renders independent reference images with a thin-lens ray tracer on Embree 3 that shares no code with the rasteriser.
+// Of a FramePlan, the ray tracer uses only the view, whether there are shadows, and the sample count, seed and offset.
+// It has its own lens model (lens_rays.h) and sampling, and traces the loaded meshes without any culling.
 //
 // The pixel filter is a box of 1 px. The output is linear premultiplied RGBA, summed in double. Surfaces are opaque and
 // shaded as in traced_shading.h. Throws Error for environment maps.
 //
 // The code is optimised, because benches also compare its speed: rays are traced in packets (ray_packet.h), and each
-// tile is traced for several samples in succession. If all pixels share a lens sample, Embree traces packets as
-// coherent. The image doesn't depend on tiles and threads.
+// tile is traced for several samples in succession. If all pixels share a lens sample, packets are traced with Embree's
+// flag for coherent rays. The image doesn't depend on the tile size or the number of threads.
 
 #include <memory>
 
@@ -17,8 +17,8 @@
 namespace defocus::engine {
 
 enum class EmbreeSampling {
-    perPixel,  // each pixel has its own scrambled points on the lens and in the pixel; the error is noise
-    shared,    // all pixels share the points on the lens and in the pixel, as in accumulation; the error is banding
+    perPixel,  // each pixel has its own scrambled points on the lens and in the pixel; errors appear as noise
+    shared,    // all pixels share these points, as in method "accumulation"; errors appear as banding
     // Like `shared`, but with the points of FramePlan::samples, so that only geometry and visibility can differ from
     // the rasteriser. Uses Embree's watertight intersection tests. In the other modes, about one ray in a million
     // passes between two adjacent triangles.

@@ -71,9 +71,9 @@ LensRay lensRay(const LensCamera& camera, const glm::dvec2& image, const glm::dv
 }
 
 ReversedPoint unscrambledPoint(std::uint32_t index, std::uint32_t order, SamplePair pair, std::uint32_t seed) {
-    // The points on the lens and in the pixel use the Sobol' points in different orders, so that they aren't
-    // correlated. Owen scrambling of the bit-reversed index permutes the points only within aligned blocks of 2^n, so
-    // each block remains a (0,2)-net.
+    // The lens and the pixel take the Sobol' points in different orders, so that their points aren't correlated. Owen
+    // scrambling of the bit-reversed index permutes the points only within aligned blocks of 2^n points, so each block
+    // remains a (0,2)-net.
     const std::uint32_t salt = mixed(mixed(seed, static_cast<std::uint32_t>(pair)), 1);
     const std::uint32_t shuffled = owenScrambled(reversedBits(index), mixed(order, salt));
     return {shuffled, reversedBits(sobolSecond(shuffled))};

@@ -7,12 +7,12 @@
 // with the horizontal and vertical fields of view θx and θy. For a lens of diameter A, the ray from the lens point
 // L = (A/2)·(u, v, 0) through P is
 //   L + t·(X·tan(θx/2) − L.x/s, Y·tan(θy/2) − L.y/s, −1)
-// so t is the depth in metres, and a lens focused at infinity (1/s = 0) needs no special case.
+// Thus t is the depth in metres, and a lens focused at infinity (1/s = 0) needs no special case.
 //
-// With a limit c₀ (px, in an image W px wide) on the blur in front of the focal plane, there is no lens of radius A/2
-// at the eye. Instead, each pixel has a separate lens on its own axis, at depth α, that images the eye onto the plane
-// of focus. Rays leave the eye as through a pinhole, inside a cone around the axis that covers c₀ px. Objects between
-// the eye and this lens are therefore blurred by c₀ px at any depth. Behind this lens, the blur must equal that of the
+// A limit c₀ on the blur in front of the plane of focus (px, in an image W px wide) replaces the lens of radius A/2 at
+// the eye. Each pixel has a separate lens on its own axis instead, at depth α, that images the eye onto the plane of
+// focus. Rays leave the eye as through a pinhole, inside a cone around the axis that covers c₀ px. Objects between the
+// eye and this lens are therefore blurred by c₀ px at any depth. Behind this lens, the blur must equal that of the
 // original lens. This determines α: the original bundle of rays is as wide there as the cone,
 //   2·(A/2)·(1/α − 1/s)·W/(2 tan(θx/2)) = c₀
 // With object distance α and image distance s − α, the thin lens has
@@ -37,23 +37,23 @@ struct LensCamera {
     double lensRadius = 0;       // lens radius in m; 0: pinhole
     double reciprocalFocus = 0;  // inverse focus distance in 1/m; 0: focus at infinity
 
-    // The two members below are used only if the blur in the foreground is limited.
-    double lensDepth = 0;  // depth α of each pixel's lens (see above), m; 0: no limit, one lens at the eye
-    double cone = 0;       // tangent of the half angle of the cone of rays from the eye
+    // Used only if the blur in the foreground is limited; see the description of the limit above.
+    double lensDepth = 0;  // depth α of each pixel's own lens, m; 0: no limit, so all pixels share the lens at the eye
+    double cone = 0;       // tangent of half the angle of the cone of rays that leave the eye for a pixel
 };
 
 LensCamera lensCamera(const View& view);
 
 struct LensRay {
-    glm::vec3 origin{0.0f};     // point on the lens (z = 0) in camera space
-    glm::vec3 direction{0.0f};  // direction with z = −1, so that the ray parameter is the depth in m
+    glm::vec3 origin{0.0f};     // point on the eye's or the pixel's lens, in camera space
+    glm::vec3 direction{0.0f};  // direction with z = −1: the ray parameter is the depth beyond the origin in m
 };
 
 // Returns the ray from lens point `lens` (unit disk) for image point `image` ([-1, 1]², right and up).
 LensRay lensRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
 
-// Functions for cameras that limit the blur in the foreground by a separate lens for each pixel. eyeRay returns the ray
-// from the eye to this lens at lensDepth. refractedRay returns the ray's continuation behind this lens.
+// Functions for cameras that limit the blur in the foreground: each pixel has its own lens, at depth lensDepth. eyeRay
+// returns the ray from the eye to this lens. refractedRay returns the ray's continuation behind it.
 LensRay eyeRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
 LensRay refractedRay(const LensCamera& camera, const glm::dvec2& image, const LensRay& eye);
 

@@ -8,7 +8,7 @@ namespace {
 struct RaySteps {
     float pixelX, pixelY;  // change in slope per px
     float radius;          // lens radius in m; a ray's origin is this radius times its lens point
-    float focus;           // change in slope that keeps the ray aimed at the same point on the plane of focus
+    float focus;           // decrease in slope per lens radius; the ray then meets the same point on the plane of focus
 };
 
 DEFOCUS_VECTOR_CLONES void addSamples(const RaySteps& steps, const PacketPoints& points, RTCRayHit16& packet) {

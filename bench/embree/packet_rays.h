@@ -15,8 +15,8 @@ inline constexpr int packetsPerTile = packetsPerTileRow * packetsPerTileRow;
 // Origin and slopes of the rays of a tile whose pixels share a lens sample. The values are computed in double and
 // rounded once, so that no accuracy is lost.
 struct TileRays {
-    std::array<float, tileSide> slopeX{};  // slopes by pixel column
-    std::array<float, tileSide> slopeY{};  // slopes by pixel row
+    std::array<float, tileSide> slopeX{};  // horizontal slope of the rays in each pixel column: x per unit of depth
+    std::array<float, tileSide> slopeY{};  // vertical slope of the rays in each pixel row
     float originX = 0;
     float originY = 0;
 };
@@ -30,8 +30,8 @@ TileRays tileRays(const LensCamera& camera, const View& view, int left, int top,
 // by row.
 void makeRays(const TileRays& tile, int place, RTCRayHit16& packet);
 
-// Sets the rays of a packet with a different sample in each pixel. `tile` must be computed for the points {0, 0} in the
-// pixel and on the lens.
+// Sets the rays of a packet with a different sample in each pixel. `tile` must have been computed with `pixel` and
+// `lens` {0, 0}, because `points` are added to it.
 void makeRays(const TileRays& tile, int place, const LensCamera& camera, const View& view, const PacketPoints& points,
               RTCRayHit16& packet);
 

@@ -73,7 +73,7 @@ ReversedLanes packetSeeds(std::uint32_t firstStream, SamplePair pair, std::uint3
 
 DEFOCUS_VECTOR_CLONES void scramblePoints(const ReversedLanes& points, const ReversedLanes& seeds, FloatLanes& x,
                                           FloatLanes& y) {
-    for (int i = 0; i < packetSize; ++i)  // shift by 8, because a float has 24 bits of precision
+    for (int i = 0; i < packetSize; ++i)  // keep 24 of 32 bits, the precision of a float
         x[i] = 0x1p-24f * static_cast<float>(static_cast<std::int32_t>(owenScrambled(points.x[i], seeds.x[i]) >> 8));
     for (int i = 0; i < packetSize; ++i)
         y[i] = 0x1p-24f * static_cast<float>(static_cast<std::int32_t>(owenScrambled(points.y[i], seeds.y[i]) >> 8));

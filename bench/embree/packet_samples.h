@@ -1,6 +1,6 @@
 #pragma once
-// Computes scrambled lens points for the pixels of a packet, in single precision: versions of scrambledPoint and
-// aperturePoint (lens_rays.h) for packets.
+// Computes scrambled points on the lens and in the pixel for all pixels of a packet, in single precision. Vectorised
+// versions of scrambledPoint and aperturePoint (lens_rays.h).
 
 #include <array>
 #include <cstdint>
@@ -15,11 +15,11 @@ struct ReversedLanes {
     Lanes<std::uint32_t> x, y;
 };
 
-// Returns unscrambledPoint (sample_scramble.h) for all 16 lanes. The points of the sequence are available in 16 orders,
-// and each lane uses a different order. The result is the same for all packets.
+// Returns unscrambledPoint (sample_scramble.h) for all 16 lanes; lane i uses order i of the points. The result is the
+// same for all packets.
 ReversedLanes unscrambledPoints(std::uint32_t index, SamplePair pair, std::uint32_t seed);
 
-// Returns scrambleSeeds (sample_scramble.h) for a packet's 16 pixels. Pixel i uses the stream (number of its scramble)
+// Returns scrambleSeeds (sample_scramble.h) for a packet's 16 pixels. Pixel i uses the stream (index of its scramble)
 // firstStream + i. firstStream is a multiple of 16. The result is the same for all samples.
 ReversedLanes packetSeeds(std::uint32_t firstStream, SamplePair pair, std::uint32_t seed);
 

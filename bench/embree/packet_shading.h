@@ -32,7 +32,7 @@ private:
     struct Surfaces {
         std::uint32_t miss = 0;                       // geometry id that stands for a miss
         std::vector<std::int32_t> firstColor;         // for each geometry: index of the first colour in cornerColors
-        std::vector<std::int32_t> colorsPerTriangle;  // for each geometry: 3, or 0 if all triangles share three colours
+        std::vector<std::int32_t> colorsPerTriangle;  // for each geometry: 3 colours; 0: all triangles share 3 colours
         std::vector<float> red, green, blue;          // for each geometry: components of baseColorFactor
         std::vector<glm::vec3> cornerColors;          // three vertex colours per triangle
     };

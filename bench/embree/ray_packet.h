@@ -9,7 +9,8 @@
 #include <cstdint>
 
 // Also compiles the function for AVX2; that version is selected at load time if the machine has AVX2. Called functions
-// profit only if they are inlined. Disabled with sanitizers, because the selection runs before they are loaded.
+// profit only if they are inlined. Disabled with AddressSanitizer, because the loader selects the version before the
+// sanitizer's runtime is loaded.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define DEFOCUS_VECTOR_CLONES __attribute__((target_clones("arch=haswell", "default")))
 #else
@@ -22,7 +23,7 @@ namespace defocus::engine {
 inline constexpr int packetSide = 4;  // width and height of a packet, px
 inline constexpr int packetSize = packetSide * packetSide;
 
-// One value per pixel of a packet: lane i is pixel (i % 4, i / 4), right and down.
+// One value per pixel of a packet: lane i is the pixel in column i % 4 (from the left) and row i / 4 (from the top).
 template <typename Value>
 struct alignas(64) Lanes {
     std::array<Value, packetSize> values{};

@@ -1,6 +1,7 @@
 #pragma once
 // Scrambles the Sobol' points of lens_rays.h and packet_samples.h. All pixels share the Sobol' points. Each stream of
-// points, one per pixel or one for all pixels, applies its own Owen scramble, in a few 32-bit integer operations.
+// points is Owen-scrambled with its own seeds, in a few 32-bit integer operations. There is one stream per pixel, or
+// one for all pixels.
 //
 //   Sobol' 1967; Kollig and Keller 2002, Efficient Multidimensional Sampling; Laine and Karras 2011, Stratified
 //   Sampling for Stochastic Transparency; Burley 2020, Practical Hash-based Owen Scrambling.
@@ -38,9 +39,9 @@ DEFOCUS_ALWAYS_INLINE std::uint32_t owenScrambled(std::uint32_t reversed, std::u
     return reversedBits(x);
 }
 
-// Returns point `index` of the dimension pair `pair` before it is scrambled, in one of 16 orders of the points. Each
-// pixel has its own stream of points, and stream s uses order s % 16. The 16 pixels of a packet therefore have
-// different orders and uncorrelated errors. The points are the same for all packets.
+// Returns point `index` of the dimension pair `pair` before it is scrambled. The points can be taken in 16 orders.
+// Stream s, of one pixel, takes them in order s % 16, so the 16 pixels of a packet have different orders and
+// uncorrelated errors.
 ReversedPoint unscrambledPoint(std::uint32_t index, std::uint32_t order, SamplePair pair, std::uint32_t seed);
 inline constexpr std::uint32_t orderCount = packetSize;
 

@@ -63,11 +63,11 @@ private:
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;
     TraceOptions options_;
-    std::deque<TracedGeometry> geometries_;         // keyed by Embree geometry id; a deque, so addresses stay valid
+    std::deque<TracedGeometry> geometries_;         // by Embree geometry id; a deque, so addresses stay valid
     std::deque<std::vector<glm::vec4>> positions_;  // in camera space, one array per object; Embree doesn't copy them
     std::deque<std::vector<glm::vec3>> normals_;    // in world space, one array per deformed object
-    // TracedGeometry::facing of single-sided surfaces, else 0. Keyed by Embree geometry id, with an additional entry
-    // for a miss.
+    // By Embree geometry id: TracedGeometry::facing if back faces are culled, 0 if both sides are visible. One more
+    // entry, 0, is for rays that hit nothing.
     std::vector<float> culledFacing_;
     std::uint64_t triangleCount_ = 0;
     std::atomic<std::int64_t> bytes_ = 0;

@@ -166,7 +166,7 @@ bool hidden(const PlacedLight& placed, const Incoming& incoming, const TracedGeo
     const glm::vec3 toPoint = (far ? front : incoming.distance * front) + aside;
 
     // The shadow ray starts just above the facet, on its visible side. It ends one lamp diameter before the light, so
-    // that the lamp's own glass casts no shadow.
+    // that the glass of a lamp that surrounds the light casts no shadow.
     const glm::vec3 place = hit.origin + hit.distance * hit.direction;
     const glm::vec3 facet = glm::normalize(hit.facet);
     const float lift = 1e-5f * std::max(1.0f, glm::length(place));

@@ -29,8 +29,8 @@ def nodes_of(extent, edge):
     middle, corner = min(disk, square), min(max(disk - square, 0) ** 0.5, extent)
     circles, arcs = ([((begin + end + (end - begin) * X) / 2, (end - begin) / 2 * WEIGHTS) for begin, end in pieces if begin < end]
                      for pieces in (((0, middle), (middle, square)), ((0, corner), (corner, extent))))
-    # The integral for u > extent² is over t, with u = extent² + t². Each side of the square cuts an arc of the angle
-    # 2·arctan(t / extent) off the circle of radius √u.
+    # Integrate by u = r² up to extent², and beyond by t with u = extent² + t², because the area is smooth in t. Beyond,
+    # each side of the square cuts an arc of the angle 2·arctan(t / extent) off the circle of radius √u.
     return (numpy.concatenate([u for u, _ in circles] + [square + t * t for t, _ in arcs]),
             numpy.concatenate([numpy.pi * du for _, du in circles]
                               + [(numpy.pi - 4 * numpy.arctan(t / extent)) * 2 * t * dt for t, dt in arcs]))

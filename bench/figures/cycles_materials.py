@@ -133,8 +133,8 @@ def prepare_for_cycles(name, light):
     both = math("ADD", a, b)
     matt = graph.scaled(colour, product(0.96, math("SUBTRACT", 1.0, g))) if not metallic else (0, 0, 0)
     if bent:
-        # Put the complete BRDF into the colour of a diffuse closure with the interpolated vertex normal. Cycles would
-        # adjust a normal from a normal map and darken the light.
+        # Put the complete BRDF into the colour of a diffuse closure with the interpolated vertex normal. In a closure
+        # with the mapped normal, Cycles would adjust this normal, which darkens the surface.
         base = math("ADD", 1.0, product(alpha2 - 1, nh, nh))
         lobe = math("DIVIDE", alpha2 / 2, product(base, base, nl, nv, both))
         light = vector("ADD", matt, graph.scaled(fresnel, lobe))

@@ -19,14 +19,15 @@ from figures.command import parser_of, path
 from figures.files import read_csv, read_json
 
 MIN_RUNS = 3  # results with fewer runs get no verdict on times
-TOLERANCE = 0.01  # max change in an error that counts as equal, relative to the larger of the two errors
-SSIM_ROUNDING = 1e-6  # max rounding error of a change of SSIM; CSV files contain six digits
-# Columns that identify a row, and columns that are errors.
+TOLERANCE = 0.01  # errors count as equal if they differ by at most this fraction of the larger one
+SSIM_ROUNDING = 1e-6  # max rounding error of the difference of two SSIM values that are rounded to six decimals
+# Columns that identify a row, and columns that contain errors.
 KEYS = ("sweep", "axis", "movement", "area", "case", "errorOf", "method", "setting", "varied", "value", "samples", "fStop",
         "focusDistance", "lod", "width", "height", "preset", "frame")
 ERRORS = re.compile(r"(rmse|psnr|ssim|flip)(Full|Reference)?|(moving|still)Psnr|biasFlip|(change|step)(Rmse|Flip)(Image)?|(diameterE|energyE|e)rror")
 
-Row = namedtuple("Row", "key time runs errors limit reference_samples")  # time: (median, low, high), ms; or None
+# time: median, 10th and 90th percentile in ms; None: not measured
+Row = namedtuple("Row", "key time runs errors limit reference_samples")
 Results = namedtuple("Results", "measured_on subject rows")
 Change = namedtuple("Change", "old new verdict beyond_limit", defaults=(False,))
 

@@ -28,7 +28,7 @@ from figures.markdown import table
 from figures.results import run_of
 from figures.timed import timed
 
-RUNS = 3  # number of runs of each file in MANY
+RUNS = 3  # number of times that each test file of MANY is rendered
 # (kind of element, number of these elements in the test file)
 MANY = [("roots", 300_000), ("nodes in a chain", 100_000), ("materials", 65_000), ("meshes", 65_000)]
 TRIANGLE = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
@@ -67,7 +67,7 @@ def many(kind, count):
         document["scenes"] = [{"nodes": list(parts)}]
     document["bufferViews"] = [{"buffer": 0, "byteLength": len(data)}]
     document["buffers"] = [{"byteLength": len(data)}]
-    return glb(document, struct.pack("<I4s", len(data), b"BIN\0") + data)  # the data's length is a multiple of 4
+    return glb(document, struct.pack("<I4s", len(data), b"BIN\0") + data)  # no padding: the length is a multiple of 4
 
 
 def cost(program, scene, picture):
@@ -138,7 +138,7 @@ def kills(program, folder, arguments):
     """Kills captures at random times and resumes them. Returns the page's lines, and whether all frames are equal."""
     frames, chance = 60, random.Random(1)
     write_shot(folder, frames)
-    environment = dict(os.environ, SOURCE_DATE_EPOCH="0")  # omits run times from the metadata
+    environment = dict(os.environ, SOURCE_DATE_EPOCH="0")  # with this variable, images contain no run times
 
     def start(name, *words):
         return subprocess.Popen([program, "capture", "shot.json", "--quiet", "-o", f"{name}/####.exr", *words], cwd=folder, env=environment)

@@ -28,7 +28,7 @@ def pictures(program, models, index, folder):
     named = [models / SCENES[index]] if SCENES[index] else []
     result = []
     for _, options in FORMS:
-        options = options if named or options != ["--ground"] else []  # the school swims under water, without a ground
+        options = options if named or options != ["--ground"] else []  # the school of fish is drawn without a ground
         run(program, "render", *named, "-o", folder / "picture.png", *COMMON, *options)
         with Image.open(folder / "picture.png") as image:
             result.append(image.convert("RGB").resize((WIDTH, HEIGHT), Image.LANCZOS))

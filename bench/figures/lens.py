@@ -25,8 +25,9 @@ import make_meshes  # noqa: E402
 import radial_blur  # noqa: E402
 
 FOLDER = ROOT / "bench" / "results" / "lens"
+# Scenes that are not in the repository, and the functions that make them.
 MADE = {"meshes/hairball.py": hairball.hairball, "meshes/radial_blur.py": radial_blur.radial_blur,
-        "on lamps without `_COC_SCALE`": lambda: radial_blur.radial_blur(scaled=False), "on a finer board": lambda: make_meshes.chess(200)}  # scenes that are not in the repository
+        "on lamps without `_COC_SCALE`": lambda: radial_blur.radial_blur(scaled=False), "on a finer board": lambda: make_meshes.chess(200)}
 
 
 def commands_of(page):
@@ -89,7 +90,7 @@ def main(words):
     if traced and not bench.exists():
         parser.error(f"{bench} does not exist; build it first")
     if "coc-curves".startswith(arguments.only):
-        from figures.curves import draw_curves  # imported here, because it needs matplotlib
+        from figures.curves import draw_curves  # imported here, because only these curves need matplotlib
         draw_curves(arguments.program, FOLDER / "coc-curves.png")
     with tempfile.TemporaryDirectory() as folder:
         scratch = pathlib.Path(folder)

@@ -25,8 +25,8 @@ sys.path.insert(0, str(ROOT / "meshes"))
 import teapots  # noqa: E402
 
 FOLDER = RESULTS / "lines"
-MAGNIFIED = 4  # factor by which details are enlarged
-PLACES = {"blurred edges": (38, 76), "in focus": (124, 68), "lights": (16, 0)}  # upper left corners of the details, px
+MAGNIFIED = 4  # factor by which crops of the images are enlarged
+PLACES = {"blurred edges": (38, 76), "in focus": (124, 68), "lights": (16, 0)}  # upper left corners of the crops, px
 
 
 def measure(program, folder):

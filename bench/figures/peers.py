@@ -42,8 +42,9 @@ EEVEE_COUNTS = (4, 16)  # more samples hardly change EEVEE's image
 TARGETS = [("rmse", 0.01), ("rmse", 0.005), ("rmse", 0.0033), ("flip", 0.03), ("flip", 0.015), ("flip", 0.01)]
 REFERENCES = {"auto": "accumulation", "auto-4": "accumulation", "accumulation": "accumulation", "embree-shared": "embree", "embree": "embree",
               "cycles": "cycles", "eevee": "cycles"}
+# {name of the scene: arguments of defocus_peers_bench}
 SCENES = {"school": [], "helmets": ["helmets.gltf"], "school-f11": ["--fstop", "11"],
-          "chess-f16": [ROOT / "meshes/chess.glb", "--fstop", "16"]}  # {name: arguments of defocus_peers_bench}
+          "chess-f16": [ROOT / "meshes/chess.glb", "--fstop", "16"]}
 
 
 class Point(NamedTuple):
@@ -57,7 +58,7 @@ class Point(NamedTuple):
 class Time(NamedTuple):
     cpu: float
     wall: float
-    at_most: bool = False  # True: upper bound, because the image with the fewest samples already reaches the error
+    at_most: bool = False  # True: upper bound, because the first image already reaches the target error
 
 
 def time_to(points, metric, target):

@@ -60,7 +60,7 @@ def prepared_scene(facts, width, height):
     cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = 0
     cycles.use_adaptive_sampling, cycles.use_denoising, cycles.pixel_filter_type = False, False, "BOX"
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = cycles.light_sampling_threshold = 0
-    render.filter_size = 1.1  # only EEVEE uses this filter; its variance is that of a box of one pixel
+    render.filter_size = 1.1  # used only by EEVEE; its filter of this size has the variance of a box filter 1 px wide
     eevee = scene.eevee
     eevee.use_bokeh_jittered, eevee.bokeh_overblur, eevee.use_gtao, eevee.use_bloom = True, 0, False, False
     return scene

@@ -154,7 +154,7 @@ def frame_time_plot(rows):
 def speedup_plot(rows):
     lines = []
     for label, line in speedup_series(rows):
-        if all(row["speedUp"] == 1 for row in line):  # skip full detail, to which the speed-up is relative
+        if all(row["speedUp"] == 1 for row in line):  # skip full detail, whose speed-up is 1 by definition
             continue
         lines.append((label, [(row["samples"], row["speedUp"]) for row in line]))
         for part, name in (("sizeOnly", "size only"), ("blurOnly", "blur only")):

@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 
 # Palette of Okabe and Ito, darkened on white and lightened on black: (on white, on black). Its colours are
-# distinguishable with all kinds of colour blindness; markers and labels also differ.
+# distinguishable with all kinds of colour blindness. Lines also differ in their markers and labels.
 PALETTE = [("#0063a8", "#5db1f0"), ("#c24e00", "#ff8a4c"), ("#00805c", "#35cfa1"), ("#a8447f", "#ee9cc8"),
            ("#8a6000", "#f0c040"), ("#007e8a", "#5fd3df"), ("#5a5a5a", "#b8b8b8")]
 MARKERS = "osD^vPX*<>h"

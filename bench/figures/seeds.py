@@ -23,7 +23,7 @@ def lines_with(name, beginning):
     return [numbers(line[len(beginning):]) for line in lines_of(name) if line.startswith(beginning)]
 
 
-# ---- Jeong, Kim and Lee ---------------------------------------------------------------------------------------------
+# ---- Jeong, Kim and Lee 2011: levels of detail -----------------------------------------------------------------------
 
 
 def speeds(preset):
@@ -77,7 +77,7 @@ def jeong():
     ]
 
 
-# ---- Munkberg, Toth and Akenine-Möller ------------------------------------------------------------------------------
+# ---- Munkberg, Toth and Akenine-Möller 2012: artistic blur controls --------------------------------------------------
 
 
 def limited_work():
@@ -147,7 +147,7 @@ def munkberg():
     ]
 
 
-# ---- Scheuermann ----------------------------------------------------------------------------------------------------
+# ---- Scheuermann 2004: gather from a sharp image ---------------------------------------------------------------------
 
 
 def flips(scene, *rows):
@@ -188,7 +188,7 @@ def scheuermann():
     ]
 
 
-# ---- Garcia ---------------------------------------------------------------------------------------------------------
+# ---- Garcia 2018: circular separable blur ----------------------------------------------------------------------------
 
 
 def kernel_errors():
@@ -282,7 +282,7 @@ def buckets():
     return table(["scene", "no buckets", "one (default)", "two"], rows)
 
 
-# ---- Tzeng and others -----------------------------------------------------------------------------------------------
+# ---- Tzeng et al. 2012: line samples ---------------------------------------------------------------------------------
 
 
 def tzeng():
@@ -321,7 +321,7 @@ def tzeng():
     ]
 
 
-# ---- Lee, Eisemann and Seidel ---------------------------------------------------------------------------------------
+# ---- Lee, Eisemann and Seidel 2010: depth layers ---------------------------------------------------------------------
 
 
 def lee():

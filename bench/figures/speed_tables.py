@@ -9,8 +9,9 @@ from figures.results import (accumulation_rows, command_of, error_ratio, lines_o
 
 FISH, OWN, H200 = "llvmpipe-speedup-fish", "llvmpipe-speedup-jeong2011", "h200-speedup"
 MODES = {"nearest": "nearest level", "fractional": "split samples", "continuous": "split pixels", "multirate": "multirate"}
-MAX_ERROR_RATIO = 1.2  # max error with levels of detail, relative to the error at full detail
-# Max pop, relative to the pop of mode nearest. A pop is the change in the image when an object switches its level.
+MAX_ERROR_RATIO = 1.2  # limit on the error with levels of detail, relative to the error at full detail
+# Limit on the pop in each level-of-detail mode, relative to the pop in mode "nearest". A pop is the change in the image
+# when an object switches its level.
 MAX_POP_RATIO = {"fractional": 0.25, "continuous": 0.05, "multirate": 0.25}
 
 

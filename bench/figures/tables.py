@@ -22,11 +22,11 @@ from figures.rows import time_to_error
 TABLES = speed_tables.TABLES | bench_tables.TABLES | line_rows.TABLES | seeds.TABLES
 PAGES = {"README.md": False, "docs/results.md": False, "docs/seeds.md": False, "bench/results/details.md": False,
          "bench/results/line-samples.md": False, "docs/window.md": False,
-         "bench/results/llvmpipe-methods.md": True}  # True: the page's table of methods shows all rows
+         "bench/results/llvmpipe-methods.md": True}  # value: whether the page's table of methods shows all rows
 BLOCK = re.compile(rf"(<!-- ({'|'.join(['methods', 'equal error', *TABLES])})(?:: ([^>]+))? -->\n).*?(<!-- end -->)", re.DOTALL)
 LEVELS = {"lod=off": "full detail", "lod=fractional metric=measured thresholds=1": "levels",
           "lod=fractional metric=size thresholds=1": "fractional levels"}
-AS_PUBLISHED = {("llvmpipe-methods-lens-space", "line"): "line as published"}  # methods that have published settings in a run
+AS_PUBLISHED = {("llvmpipe-methods-lens-space", "line"): "line as published"}  # {(run, method): name in the tables}
 PINHOLE_SETTINGS = ("default", "coc=thin-lens taps=64 max-coc=unlimited", "resolution=quarter kernel-taps=eight", "pinholes=1")
 
 

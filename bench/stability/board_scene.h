@@ -48,12 +48,11 @@ std::vector<Board> threeBoards(const View& view, double nearest, double farthest
 double largestError(const Image& a, const Image& b);
 
 // Returns the blur diameter c = A·|1/s − 1/z|·W / (2 tan(θx/2)) in px, with the aperture diameter A, focus distance s
-// and depth z in m, the horizontal field of view θx, and the image width W in px. Computed in double from the lens
-// alone.
+// and depth z in m, the horizontal field of view θx, and the image width W in px. Computed in double precision.
 double blurDiameter(const View& view, double depth);
 
-// Errors of the image of a blurred square light (made by squareAt) relative to the exact image. The measured diameter
-// is that of a uniform disk with the same second moment as the light's image.
+// Errors of the image of a blurred square light (made by squareAt) relative to the exact image. The blur diameter is
+// measured as that of a uniform disk with the same second moment as the light's image.
 struct BlurredLight {
     double diameterError = 0;  // error of the measured blur diameter, px
     double placeError = 0;     // distance of the disk's centre from its exact position, px

@@ -32,9 +32,8 @@ double diskShare(double distance, double diameter) {
     return 0.5 + (x * std::sqrt(1 - x * x) + std::asin(x)) / std::numbers::pi;
 }
 
-// Returns the max error of a pixel relative to the exact image. At the depth of the half plane, the rays of a pixel
-// fill one disk. The half plane's colour is weighted by the fraction of the disk that it covers. The remaining rays see
-// the wall.
+// Returns the max error of a pixel relative to the exact image. In the exact image, the rays of a pixel fill a disk at
+// the depth of the half plane. The part of the disk that the half plane covers has its colour, the rest has the wall's.
 double edgeError(const Edge& edge) {
     const View& view = edge.view;
     const glm::dvec3 near(0.9, 0.5, 0.1);
@@ -68,7 +67,8 @@ Edge macroEdge(double fStop, double depth) {
     return edge;
 }
 
-// Returns an edge 0.02 m from the camera, in front of a wall 2,000 km away. The focus distance blurs both.
+// Returns an edge 0.02 m from the camera, in front of a wall 2,000 km away. The focus lies between them, so both are
+// blurred.
 Edge deepEdge() {
     Edge edge{.view = boardView(), .depth = 0.02, .wall = 2e6};
     edge.view.lens.focusDistance = 0.035;

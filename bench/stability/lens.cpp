@@ -17,8 +17,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double pixelLimit = 0.5;  // max error of a blur diameter, px
-constexpr double placeLimit = 0.1;  // max error of a position, px
+constexpr double pixelLimit = 0.5;  // limit on the error of a blur diameter, px
+constexpr double placeLimit = 0.1;  // limit on the error of the position of a blur disk, px
 constexpr std::uint32_t manySamples = 1024;
 struct LensSetting {
     double fStop = 1;
@@ -28,8 +28,8 @@ struct LensSetting {
     int width = 96;            // image width in px; the height is 64 px
 };
 
-// Returns the error (px) of the blur diameter of a small light relative to the formula. The diameter is derived from
-// the second moment of the light's image.
+// Returns the difference (px) between the blur diameter of a small light in the image and blurDiameter(). The former is
+// derived from the second moment of the light's image.
 double diameterError(const LensSetting& setting) {
     View view = boardView(setting.width, 64);
     view.lens.fStop = setting.fStop;
@@ -62,7 +62,8 @@ double farFocusError() {
     return largestError(image, rendered(boards));
 }
 
-// Returns the errors of a blurred light near the corner of the image, for a horizontal field of view in degrees.
+// Returns the errors of the diameter and the position of a blurred light near the image's corner, for a horizontal
+// field of view in degrees.
 BlurredLight lightInField(double fieldOfView) {
     View view = boardView(192, 128);
     view.lens.focalLength = view.lens.horizontalAperture / (2 * std::tan(fieldOfView * std::acos(-1.0) / 360));
@@ -73,7 +74,8 @@ BlurredLight lightInField(double fieldOfView) {
     return blurredLight(rendered(boards), view, {.depth = 5, .offset = place});
 }
 
-// Returns the max errors of blurred lights in the image's corners, at the middles of its edges and at its centre.
+// Returns the max errors of the diameters and positions of blurred lights in the image's corners, at the middles of its
+// edges and at its centre.
 BlurredLight lightsInLargeImage(int width, int height) {
     View view = boardView(width, height);
     setBlur(view, 6, 10);

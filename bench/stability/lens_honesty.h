@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-// Max errors for which the blur disk of a small light agrees with the lens equation (HonestyRow::followsLens).
+// Tolerances within which the blur disk of a small light agrees with the lens equation (HonestyRow::followsLens).
 inline constexpr double honestDiameter = 0.5;  // max error of the blur disk's diameter, px
 // Max error of the blur disk's total radiance (energy), relative to the energy of the light without blur. Noise alone
 // causes errors of 0.02 for methods with 256 independent samples per pixel.
@@ -22,7 +22,7 @@ struct HonestyRow {
     std::string varied;        // varied parameter, such as "f/2.8"
     double expected = 0;       // blur diameter by the lens equation, px
     double measured = 0;       // blur diameter derived from the image's second moment, px
-    double energy = 0;         // sum of the light's radiance, relative to the light without blur
+    double energy = 0;         // radiance summed over the image, relative to the light without blur
     std::string leftOut = {};  // why the method was not measured, such as a limit of the driver; else empty
     [[nodiscard]] bool followsLens() const;
 };

@@ -22,7 +22,7 @@ constexpr double squareDepth = 4;
 // the image's centre.
 using Path = std::function<glm::dmat4(const glm::dmat4& middle, double time)>;
 
-Image movedSquare(const Path& path, int segments) {  // 0 segments: one pose per sample
+Image movedSquare(const Path& path, int segments) {  // number of segments of the path; 0: a pose per sample
     View view = boardView(128, 64);
     view.lens.dofEnabled = false;
     BoardScene square(view, {squareAt(view, squareDepth, 2 * halfSide, glm::vec3(1))});
@@ -66,8 +66,8 @@ double trapezoidError(const Image& image) {
     return largest;
 }
 
-// Returns the RMSE of a square that spins 20 turns about its centre. In each turn, a point at radius r is outside each
-// side of the square over an angle of 2·acos(halfSide/r).
+// Returns the RMSE between the image of a square that spins 20 turns about its centre and the exact image. In each
+// turn, a point at radius r is outside each side of the square over an angle of 2·acos(halfSide/r).
 double spinError() {
     const Image image = movedSquare(
         [](const glm::dmat4& middle, double time) {

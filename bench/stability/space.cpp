@@ -41,14 +41,14 @@ double distanceError(double distance) {
     return std::hypot(far.mean.x - moments.mean.x, far.mean.y - moments.mean.y);
 }
 
-// Returns the max error (px) of the centre of a board whose vertices are `distance` m from its node's origin, for
-// camera positions in steps of 0.5 mm.
+// Returns the max error (px) of the position in the image of a board's centre, for camera positions in steps of 0.5 mm.
+// The board's vertices are `distance` m from its node's origin.
 double ownDistanceError(double distance) {
     const View view = boardView(192, 128);
     BoardScene near(view, {squareAt(view, 2, 9, glm::vec3(1), {31.3, 17.7})});
     BoardScene far(view, {squareAt(view, 2, 9, glm::vec3(1), {31.3, 17.7})});
     glm::dmat4& worldFromObject = far.world.pose.objects[0].worldFromObject;
-    // Position in mesh units. Integer offsets up to 2²³ are exact in floats.
+    // Offset in units of the mesh's coordinates. As integers up to 2²³, they keep the coordinates exact in floats.
     const glm::vec3 offset(
         glm::round(glm::vec3(distance / worldFromObject[0].x, -0.5 * distance / worldFromObject[1].y, 0)));
     for (glm::vec3& position : far.scene->meshes[0].vertices.positions) position += offset;
@@ -103,8 +103,8 @@ double depthRatioError() {
     return largest;
 }
 
-// Returns the errors of the light at `depth`. The scene has a red light at 0.02 m and a blue light at 2,000 km, both
-// blurred.
+// Returns the errors of the blur diameter and the position of the light at `depth`. The scene has a red light at 0.02 m
+// and a blue light at 2,000 km, both blurred.
 BlurredLight lightAt(double depth) {
     View view = boardView(192, 128);
     view.lens.focusDistance = 0.035;

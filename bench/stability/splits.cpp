@@ -1,5 +1,5 @@
-// Measures how tiny changes of λ, the fractional level of detail, change an image whose samples draw an object with two
-// levels. When λ passes an integer or a value at which a sample switches levels, at most one sample may switch.
+// Measures how much a tiny change of λ, the fractional level of detail, changes an image whose samples draw an object
+// with two levels. At most one sample may switch levels if λ passes an integer or a value at which a sample switches.
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double nudge = 1e-6;                 // tiny change of λ, the fractional level of detail
-constexpr double oneSample = 1 + 1e-4;         // max change in samples; 1e-4 is for the rounding of 32-bit float layers
+constexpr double nudge = 1e-6;          // tiny change of λ, the fractional level of detail
+constexpr double oneSample = 1 + 1e-4;  // limit on movedSamples: one sample, and a margin for the rounding of floats
 constexpr std::uint32_t renderedSamples = 60;  // not a multiple of the number of samples drawn together
 
 // Returns a unit sphere made of rings of quads. Its levels have different silhouettes.
@@ -68,8 +68,8 @@ Image imageAt(Ball& ball, double lambda, LodMode mode) {
                     {.layerFormat = LayerFormat::rgba32f, .wave = 8, .shaderFolder = {}, .settings = {}});
 }
 
-// Returns the max change of a pixel when the fractional level changes from `from` to `to`, in units of 1/N for N
-// samples. One sample changes a pixel by at most 1 unit.
+// Returns the max change of a pixel when the fractional level changes from `from` to `to`, times the number of samples.
+// One sample that switches its level changes a pixel by at most 1 in this unit.
 double movedSamples(double from, double to, LodMode mode) {
     Ball ball;
     const Image before = imageAt(ball, from, mode);

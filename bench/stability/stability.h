@@ -26,7 +26,7 @@ struct StabilityCase {
 struct StabilityRow {
     StabilityCase subject;
     double error = 0;
-    bool leftOut = false;  // true: this program lacks the method of the reference
+    bool leftOut = false;  // true: not measured, because this build lacks StabilityCase::method
     [[nodiscard]] bool failed() const { return !leftOut && !(error <= subject.limit); }  // a NaN error fails
 };
 

@@ -56,8 +56,8 @@ double plainError(float value, std::uint32_t samples, std::uint32_t wave) {
     return std::abs(static_cast<double>(sum / static_cast<float>(samples)) / value - 1);
 }
 
-// Returns the max relative error for a light of radiance 10,000 that is blurred over a background of radiance 0.0001.
-// The reference draws each sample separately and sums the samples in double precision.
+// Returns the max relative error of an image's pixels. The image shows a light of radiance 10,000 that is blurred over
+// a background of radiance 0.0001. The reference draws each sample separately and sums the samples in double precision.
 double mixedError() {
     constexpr std::uint32_t samples = 300;
     View view = boardView(24, 16);

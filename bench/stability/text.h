@@ -16,8 +16,8 @@ namespace defocus::engine {
 std::string stabilityLine(const StabilityRow& row, const StabilityRow* before);
 std::string honestyHeader();
 std::string honestyLine(const HonestyRow& row);
-// Returns a line for each method and its settings: the largest error, and the number of rows whose blur agrees with the
-// lens equation (HonestyRow::followsLens).
+// Returns a line for each combination of method and settings: the largest error of the blur diameter, the range of the
+// energy, and the number of rows whose blur agrees with the lens equation (HonestyRow::followsLens).
 std::string honestySummary(std::span<const HonestyRow> rows);
 std::string stabilityJson(std::span<const StabilityRow> rows, std::span<const HonestyRow> honesty,
                           const BenchSubject& subject);

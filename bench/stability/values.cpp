@@ -60,7 +60,8 @@ double skyTexelError(LayerFormat format) {
     setBlur(view, infinite, blur);
     const double texel =
         2 * std::acos(-1.0) / mapWidth * view.width * view.lens.focalLength / view.lens.horizontalAperture;
-    // The texel lies to the right of and below the image's centre. Texture filtering spreads it over its neighbours.
+    // The upper left corner of the NaN texel is at the image's centre. Texture filtering spreads the texel over its
+    // neighbours.
     const double reach = 0.5 * blur + texel + 1;
     const auto picture = [&](int x) {
         BoardScene sky(view, {});
@@ -79,8 +80,8 @@ double skyTexelError(LayerFormat format) {
     return wrong;
 }
 
-// Returns the max relative error of a rough surface that is lit by a map with a NaN texel (spherical harmonics and mip
-// levels).
+// Returns the max relative error of the radiance of a rough surface that is lit by a map with a NaN texel. Its light
+// comes from the map's spherical harmonics and mip levels.
 double lightTexelError(float metallic) {
     View view = boardView();
     BoardScene wall(view, {{3, {0, 0}, {10, 10}, glm::vec3(0.8f)}});
@@ -90,7 +91,7 @@ double lightTexelError(float metallic) {
         wall.world.environment = surroundings(x);
         return rendered(wall);
     };
-    const Image image = picture(0);  // the NaN texel lies behind the camera, where it lights the wall
+    const Image image = picture(0);  // the NaN texel is behind the camera and faces the wall
     const Image reference = picture(-1);
     double largest = 0;
     for (int y = 0; y < image.height; ++y)
@@ -116,8 +117,8 @@ void addValueCases(std::vector<StabilityCase>& cases) {
     };
     addSky("half-float", LayerFormat::rgba16f);
     addSky("32-bit", LayerFormat::rgba32f);
-    // NaN counts as black. Without NaN, the texel would contribute 2e-4 of the irradiance and 3e-5 of the smallest mip
-    // level, so that the error is below the limit of 1e-3.
+    // NaN counts as black. The texel would contribute 2e-4 of the irradiance and 3e-5 of the smallest mip level, so its
+    // absence causes an error below the limit of 1e-3.
     add("a NaN texel in the map's light, rough metal", "radiance, relative", "the map without it", 1e-3,
         [] { return lightTexelError(1); });
     add("a NaN texel in the map's light, not metal", "radiance, relative", "the map without it", 1e-3,

@@ -13,7 +13,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-// Thrown for an invalid request: an unknown name or a value out of range, independent of the scene file.
+// Thrown for a request that is invalid for any scene: an unknown name or a value out of range.
 class DEFOCUS_API UsageError : public Error {
 public:
     using Error::Error;

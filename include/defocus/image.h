@@ -68,7 +68,7 @@ struct ImageView {
         : ImageView(image.width, image.height, image.channels, std::span<const float>(image.pixels)) {}
 
     [[nodiscard]] bool empty() const { return pixels.empty(); }
-    // Returns whether there are no gaps between pixels and between rows.
+    // Returns whether there are no gaps between pixels or rows.
     [[nodiscard]] bool isPacked() const { return strides == packedStrides(width, channels); }
     // Returns a pointer to the first channel of the pixel in column x and row y.
     [[nodiscard]] const float* at(int x, int y) const {
@@ -91,7 +91,7 @@ struct Pixel {
 
 // Tone curve that maps linear values to [0, 1] before the sRGB encoding.
 enum class ToneMap {
-    none,     // clip to [0, 1]
+    none,     // no curve; values are clipped to [0, 1]
     aces,     // ACES filmic curve, Stephen Hill's fit of RRT and ODT
     agx,      // AgX by Troy Sobotka, base look, Benjamin Wrensch's polynomial fit
     neutral,  // Khronos PBR Neutral: keeps colours up to 0.8, compresses highlights to white

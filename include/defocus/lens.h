@@ -9,7 +9,7 @@
 namespace defocus {
 
 struct LensSettings {
-    // Settings of the camera, and of the exposure of 8-bit images.
+    // Settings of the camera, and settings for the exposure of 8-bit images.
     std::optional<double> focalLength;         // focal length in mm; sets the field of view. Default: from the camera
     std::optional<double> fStop;               // f-number N, > 0: aperture diameter = focalLength / N. Default: 2.8
     std::optional<double> horizontalAperture;  // sensor width in mm. Default: 36
@@ -37,10 +37,10 @@ struct LensSettings {
     std::optional<double> backgroundLimit;    // max blur diameter in px behind the focus plane
     std::optional<double> focusRangeFront;    // extent in m of the sharp range in front of the focus distance
     std::optional<double> focusRangeBehind;   // extent in m of the sharp range behind the focus distance
-    std::optional<bool> focusRangeRefocuses;  // true: surfaces behind the range blur as if its far end were in focus
-    // Rotations of the focus plane in degrees.
-    std::optional<double> focusTilt;   // about the horizontal axis; > 0: the top of the plane is nearer to the camera
-    std::optional<double> focusSwing;  // about the vertical axis; > 0: the right side of the plane is nearer
+    std::optional<bool> focusRangeRefocuses;  // true: behind the range, the blur is that of a focus at its far end
+    // Rotations of the focus plane in degrees, about the horizontal and the vertical axis.
+    std::optional<double> focusTilt;   // horizontal axis; > 0: the top of the plane is nearer to the camera
+    std::optional<double> focusSwing;  // vertical axis; > 0: the right side of the plane is nearer to the camera
     // κ of the curved focus surface with depth s/(1 + κr²), where s is the focus distance. r is the distance from the
     // image's centre; r = 1 at the left and right edges.
     std::optional<double> fieldCurvature;

@@ -30,7 +30,7 @@ namespace defocus {
 struct RefocusSettings {
     // Focus of the picture: a FocusDistance or FocusPixel. CameraFocus keeps the focus distance of the rendered images.
     Focus focus = {};
-    LensSettings lens = {};  // f-number and shape of the aperture; an unset value: as in the rendered images
+    LensSettings lens = {};  // f-number and shape of the aperture. Default: those of the rendered images
     bool fillGaps = true;    // true: blurs each lens image, so that blur does not show as separate copies of a surface
 };
 
@@ -65,9 +65,10 @@ public:
     explicit LightField(const std::filesystem::path& path);
     // Render the lens images of a request to a file with the extension .exr, and open the file. `range`: focus
     // distances that can be chosen later, in addition to the request's own distance; nullopt: from the nearest to the
-    // farthest visible surface. Throw UsageError if the request's method, samples or target error don't suit lens
-    // images. Throw the errors of SceneRenderer's constructor. Also throw Error if a change of focus would do more than
-    // shift the lens images, as with a tilted focus plane. A failure leaves no file.
+    // farthest visible surface. A failure leaves no file. Both functions throw:
+    // - UsageError if the request's method, samples or target error don't suit lens images;
+    // - Error if a change of focus would do more than shift the lens images, as with a tilted focus plane;
+    // - the errors of SceneRenderer's constructor.
     static LightField render(const Request& request, const std::filesystem::path& path,
                              std::optional<FocusRange> range = {}, const Progress& progress = {});
     static LightField render(const Scene& scene, const Request& request, const std::filesystem::path& path,

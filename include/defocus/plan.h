@@ -41,7 +41,8 @@ struct PlannedObject {
     bool transmits = false;    // true if the object has transmissive materials
     bool moves = false;        // true if the object moves during the exposure
     std::vector<PlannedDraw> draws;  // one or two draws; the one with the coarser level first
-    // For a sample that mixes both levels (LodMode::continuous): fraction of its pixels that draw the coarser level.
+    // For a sample that mixes both levels (LodMode::continuous): fraction of the pixels in which it draws the coarser
+    // level.
     std::optional<double> boundaryShare;
 };
 
@@ -69,7 +70,7 @@ struct Plan {
     bool hasApertureImage = false;
     double focusDistance = 0;     // focus distance in m; +∞ for focus at infinity
     double apertureDiameter = 0;  // m
-    bool usesLens = true;         // false: no blur reaches half a pixel, so a pinhole is drawn
+    bool usesLens = true;         // false: no blur reaches half a pixel, so a pinhole image is drawn
     std::uint32_t samples = 0;    // number of lens samples
     std::uint32_t positions = 1;  // number of subpixel positions per lens sample
     Sequence sequence = Sequence::sobol;
@@ -89,9 +90,9 @@ struct Plan {
     std::vector<PlannedShadowMap> shadowMaps;  // empty: no shadows
     int shadowMapSize = 0;                     // side of each shadow map, px
     std::uint32_t shadowPoints = 0;            // sample points on each light per lens sample
-    // Method "multirate" blurs the image of each lens sample to fill the gaps between the samples. Standard deviation
-    // of this blur, relative to the diameter of the circle of confusion. 0 if the images cannot be blurred;
-    // lensCellReason then says why.
+    // Standard deviation of the blur by which method "multirate" fills the gaps between the lens samples, relative to
+    // the diameter of the circle of confusion. 0 if the samples' images cannot be blurred; lensCellReason then says
+    // why.
     double lensCellBlur = 0;
     std::string lensCellReason;
     std::string accumulationReason;      // why method "auto" uses accumulation; empty: "auto" uses multirate

@@ -1,5 +1,5 @@
 #pragma once
-// Progress callback of long operations.
+// Progress callback for long operations.
 
 #include <cstdint>
 #include <functional>

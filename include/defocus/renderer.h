@@ -49,8 +49,8 @@ struct Aovs {
 // Renders frames of one scene, which is read and simplified only once.
 class DEFOCUS_API SceneRenderer {
 public:
-    // Reads the scene of the request, or uses a scene that has already been read; Request::scene, fishCount and
-    // trianglesPerFish are then ignored. Throws Error if a file cannot be read, a name is unknown, a value is invalid,
+    // The first constructor reads the scene of the request. The second uses `scene` and ignores Request::scene,
+    // fishCount and trianglesPerFish. Both throw Error if a file cannot be read, a name is unknown, a value is invalid,
     // or OpenGL 4.5 is not available. Exceptions from `progress` propagate.
     explicit SceneRenderer(const Request& request, const Progress& progress = {});
     SceneRenderer(const Scene& scene, const Request& request, const Progress& progress = {});
@@ -58,9 +58,9 @@ public:
     SceneRenderer(SceneRenderer&&) noexcept;
     SceneRenderer& operator=(SceneRenderer&&) noexcept;
 
-    // Starts a frame for the constructor's request, or for another request with the same scene. The other request may
-    // have another camera, lens, time, number of samples, levels of detail and method. Throws Error in the same cases
-    // as the constructor, and if the request has another scene.
+    // Starts a frame for the constructor's request, or for a given request with the same scene. All other settings may
+    // differ, such as the camera, lens, time, number of samples, levels of detail and method. Throws Error in the same
+    // cases as the constructor, and if the request has another scene.
     void start();
     void start(const Request& request);
     // Draws further samples. Returns false once the frame is complete. A frame that exceeds Request::memory is drawn in

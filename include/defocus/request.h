@@ -113,7 +113,7 @@ struct Request {
 
     // ---- rendering method ----
     std::string method = "auto";
-    std::map<std::string, std::string> methodSettings;  // name of a setting → value; missing: defaults
+    std::map<std::string, std::string> methodSettings;  // setting name → value; missing settings: default
     LayerFormat layerFormat = LayerFormat::automatic;
 
     // Data layers to add to EXR files. Layers need a method that averages lens samples; with layers, method "auto" uses
@@ -135,8 +135,8 @@ struct Request {
     std::optional<std::uint64_t> memory;  // memory limit in bytes. Default: 3/4 of the free memory
     // Number of lens samples drawn at once, 1 … 64; does not change the image. Default: as many as fit into memory.
     std::optional<std::uint32_t> wave;
-    // Number of threads that draw, 1 … 64; does not change the image. Default: half of the cores with llvmpipe of Mesa
-    // 25.0 or later, else 1.
+    // Number of threads that draw, 1 … 64; does not change the image. Default: half the number of cores if the driver
+    // is llvmpipe from Mesa 25.0 or later, else 1.
     std::optional<std::uint32_t> threads;
 };
 

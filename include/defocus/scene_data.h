@@ -50,8 +50,8 @@ struct MeshData {
 };
 
 enum class TextureContent {
-    color,  // linear Rec.709 with premultiplied alpha, like an Image: base colour, emission
-    data,   // linear values: metalness and roughness, normals, occlusion, transmission
+    color,  // base colour, emission: linear Rec.709 with premultiplied alpha, like an Image
+    data,   // metalness and roughness, normals, occlusion, transmission: linear values
 };
 enum class TextureWrap { repeat, clampToEdge, mirroredRepeat };
 enum class TextureFilter { nearest, linear };

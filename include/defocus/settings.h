@@ -34,12 +34,12 @@ enum class LodMode {
     off,         // all lens samples draw level 0, full detail
 };
 
-// Criterion for the level of an object.
+// Criterion that determines the fractional level of detail λ of an object.
 enum class LodMetric {
     automatic,  // `size` if a blur or size threshold is set, else `measured`
-    size,       // target edge length in px, compared with each level's mean edge length
-    error,      // target deviation of the surface in px
-    measured,   // target error of the object's blurred radiance, relative to the radiance's variation
+    size,       // target in px for the level's mean edge length
+    error,      // target in px for the deviation of the level's surface from the full mesh
+    measured,   // target for the error of the blurred radiance, relative to the radiance's standard deviation
     // Level proportional to the blur at the bounding box's centre, and to the reciprocal of the box's projected size
     // (Jeong, Kim and Lee 2011).
     proportional,
@@ -48,7 +48,7 @@ enum class LodMetric {
     score,
 };
 
-// Circle of confusion that determines an object's level.
+// Circle of confusion that determines an object's level of detail.
 enum class LodCoc {
     smallest,  // smallest blur within the object's bounding box
     centre,    // blur at the bounding box's centre (Jeong, Kim and Lee 2011)
@@ -57,13 +57,13 @@ enum class LodCoc {
 // Source of the vertices of coarser levels.
 enum class LevelVertices {
     fitted,     // positions, normals, colours and texture coordinates fitted to full detail
-    surviving,  // unchanged vertices of the full-detail mesh
-    quarters,   // unchanged vertices; three levels, with 100, 75 and 50 % of the vertices (Tzeng et al. 2012)
+    surviving,  // vertices of the full-detail mesh, with their positions and attributes
+    quarters,   // like surviving, but three levels with 100, 75 and 50 % of the vertices (Tzeng et al. 2012)
 };
 
 // Shadows from lights and from the environment.
 enum class Shadows {
-    automatic,  // on if Request::ground is set
+    automatic,  // shadows are on if Request::ground is set
     on,
     off,
 };
@@ -88,7 +88,7 @@ enum class LayerFormat {
 
 // Reason why no further samples were added to a frame.
 enum class StopReason {
-    sampleCount,     // all requested samples are drawn
+    sampleCount,     // all requested samples have been drawn
     targetError,     // the estimated error is below Request::targetError
     timeLimit,       // Request::timeLimit has elapsed
     nothingBlurred,  // nothing is blurred, so more samples would only antialias edges

@@ -60,8 +60,7 @@ __all__ = [
 ]
 
 for _part in (Camera, Instance, Light, Material, Mesh, Texture, look_at):
-    # Type hints are strings whose names are resolved in the module of the class, so they are resolved before __module__
-    # changes.
+    # Resolve the type hints (strings) before __module__ changes, because Python looks up their names in this module.
     _part.__annotations__ = _typing.get_type_hints(_part)
     _part.__module__ = __name__
 Scene.create = staticmethod(_create_scene)  # type: ignore[assignment]
@@ -95,7 +94,7 @@ class Difference(NamedTuple):
     psnr: float  # PSNR in dB; infinity for equal images
     ssim: float  # mean structural similarity (Wang et al. 2004), on luma
     flip: float  # mean FLIP (Andersson et al. 2020) at 67 pixels per degree
-    max_error: float  # max absolute difference of a colour channel
+    max_error: float  # max absolute difference over all pixels and colour channels
     max_error_pixel: Tuple[int, int]  # (column, row) of the first pixel with max_error, in row-major order
     pixel_count: int
     non_finite: int  # number of pixels that are NaN or infinite in at least one image

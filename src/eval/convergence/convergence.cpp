@@ -185,7 +185,7 @@ Frame frameOf(const World& world, const View& view, const ConvergenceCase& wante
     RendererOptions own = options;
     own.settings = wanted.use.settings;
 
-    // Set up the renderer and draw an untimed first batch (wave) of lens samples.
+    // Time the set-up of the renderer, then draw a first batch (wave) of lens samples, which isn't timed.
     const Clock::time_point begin = Clock::now();
     const std::unique_ptr<Renderer> renderer = wanted.use.method->make(world, own);
     renderer->start(plan);

@@ -24,10 +24,10 @@
 
 namespace defocus::engine {
 
-// Variants of a method's settings. They are measured if the user names the method without settings.
+// Variants of a method's settings that are measured if the user gives only the method's name.
 enum class MethodForm {
     published,  // settings of the paper that describes the method; not measured if there is no paper
-    best,       // settings in Method::best; if they equal the defaults, the variant is called `default` instead
+    best,       // settings that minimize the error (Method::best); named `default` if they are the defaults
     defaults,
 };
 const char* methodFormName(MethodForm form);
@@ -38,14 +38,14 @@ struct PublishedForm {
     std::string preset;
     MethodUse use;
     RenderSettings plan = {};        // all settings except the number of samples
-    const World* world = nullptr;    // world with pyramids for these settings; null: the world of the bench
+    const World* world = nullptr;    // world with pyramids for the published settings; null: that of all other cases
     double pyramidMilliseconds = 0;  // build time of the pyramids of `world`
 };
 
 struct ConvergenceOptions {
     std::vector<MethodUse> methods;  // methods to measure; empty: all, with default settings
     std::vector<MethodForm> forms = {MethodForm::published, MethodForm::best,
-                                     MethodForm::defaults};  // variants to measure if `methods` gives no settings
+                                     MethodForm::defaults};  // variants of methods that are given without settings
     std::vector<PublishedForm> published;                    // the methods' settings for MethodForm::published
     RenderSettings plan;                                     // settings of all cases; the lists below vary some of them
     std::vector<std::uint32_t> sampleCounts = {8, 16, 32, 64, 128, 256};  // for methods that use lens samples
@@ -55,7 +55,7 @@ struct ConvergenceOptions {
     std::vector<LodMetric> metrics = {LodMetric::measured};
     std::vector<double> thresholdFactors = {0.5, 1, 2};  // factors that multiply the default level thresholds
     int runs = 3;                                        // number of runs of each case, ≥ 1
-    int seeds = 1;             // number of seeds, ≥ 1; run r uses the plan's seed + r % seeds, to show the spread
+    int seeds = 1;  // number of seeds, ≥ 1, to show the spread between seeds; run r uses seed plan.seed + r % seeds
     RendererOptions renderer;  // options of all renderers; RendererOptions::settings is ignored
 };
 
@@ -68,15 +68,15 @@ struct ConvergenceCase {
     std::string setting;
     std::uint32_t samples = 0;  // requested lens samples; 0 if the method uses none
     RenderSettings plan;
-    const World* world = nullptr;    // world to draw; null: the world of the bench
+    const World* world = nullptr;    // world to draw; null: the world of all other cases
     double pyramidMilliseconds = 0;  // build time of the pyramids of `world`
     [[nodiscard]] bool usesLevels() const { return plan.lod != LodMode::off; }
 };
 
-// Returns the cases, ordered by number of samples. For each number, accumulation at full detail comes first; it is
+// Returns the cases, ordered by number of samples. For each number, accumulation at full detail comes first. It is
 // always included, as are the ray tracers "embree" and "embree-shared" if the program has them. Methods without lens
 // samples are listed once, with the smallest number. Post-process methods and ray tracers are measured at full detail
-// only. Cases with published settings ignore the lists of levels.
+// only. Cases with published settings ignore `lods`, `metrics` and `thresholdFactors`.
 std::vector<ConvergenceCase> convergenceCases(const ConvergenceOptions& options);
 
 // Error of an image relative to the reference, computed from display-encoded values; see image/metrics.h.

@@ -12,7 +12,7 @@
 
 namespace defocus::engine {
 
-inline constexpr std::array comparedErrors{0.01, 0.005, 0.0033};  // compared errors: RMSE of display values in [0, 1]
+inline constexpr std::array comparedErrors{0.01, 0.005, 0.0033};  // RMSE of display values in [0, 1]
 
 // A method in the comparison. Its settings and its number of samples are chosen for each error separately. Accumulation
 // counts as two competitors: at full detail and with levels.
@@ -20,10 +20,10 @@ struct Competitor {
     std::string name;  // name of the method, such as "accumulation with levels" or "embree"
     struct Time {
         double rmse = 0;
-        std::optional<double> milliseconds;  // time of a frame with this error; nullopt if no row reaches the error
-        bool atMost = false;  // true: `milliseconds` is an upper bound; even the fastest row's error is at most `rmse`
+        std::optional<double> milliseconds;  // time of a frame with this error; nullopt if all errors are larger
+        bool atMost = false;  // true: `milliseconds` is an upper bound, because the fastest frame has a smaller error
     };
-    std::vector<Time> times;  // one entry per requested error, in the order of the request
+    std::vector<Time> times;  // one entry for each of the given errors, in their order
 };
 
 // Returns each competitor's times to reach `errors`, which must be > 0. Times are interpolated on the competitor's

@@ -28,8 +28,8 @@ public:
     explicit FieldReader(std::string_view line) : fields_(splitAt(line, ',')), good_(fields_.size() == fieldCount) {}
 
     [[nodiscard]] bool good() const { return good_; }
-    // Returns whether the next field is empty, which means that its optional group of fields (such as an error) is
-    // missing.
+    // Returns whether the next field is empty, which marks an absent optional group of fields, such as those of an
+    // error.
     [[nodiscard]] bool missing() const { return good_ && fields_[next_].empty(); }
     void skip(std::size_t count) { next_ += count; }
 

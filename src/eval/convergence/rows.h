@@ -29,9 +29,9 @@ struct ConvergenceRow {
     std::vector<ImageError> ofSeeds;  // error of each measured seed's image
     std::uint64_t triangles = 0;
     std::uint64_t peakBytes = 0;
-    bool front = false;          // true: the row is on the Pareto front (paretoFront) of all rows, by time and MSE
-    bool frontOfMethod = false;  // true: the row is on the Pareto front of its method's rows, by time and MSE
-    bool frontByFlip = false;    // true: the row is on the Pareto front of all rows, by time and FLIP
+    bool front = false;          // true: on the Pareto front of time and MSE (paretoFront) of all rows
+    bool frontOfMethod = false;  // true: on the Pareto front of time and MSE of its method's rows
+    bool frontByFlip = false;    // true: on the Pareto front of time and FLIP of all rows
     // True if the error is smaller than the reference's own error; the value of the error is then only an upper bound.
     bool mseBelowReference = false;
     bool flipBelowReference = false;

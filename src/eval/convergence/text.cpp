@@ -24,7 +24,8 @@ std::string nameOf(const ConvergenceRow& row) {
     return isDefault ? row.method + ", " + row.setting : fmt::format("{} ({}), {}", row.method, row.form, row.setting);
 }
 
-// Returns two characters that mark the Pareto fronts on which the row lies.
+// Returns two marks for the Pareto fronts on which the row lies: one for time and MSE, one for time and FLIP. A space
+// means none.
 std::string frontsOf(const ConvergenceRow& row) {
     return std::string(row.front ? "*" : row.frontOfMethod ? "+" : " ") + (row.frontByFlip ? "f" : " ");
 }
@@ -88,7 +89,7 @@ ordered_json competitorJson(const Competitor& competitor) {
     return {{"name", competitor.name}, {"times", std::move(times)}};
 }
 
-// Returns a file name in which special characters are replaced by "-", such as "accumulation-lod-off-64".
+// Returns a file name made of method, setting and number of samples, such as "accumulation-lod-off-64".
 std::string fileName(std::string_view method, std::string_view setting, std::uint32_t asked) {
     std::string name = fmt::format("{} {}", method, setting);
     if (asked > 0) name += fmt::format(" {}", asked);

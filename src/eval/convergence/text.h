@@ -23,7 +23,7 @@ std::string convergenceLine(const ConvergenceRow& row);  // returns the table's 
 // (BiasFloor), and the times to reach equal errors.
 std::string convergenceSummary(std::span<const ConvergenceRow> rows, const ReferenceImage& reference);
 
-// ---- conditions and files of the results ----------------------------------------------------------------------------
+// ---- measurement conditions and result files ------------------------------------------------------------------------
 
 // Properties that all measured rows share: program, machine, scene, crops to show and skipped cases.
 struct ConvergenceSubject {
@@ -46,10 +46,10 @@ std::string convergenceCsv(std::span<const ConvergenceRow> rows);
 std::string convergenceJson(std::span<const ConvergenceRow> rows, const ReferenceImage& reference,
                             const ConvergenceSubject& subject);
 
-// ---- journal of measured frames -------------------------------------------------------------------------------------
+// ---- journal of measured runs ---------------------------------------------------------------------------------------
 
-// Returns one CSV line per frame, with numbers that are read back exactly. `subject`: hash of the properties that all
-// frames of a journal share (scene, reference, device, program).
+// Returns one CSV line per run, with numbers that are read back exactly. `subject`: hash of the properties that all
+// runs of a journal share (scene, reference, device, program).
 std::string runsCsv(std::span<const ConvergenceRun> runs, std::uint64_t subject);
 
 // Returns the runs of a journal. The text may end at any byte: an incomplete last line is dropped. Throws Error, with

@@ -7,7 +7,7 @@
 namespace defocus::engine {
 
 // Returns the scene with unlit, opaque materials. A surface's colour is the mean colour of its texture, times Lambert
-// shading baked into vertex colours. The lighting therefore moves with the mesh. Geometry, nodes, cameras and
+// shading baked into vertex colours. If the mesh moves, the baked shading stays the same. Geometry, nodes, cameras and
 // environment stay unchanged.
 Scene unlitScene(Scene scene);
 

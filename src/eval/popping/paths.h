@@ -21,19 +21,18 @@ struct MovementFrame {
     Pose pose;
 };
 
-// Returns the complete movement, divided into `frames` frames. `view`: view at the middle of the dolly and of the
-// turntable. All frames have the world's pose, except with Movement::clip, which plays the scene's clip with index
-// `clip`. Throws Error for fewer than two frames, if no object is in front of the camera, or if the scene doesn't have
-// the clip.
+// Returns the complete movement, divided into `frames` frames. `view`: view at half the time of the dolly and of the
+// turntable. The pose is that of `world`, except with Movement::clip, which plays the scene's clip with index `clip`.
+// Throws Error for fewer than two frames, if no object is in front of the camera, or if the scene doesn't have the
+// clip.
 std::vector<MovementFrame> framesAlong(Movement movement, const World& world, const View& view, int frames,
                                        int clip = 0);
 
 // Copies the frame's pose and lights to the world.
 void poseWorld(World& world, const MovementFrame& frame);
 
-// Returns the `length` consecutive frames with the most level changes under LodMode::nearest; the first such frames if
-// several stretches have equally many. Leaves `world` in the pose of the last frame. Throws Error if `length` exceeds
-// the number of frames.
+// Returns the `length` consecutive frames with the most level changes under LodMode::nearest; if several sequences tie,
+// the first. Leaves `world` in the pose of the last frame. Throws Error if `length` exceeds the number of frames.
 std::vector<MovementFrame> busiestStretch(const std::vector<MovementFrame>& frames, World& world,
                                           const RenderSettings& settings, int length);
 

@@ -57,7 +57,7 @@ double largestSpeed(const FramePlan& plan, const FramePlan& before) {
     return largest;
 }
 
-// ---- errors between images ------------------------------------------------------------------------------------------
+// ---- differences between images -------------------------------------------------------------------------------------
 
 double mean(const Image& map, const Image* mask) {
     double sum = 0;
@@ -70,7 +70,7 @@ double mean(const Image& map, const Image* mask) {
     return values > 0 ? sum / static_cast<double>(values) : 0;
 }
 
-// Returns the error of `image` relative to `expected`. Both images are display-encoded.
+// Returns the difference between two display-encoded images, over the complete image and over the pixels of `objects`.
 Pop popBetween(const Image& expected, const Image& image, const Image& objects) {
     Image difference = image;
     for (std::size_t i = 0; i < difference.pixels.size(); ++i) difference.pixels[i] -= expected.pixels[i];
@@ -90,7 +90,7 @@ Image carriedOn(const Image& before, const Image& reference, const Image& refere
     return result;
 }
 
-// ---- measurement of a movement --------------------------------------------------------------------------------------
+// ---- measurement of the popping during a movement -------------------------------------------------------------------
 
 std::vector<Image> masksOf(World& world, const std::vector<MovementFrame>& movement, const PoppingOptions& options) {
     std::vector<Image> masks;
@@ -256,8 +256,8 @@ void measurePopping(World& world, const View& view, const PoppingOptions& option
                 measureMovement(world, renderers, options.movements[m], movements[m], masks, options, samples, step));
     }
 
-    // Measure last how much the image changes when one sample switches its level: the movements are the main result and
-    // are reported first.
+    // Measure the change from one sample last, because the popping during movements is the main result and is reported
+    // first.
     poseWorld(world, own);
     for (const std::uint32_t samples : options.sampleCounts)
         if (const auto sampleStep = measureSampleStep(world, *renderers.accumulation, view, options, samples))

@@ -16,12 +16,13 @@
 // frame t or t − 1. For the step, only objects whose levels or splits differ count. Unchanged objects thus don't dilute
 // a pop, and the error of a pop hardly depends on the number of objects that pop in a frame.
 //
-// Expected step: if all N samples change their level at once, the difference between the two levels is blurred by the
-// CoC, c px. If a single sample changes, the difference is sharp and w px wide, and the step is √(c/w)/N times the step
-// of all samples. Let Δλ be the change of an object's real-valued level per frame. If less than one sample changes per
-// frame (Δλ·N < 1), fractional levels make this step in some frames and none in the others. Continuous levels change a
-// fraction Δλ·N of the sample's pixels in every frame, which gives a step of √(c/w)·√(Δλ/N). At a quarter of the speed,
-// this step is half as large.
+// Expected step, as an RMSE: let w px be the width of the region in which the sharp images of two levels differ. If all
+// N samples change their level at once, the lens blurs this difference over the CoC, c px. If a single sample changes,
+// the difference stays sharp. The step is then √(c/w)/N times as large as with all samples. Let Δλ be the change of an
+// object's real-valued level per frame. If less than one sample changes per frame (Δλ·N < 1), fractional levels make
+// this step in some frames and none in the others. Continuous levels change a fraction Δλ·N of the sample's pixels in
+// every frame. The step is then √(c/w)·√(Δλ/N) times as large as with all samples, and half as large at a quarter of
+// the speed.
 //
 // Equal for all modes: scene, views, number of lens samples, thresholds, image size and, except for multirate,
 // renderer. The layers, which hold the images of single samples, are 32-bit floats by default. Their rounding thus
@@ -53,7 +54,7 @@ struct PoppingOptions {
     std::vector<std::uint32_t> sampleCounts = {8, 16, 32};
     int clip = 0;          // index of the scene's clip, for Movement::clip
     int pathFrames = 240;  // number of frames of a complete movement; determines its speed
-    int frames = 48;       // number of measured frames per movement: the stretch with the most level changes
+    int frames = 48;       // consecutive frames to measure per movement, those with the most level changes
     RenderSettings plan;   // settings that the bench keeps constant: seed, metric, keepAll …
     RendererOptions renderer;
 };
@@ -81,27 +82,27 @@ struct PoppingFrame {
 // Change of the image when one sample switches its level, relative to the change when all samples switch, for a static
 // object. RMSEs are of linear values over the complete image.
 struct SampleStep {
-    std::uint32_t samples = 0;
+    std::uint32_t samples = 0;  // number of lens samples N
     std::string object;
     std::uint32_t level = 0;  // finer of the two levels
     double coc = 0;           // CoC diameter in px at the middle of the object's depth range
-    double edgeError = 0;     // error of the coarser level, px; an estimate of w, the width of the difference
-    double expected = 0;  // prediction of `measured` for N samples: √(coc/edgeError)/N if coc > edgeError, else 1/N
-    double measured = 0;  // RMS change as samples switch one by one, relative to the change if all switch at once
+    double edgeError = 0;     // surface error of the coarser level, px; estimates the width w, see above
+    double expected = 0;      // predicted value of `measured`: √(coc/edgeError)/N if coc > edgeError, else 1/N
+    double measured = 0;      // RMS change as samples switch one by one, relative to the change if all switch at once
 };
 
 struct PoppingVisitor {
-    // Called once with the first quarter of the first movement's frames in all modes, so that a first result appears
-    // within seconds. May be empty.
+    // Called once, with the frames of all modes, after the first quarter of the first movement, so that a first result
+    // appears within seconds. May be empty.
     std::function<void(std::span<const PoppingFrame>)> firstFrames;
     // Called once for each movement and each number of samples, with the frames of all modes.
     std::function<void(std::span<const PoppingFrame>)> frames;
     std::function<void(const SampleStep&)> sampleStep;
 };
 
-// Measures the popping for each camera movement and each number of samples, then a SampleStep for each number of
-// samples. Needs a current GL context. Sets the pose of `world` for each frame and restores it at the end. Throws Error
-// in the same cases as planning, rendering and framesAlong.
+// Measures the popping for each movement and each number of samples, then a SampleStep for each number of samples.
+// Needs a current GL context. Sets the pose of `world` for each frame and restores it at the end. Throws Error in the
+// same cases as planning, rendering and framesAlong.
 void measurePopping(World& world, const View& view, const PoppingOptions& options, const PoppingVisitor& visitor,
                     const Progress& progress = {});
 

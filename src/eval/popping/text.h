@@ -22,9 +22,10 @@ struct PoppingRow {
     Movement movement = Movement::focusPull;
     std::uint32_t samples = 0;
     PoppingMode mode = PoppingMode::nearest;
-    int frames = 0;  // number of pairs of consecutive frames: number of views − 1
+    int frames = 0;  // number of pairs of consecutive frames
     double speed = 0;
-    PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // errors over the pixels that show objects
+    // Change and step as defined in popping.h: over the object pixels, and over the complete image.
+    PopSummary changeRmse, changeFlip, stepRmse, stepFlip;
     PopSummary changeRmseImage, changeFlipImage, stepRmseImage, stepFlipImage;
 };
 

@@ -20,8 +20,8 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::uint32_t fewSamples = 64;
-// Number of lens samples per image. Errors are measured as products of two independent images' errors, in which the
-// sampling noise averages out; see renderedError().
+// Number of lens samples per image. More are not needed, because the noise of the samples averages out of the errors;
+// see renderedError().
 constexpr std::uint32_t enoughSamples = 1024;
 
 // Scene for the measurement: a single static mesh without background, under the default lights, with the focal plane
@@ -143,8 +143,8 @@ Light lightOf(const Views& views) {
 }
 
 // Returns the RMS error over the covered area, relative to the mean radiance. Radiance is clamped at shownWhite times
-// the mean. The difference between level and reference is computed for each of the two sets of lens samples, and the
-// two differences are multiplied. Their noise is independent and averages out, so that the error for N → ∞ samples
+// the mean. For each pixel, the differences between the level's image and the reference image from two independent sets
+// of lens samples are multiplied. The noise of these differences averages out, so that the error for N → ∞ samples
 // remains.
 double renderedError(const TwoSets& reference, const TwoSets& level) {
     const Light light = lightOf(reference[0]);

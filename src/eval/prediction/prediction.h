@@ -20,7 +20,7 @@
 namespace defocus::engine {
 
 struct PredictionOptions {
-    std::vector<double> cocs = {1, 4, 16, 64};  // measured CoC diameters at the mesh's centre, px
+    std::vector<double> cocs = {1, 4, 16, 64};  // CoC diameters at the mesh's centre to measure, px
     int width = 320;                            // image width, px
     int height = 240;                           // image height, px
     RendererOptions renderer;
@@ -29,7 +29,7 @@ struct PredictionOptions {
 struct PredictionRow {
     std::string mesh;
     double coc = 0;           // CoC diameter at the mesh's centre, px
-    std::uint32_t level = 0;  // level of detail; for 0, the errors are the sampling noise of 64 samples at full detail
+    std::uint32_t level = 0;  // level of detail; 0: the errors are the noise of 64 samples at full detail
     std::uint32_t triangles = 0;
     double predicted = 0;
     double rendered = 0;
@@ -41,8 +41,8 @@ struct PredictionRow {
 };
 
 // For each blur in `options.cocs`, calls `visit` with the error of 64 lens samples at full detail, then with the error
-// of each level, in order of the level number. Needs a current GL context and frame.scene; animated meshes are measured
-// in their rest pose. Throws Error if no mesh of the scene has levels.
+// of each level, in order of the level number. Needs a current GL context; `frame.scene` must be set. Animated meshes
+// are measured in their rest pose. Throws Error if no mesh of the scene has levels.
 void measurePrediction(const PreparedFrame& frame, const PredictionOptions& options,
                        const std::function<void(const PredictionRow&)>& visit, const Progress& progress = {});
 

@@ -12,8 +12,8 @@ namespace defocus::engine {
 std::string predictionHeader();                        // returns the table's header, two lines
 std::string predictionLine(const PredictionRow& row);  // returns the table's line for a row
 
-// Returns a sentence with the number of used levels whose predicted and rendered errors differ by at most a factor of
-// two, and with the worst and the mean factor.
+// Returns a sentence that states for how many used levels (PredictionRow::used) predicted and rendered error differ by
+// at most a factor of two. It also states the largest factor and the mean of predicted / rendered.
 std::string predictionSummary(std::span<const PredictionRow> rows);
 
 std::string predictionCsv(std::span<const PredictionRow> rows);

@@ -42,7 +42,7 @@ LargeSceneRow measureLargeScene(const LargeScene& scene, const LargeSceneOptions
     }
     row.planMilliseconds = spreadOf(times);
 
-    // Time the first image, then a second frame, when all resources are ready.
+    // Time the first image, which includes the creation of all resources, then a complete second frame.
     const Clock::time_point start = Clock::now();
     const std::unique_ptr<Renderer> renderer = makeAccumulationRenderer(world.world, options.renderer);
     renderer->start(plan);

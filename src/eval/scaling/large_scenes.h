@@ -29,7 +29,7 @@ struct LargeSceneRow {
     LargeScene scene;
     std::size_t meshes = 0;
     std::uint64_t triangles = 0;   // triangles of all objects at full detail
-    double worldMilliseconds = 0;  // time to build the scene and its pyramids, which may come from the cache
+    double worldMilliseconds = 0;  // time to build the scene, and to build or load its pyramids
     Spread planMilliseconds;
     double firstImageMilliseconds = 0;  // time from plan to first image, including uploads and shader compilation
     double frameMilliseconds = 0;       // time of the second frame: all samples, but no uploads or compilation

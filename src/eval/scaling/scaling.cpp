@@ -132,8 +132,8 @@ struct Subject {
     std::unique_ptr<ScalingWorld> world;
 };
 
-// Measures one point of an axis, which is one value of the varied quantity. Returns why the measurement failed; empty
-// on success.
+// Measures one point: one value of the parameter that its axis varies. Returns why the measurement failed; empty on
+// success.
 std::string measuredOrWhyNot(Subject& subject, const ScalingPoint& point, const ScalingOptions& options,
                              const ScalingVisitor& visitor, const Progress& progress) {
     std::string reason = tooLarge(point, subject.machine);

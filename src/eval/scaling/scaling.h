@@ -3,14 +3,15 @@
 // at full detail and with fractional levels. Also finds which part of the work limits the frame time.
 //
 // Three versions of each frame are timed. The first is the complete frame. The second is an empty frame, in which the
-// layers (one image per sample) are only cleared and added. The third draws the same levels into an image of 1/40 the
+// layers (one image per sample) are only cleared and summed. The third draws the same levels into an image of 1/40 the
 // width and height, so that mainly the work per vertex and triangle remains. The rest of the complete frame's time is
 // fill, the work per pixel of a surface. On a GPU these parts overlap, so they show which part limits a frame, not the
 // cost of each part.
 //
 // Triangles, instances, lens samples, pixels and blur are the axes of the benchmark. Along an axis, all parameters that
-// it doesn't vary (see scalingPoints) stay constant; all points are measured in one process. Runs alternate between
-// modes. Times are medians of the wall-clock time between finished frames, after one untimed frame.
+// it doesn't vary (see scalingPoints) stay constant; all points are measured in one process. Runs at full detail and
+// runs with fractional levels take turns. Times are medians of the wall-clock time between finished frames, after one
+// untimed frame.
 
 #include <cstdint>
 #include <filesystem>
@@ -29,11 +30,11 @@
 namespace defocus::engine {
 
 enum class ScalingAxis {
-    triangles,  // 100,000 … 10,000,000 triangles in eight fish
-    instances,  // 1 … 10,000 instances of one fish
-    samples,    // 2 … 64 lens samples
+    triangles,  // numbers of triangles in eight fish, from 100,000 to 10,000,000
+    instances,  // numbers of instances of one fish, from 1 to 10,000
+    samples,    // numbers of lens samples from 2 to 64
     pixels,     // image sizes from 640 × 480 to 3840 × 2160 px
-    blur,       // largest circle of confusion; varied by f-numbers from 16 to 1
+    blur,       // f-numbers from 16 to 1
 };
 
 const char* scalingAxisName(ScalingAxis axis);  // returns the axis's name on the command line
@@ -51,7 +52,8 @@ enum class ScalingPart { layers, vertices, fill };
 
 const char* scalingPartName(ScalingPart part);
 
-// Parameters of a frame to measure. Each axis varies one of them, or width and height; all others keep their defaults.
+// Parameters of a frame to measure. Each axis varies one parameter, or width and height; the others keep their
+// defaults.
 struct ScalingPoint {
     ScalingAxis axis = ScalingAxis::triangles;
     double value = 0;  // number of triangles, instances, samples or pixels, or the f-number
@@ -67,18 +69,18 @@ std::vector<ScalingPoint> scalingPoints(ScalingAxis axis, bool large);
 
 struct ScalingRow {
     ScalingAxis axis = ScalingAxis::triangles;
-    double value = 0;  // value on the axis; for ScalingAxis::blur: largest CoC diameter, px
+    double value = 0;  // ScalingPoint::value; for ScalingAxis::blur: largest CoC diameter, px
     LodMode mode = LodMode::off;
     std::uint32_t samples = 0;
     int width = 0;
     int height = 0;
     int runs = 0;
-    Spread milliseconds;          // time of the complete frame, ms
-    Spread layers;                // time of the empty frame, in which layers are only cleared and added, ms
-    Spread vertices;              // time of the frame drawn into a small image, ms; mainly work per vertex
-    Spread fill;                  // milliseconds − layers − vertices, ≥ 0: mainly work per pixel of a surface, ms
-    std::uint64_t triangles = 0;  // drawn triangles, sum over all samples
-    std::uint64_t gpuBytes = 0;   // peak size of the renderer's resources
+    Spread milliseconds;             // time of the complete frame, ms
+    Spread layers;                   // time of the empty frame, ms: layers are only cleared and summed
+    Spread vertices;                 // time of the frame drawn into a small image, ms: mainly work per vertex
+    Spread fill;                     // rest of the complete frame's time, ≥ 0, ms: mainly work per pixel of a surface
+    std::uint64_t triangles = 0;     // drawn triangles, sum over all samples
+    std::uint64_t gpuBytes = 0;      // peak size of the renderer's resources
     std::uint64_t pyramidBytes = 0;  // main memory of all levels of all meshes
 
     // Returns the slowest part of the frame (by median) and each part that is about as slow, in the order of
@@ -91,7 +93,7 @@ struct ScalingRow {
 // element per run.
 struct ScalingTimes {
     std::vector<double> complete;
-    std::vector<double> layers;    // times of the frame without objects, in which the layers are only cleared and added
+    std::vector<double> layers;    // times of the empty frame
     std::vector<double> vertices;  // times of the frame drawn into a small image
 };
 

@@ -15,11 +15,12 @@ std::string scalingHeader();                     // returns the table's header, 
 std::string scalingLine(const ScalingRow& row);  // returns the table's line for a row
 
 // Returns a line for each axis and mode with the fitted exponents of time and memory, and with the parts of the work
-// that limit the frame time.
+// (ScalingPart) that limit the frame time.
 std::string scalingSummary(std::span<const ScalingRow> rows);
 
-// Describes, for each range of values on an axis, which part of the work takes most of the frame time. All `rows`
-// have the same axis and level mode. Example: "fill up to 300 k, vertex work and fill alike from 1 M".
+// Describes, for each range of values on an axis, which parts of the work (ScalingPart) take most of the frame time.
+// All `rows` have the same axis and level mode. Example for ScalingAxis::triangles: "fill up to 300 k, vertex work and
+// fill alike from 1 M".
 std::string boundsAlong(std::span<const ScalingRow> rows);
 
 struct ScalingLeftOut {

@@ -9,7 +9,7 @@
 
 namespace defocus::engine {
 
-// A scene and the world that refers to it.
+// A scene, and the World that draws it with its pyramids.
 struct ScalingWorld {
     std::shared_ptr<Scene> scene = std::make_shared<Scene>();
     World world;

@@ -51,7 +51,8 @@ std::uint32_t referenceSamplesOf(const Setting& setting, const std::vector<Setti
     return std::clamp(referenceFactor * max, 2u, maxSamples);
 }
 
-// Renders the reference image with the lens of a setting. Reuses the image for consecutive settings with the same lens.
+// Renders the reference image with the lens of a setting (a lens and a number of samples). Consecutive settings with
+// the same lens share the image.
 class References {
 public:
     References(const World& world, const std::vector<Setting>& settings, const SpeedupOptions& options,
@@ -108,7 +109,8 @@ std::deque<SpeedupSubject> subjectsOf(std::span<const SpeedupForm> forms, const 
     for (const SpeedupForm& form : forms) {
         const std::size_t first = subjects.size();
         for (const LodMode mode : modes) add(form, accumulation, mode, LodCause::blurAndSize);
-        // with the metric `proportional`, levels depend on the blur alone
+        // The metric `proportional` has no size threshold: size alone gives full detail, and blur alone changes
+        // nothing.
         if (form.plan.metric != LodMetric::proportional)
             for (const LodCause one : {LodCause::size, LodCause::blur})
                 add(form, accumulation, LodMode::fractional, one);
@@ -141,7 +143,7 @@ void prepare(SpeedupSubject& subject, const Setting& setting, int seeds, Rendere
     drawAllSamples(*subject.renderer, planOf(subject, setting, std::min(setting.samples, warmUpSamples)));
 }
 
-// Draws and times run `number`, which uses the seed with index number % seeds.
+// Draws and times run `number`. The runs use the seeds in turn.
 void run(SpeedupSubject& subject, std::size_t number, const ReferenceImage* reference) {
     drawAllSamples(*subject.renderer, subject.plans[number % subject.plans.size()]);
     const RenderStats stats = subject.renderer->stats();

@@ -3,9 +3,9 @@
 // detail than at full detail, for a fixed camera. Varies the number of lens samples, the f-number and the focus
 // distance.
 //
-// Full detail, nearest level and fractional levels have the same scene, camera, lens, lens samples, image size, number
-// of layers per draw, process and renderer. Runs alternate between all compared modes and methods, so a slowdown of the
-// machine affects all of them.
+// Three level modes are compared: full detail, nearest level and fractional levels. Constant between them: scene,
+// camera, lens, lens samples, image size, number of layers per draw, process and renderer. Runs alternate between all
+// compared modes and methods, so a slowdown of the machine affects all of them.
 
 #include <functional>
 #include <optional>
@@ -22,11 +22,11 @@
 
 namespace defocus::engine {
 
-// Settings of levels and lens samples, and a world whose pyramids are built with these settings.
+// A variant to compare: settings of levels and lens samples, and a world whose pyramids are built with these settings.
 struct SpeedupForm {
     std::string preset;              // name of the preset (settings of a publication); empty: none
     const World* world = nullptr;    // scene to draw; the worlds of all SpeedupForms differ only in their pyramids
-    RenderSettings plan;             // settings without the number of samples and the level mode
+    RenderSettings plan;             // settings; the number of samples and the level mode are ignored
     double pyramidMilliseconds = 0;  // build time of the world's pyramids
 };
 
@@ -35,17 +35,17 @@ struct SpeedupOptions {
     std::vector<double> fStops;                                             // f-numbers to measure with `sweepSamples`
     std::vector<double> focusDistances;  // focus distances (m) to measure with `sweepSamples`
     std::uint32_t sweepSamples = 64;
-    std::vector<MethodUse> methods;  // methods to measure in addition to accumulation, each with forms[0] only
+    std::vector<MethodUse> methods;  // methods to measure in addition to accumulation, with the first SpeedupForm only
     int runs = 5;                    // number of runs of each frame, ≥ 1
     int seeds = 5;                   // number of seeds, ≥ 1; run r uses the plan's seed + r % seeds
     // Number of lens samples of the converged reference image for each lens (reference_image.h); 0: no reference.
     // Default: eight times the largest number of samples measured with that lens. With this default, rendering the
-    // reference takes about as long as two runs of all modes.
+    // reference takes about as long as two runs of all level modes.
     std::optional<std::uint32_t> referenceSamples;
     RendererOptions renderer;
 };
 
-// Result with levels that depend on one cause alone: size or blur (LodCause).
+// Result for levels that are chosen for one cause only: projected size or blur (LodCause).
 struct SpeedupPart {
     double milliseconds = 0;  // median wall-clock time of a frame
     double speedUp = 1;       // median time at full detail divided by `milliseconds`
@@ -67,20 +67,21 @@ struct SpeedupRow {
     double setupMilliseconds = 0;    // set-up time of the renderer; not part of `milliseconds`
     double pyramidMilliseconds = 0;  // build time of the pyramids, if levels are used; not part of `milliseconds`
     double speedUp = 1;  // median time of the same settings at full detail, divided by this row's median time
-    std::optional<SpeedupPart> sizeOnly, blurOnly;  // set only for accumulation with fractional levels
+    // Results for levels chosen for size only and for blur only; set only for accumulation with fractional levels.
+    std::optional<SpeedupPart> sizeOnly, blurOnly;
     std::uint64_t triangles = 0;
     std::uint64_t gpuBytes = 0;  // peak size of the renderer's resources
-    Difference fromFullDetail;   // difference from full detail with the same lens samples, for the first seed
+    Difference fromFullDetail;   // difference between the images of this row and of full detail, first seed
     std::optional<Difference> fromReference;  // difference from the reference image, mean over the seeds
     std::vector<SeedError> ofSeeds;           // difference from the reference image, one per measured seed
     std::uint32_t referenceSamples = 0;       // lens samples of the reference; 0: no reference
     Difference referenceRemaining;            // estimated error of the reference image itself
 };
 
-// Calls `visit` with each row as soon as it is measured. A setting is a lens and a number of samples. For each setting,
-// measures accumulation with each SpeedupForm in `forms`: at full detail, with the nearest level and with fractional
-// levels. Then measures the methods in `options.methods`. `forms` must not be empty. Needs a current GL context. Throws
-// Error in the same cases as planning and rendering.
+// For each setting (a lens and a number of samples), measures accumulation with each SpeedupForm in `forms`: at full
+// detail, with the nearest level and with fractional levels. Then measures the methods in `options.methods`. Calls
+// `visit` with each row as soon as it is measured. `forms` must not be empty. Needs a current GL context. Throws Error
+// in the same cases as planning and rendering.
 void measureSpeedup(std::span<const SpeedupForm> forms, const View& view, const SpeedupOptions& options,
                     const std::function<void(const SpeedupRow&)>& visit, const Progress& progress = {});
 

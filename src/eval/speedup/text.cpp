@@ -63,7 +63,7 @@ std::string partText(const std::optional<SpeedupPart>& part) {
     return part ? fmt::format("{:.2f}", part->speedUp) : std::string();
 }
 
-// Returns what was drawn: the level mode for accumulation, else the method's name.
+// Returns the row's label: the level mode for accumulation, else the method with its settings.
 std::string drawnText(const SpeedupRow& row) {
     return row.method == "accumulation" ? lodModeName(row.mode) : row.method;
 }
