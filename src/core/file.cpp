@@ -55,7 +55,7 @@ fs::path followed(fs::path path) {
     return path;
 }
 
-// Returns whether the path is an open descriptor, such as /dev/stdin or /dev/fd/63 from a shell's <(command).
+// Returns whether the path refers to an open descriptor, such as /dev/stdin or /dev/fd/63 from a shell's <(command).
 bool isDescriptor(const fs::path& path) {
     const auto liesInProc = [](const fs::path& file) {
         std::error_code status;

@@ -3,7 +3,8 @@
 // disk and renamed over the target. A crash, a full disk or a power failure therefore never damages an existing file.
 // Concurrent writers use separate temporary files; the last rename wins. A symbolic link at a path that the user gives
 // is followed: the linked file is replaced, and the link stays. Devices, pipes and descriptors (/dev/stdout) receive a
-// copy of the complete data instead. Paths that the program chooses itself are treated differently: see NamedBy.
+// copy of the complete data instead. A link, device or pipe at a path that the program chose is replaced instead: see
+// NamedBy.
 
 #include <cstddef>
 #include <filesystem>
@@ -15,8 +16,8 @@
 
 namespace defocus::engine {
 
-// Returns the bytes of a file or of an open descriptor (/dev/stdin). Throws Error, with the path in its message, if the
-// file is missing, unreadable, a directory, a device or a pipe.
+// Returns the bytes of a file, or of an open descriptor (/dev/stdin), even if that is a pipe. Throws Error, with the
+// path in its message, if the file is missing, unreadable, a directory, or another device or pipe.
 std::vector<std::byte> readFile(const std::filesystem::path& path);
 // Same as readFile, but returns the bytes as text.
 std::string readText(const std::filesystem::path& path);

@@ -32,7 +32,7 @@ void giveBackFreedMemory() {
 }
 
 // Turns off mmap() for large allocations, so that all blocks come from the heap. Then allocates one large block,
-// requests huge pages for it, and frees it, so that later allocations use its pages. `fence`, a small block behind the
+// requests huge pages for it, and frees it, so that later allocations use its pages. `fence`, a small block after the
 // large one, keeps free() from returning these pages to the system. Unused pages take address space but no memory, so
 // nothing is allocated if the address space is limited.
 void keepFreedMemory() {
@@ -44,7 +44,7 @@ void keepFreedMemory() {
     rlimit addresses{};
     if (fence != nullptr || getrlimit(RLIMIT_AS, &addresses) != 0 || addresses.rlim_cur != RLIM_INFINITY) return;
     void* const block = std::malloc(room);
-    fence = std::malloc(room / 8);  // so large that malloc places it behind `block`, not in a gap of the heap
+    fence = std::malloc(room / 8);  // large enough to lie after `block`, not in a gap of the heap
     if (fence != nullptr) fence = std::realloc(fence, sizeof(void*));
     const std::size_t before = bytesTo(block, hugePage);
     if (block != nullptr) madvise(static_cast<std::byte*>(block) + before, room - before, MADV_HUGEPAGE);

@@ -17,7 +17,7 @@ void giveBackFreedMemory();
 // new pages from the system can take longer than drawing. Call it once, before the program's first large allocation.
 void keepFreedMemory();
 
-// Size of a huge page in bytes. On a system with huge pages of another size, blocks may get small pages instead.
+// Size of a huge page in bytes. If the system's huge pages have a different size, blocks may get small pages instead.
 inline constexpr std::size_t hugePage = std::size_t{2} << 20;
 
 // Allocates zeroed pages for at least `bytes` bytes. Throws std::bad_alloc on failure.

@@ -44,7 +44,7 @@ std::string shortLine(std::string text) {
 void claimClosedOutputs() {
     for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor)
         if (::fcntl(descriptor, F_GETFD) < 0)
-            static_cast<void>(::open("/dev/null", O_RDONLY));  // open() returns the lowest free descriptor
+            static_cast<void>(::open("/dev/null", O_RDONLY));  // opens this descriptor, the lowest free one
 }
 
 }  // namespace defocus::engine

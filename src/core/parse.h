@@ -43,8 +43,8 @@ struct Share {
     int count = 1;
 };
 
-// Parses "index/count", e.g. "1/4". Throws Error, in which `noun` names a part, unless both are integers,
-// 0 ≤ index < count and count ≤ maxCount.
+// Parses "index/count", e.g. "1/4". Throws Error unless both are integers with 0 ≤ index < count ≤ maxCount. The
+// message calls a part `noun`, such as "tile".
 Share parseShare(std::string_view text, std::string_view noun, int maxCount);
 
 // Splits the text at each separator. Parts may be empty, and empty text gives one empty part.

@@ -22,8 +22,7 @@ struct ComparablePair {
 // Throws Error if the sizes differ, or if an image is empty or has the wrong number of values.
 void checkComparable(const ImageView& reference, const ImageView& test);
 
-// Returns the prepared images. Throws Error if the sizes differ, or if an image is empty or has the wrong number of
-// values.
+// Returns both images, converted to finite RGB as described above. Throws Error in the same cases as checkComparable.
 ComparablePair comparablePair(const ImageView& reference, const ImageView& test);
 
 }  // namespace defocus::engine

@@ -27,7 +27,7 @@ constexpr std::array<float, 9> xyzToRgb = {3.241003233f, -1.537398969f, -0.49861
                                            0.041554226f, 0.055639420f,  -0.204011206f, 1.057148977f};
 constexpr std::array<float, 3> white = {0.950428545f, 1.000000000f, 1.088900371f};
 
-// Contrast sensitivity (section 4.1) as a sum of Gaussians a·√(π/b)·exp(−π²x²/b), x in degrees.
+// Contrast sensitivity (LDR paper, section 4.1) as a sum of Gaussians a·√(π/b)·exp(−π²x²/b), x in degrees.
 struct SensitivityTerm {
     double a;
     double b;
@@ -36,12 +36,12 @@ constexpr SensitivityTerm achromaticTerm{1.0, 0.0047};
 constexpr SensitivityTerm redGreenTerm{1.0, 0.0053};
 constexpr std::array<SensitivityTerm, 2> blueYellowTerms = {{{34.1, 0.04}, {13.5, 0.025}}};
 
-// Section 4.1: exponent of the colour difference, and the knee of the piecewise linear curve, which maps 0.4 times the
-// maximum difference to 0.95.
+// LDR paper, section 4.1: exponent of the colour difference, and the knee of the piecewise linear curve, which maps 0.4
+// times the maximum difference to 0.95.
 constexpr float colourExponent = 0.7f;
 constexpr float kneeIn = 0.4f;
 constexpr float kneeOut = 0.95f;
-// Section 4.2: feature width in degrees, and exponent of the feature difference.
+// LDR paper, section 4.2: feature width in degrees, and exponent of the feature difference.
 constexpr double featureWidth = 0.082;
 constexpr float featureExponent = 0.5f;
 
@@ -256,17 +256,17 @@ public:
     }
 
 private:
-    float largest_;  // max difference, between green and blue
+    float largest_;  // max colour difference of FLIP: between pure green and pure blue
 };
 
-// Computes LDR-FLIP of the images mapped by `toDisplay`. Raises each pixel of `map` to the result if the result is
-// larger.
+// Computes LDR-FLIP of the images after `toDisplay`. Each pixel of `map` keeps the larger of its old value and the new
+// error.
 template <typename ToDisplay>
 void raiseToFlip(const ComparablePair& pair, double pixelsPerDegree, const ToDisplay& toDisplay, Image& map) {
     // Convert the displayed linear colours to the opponent colour space.
     const ColourPlanes opponentA = opponentPlanes(pair.reference, toDisplay);
     const ColourPlanes opponentB = opponentPlanes(pair.test, toDisplay);
-    // Run the colour pipeline.
+    // Run the colour pipeline, which filters the images with the eye's contrast sensitivity.
     const SpatialFilters spatial = spatialFilters(pixelsPerDegree);
     const ColourPlanes labA = perceived(opponentA, spatial);
     const ColourPlanes labB = perceived(opponentB, spatial);
@@ -306,7 +306,7 @@ void checkOptions(const std::optional<HdrFlipOptions>& hdr, double pixelsPerDegr
 int flipRadius(double pixelsPerDegree) {
     const std::size_t widest =
         std::max(spatialFilters(pixelsPerDegree).achromatic.size(), featureFilters(pixelsPerDegree).smooth.size());
-    // All spatial filters have the same size, and so do all feature filters.
+    // One filter of each kind suffices, because all filters of a kind have the same size.
     return static_cast<int>(widest / 2);
 }
 
@@ -319,7 +319,7 @@ Image flipErrorMap(const ImageView& reference, const ImageView& test, const std:
         raiseToFlip(
             pair, pixelsPerDegree, [](float value) { return std::clamp(value, 0.0f, 1.0f); }, map);
     } else {
-        // Raise each pixel to the max of LDR-FLIP over all exposures.
+        // HDR-FLIP of a pixel is the max of its LDR-FLIP values over all exposures.
         const double step = hdr->exposures > 1 ? (hdr->stopExposure - hdr->startExposure) / (hdr->exposures - 1) : 0.0;
         for (int i = 0; i < hdr->exposures; ++i) {
             const auto gain = static_cast<float>(std::exp2(hdr->startExposure + i * step));
@@ -327,7 +327,7 @@ Image flipErrorMap(const ImageView& reference, const ImageView& test, const std:
                 pair, pixelsPerDegree, [gain](float value) { return acesCurve(gain * value); }, map);
         }
     }
-    // Set pixels that are NaN or infinite: 1 if only one image is non-finite, 0 if both are.
+    // If a pixel is NaN or infinite in only one image, set its error to 1; if it is in both, to 0.
     for (std::size_t i = 0; i < map.pixels.size(); ++i) {
         if (pair.state[i] == PixelState::nonFiniteInOne) map.pixels[i] = 1;
         if (pair.state[i] == PixelState::nonFiniteInBoth) map.pixels[i] = 0;

@@ -19,12 +19,6 @@
 
 namespace defocus::engine {
 
-// Metadata by EXR attribute name. Standard names (OpenEXR "Standard Attributes") are used where they exist: isoSpeed,
-// aperture (f-number), focus (m from the entrance pupil), nominalFocalLength (mm), expTime (s), framesPerSecond,
-// timeCode, comments, worldToCamera …. Every EXR file has the chromaticities of Rec. 709. Other names have the
-// prefix "defocus:". EXR requires floats under standard names, so a double is stored as float under a standard name,
-// and as double under a prefixed name. A glm matrix is stored unchanged: EXR's row-major matrices for row vectors equal
-// glm's column-major matrices for column vectors. EXR's camera space is left-handed and looks along +z.
 struct Rational {  // fraction, as in EXR's framesPerSecond
     int numerator = 0;
     int denominator = 1;
@@ -37,6 +31,13 @@ struct TimeCode {  // SMPTE non-drop-frame time code
     int frame = 0;
     bool operator==(const TimeCode&) const = default;
 };
+// Metadata by EXR attribute name. OpenEXR's standard names ("Standard Attributes") are used where they exist: isoSpeed,
+// aperture (f-number), focus (m from the entrance pupil), nominalFocalLength (mm), expTime (s), framesPerSecond,
+// timeCode, comments, worldToCamera …. All other names have the prefix "defocus:". EXR requires floats under standard
+// names, so a double is stored as float under a standard name, and as double under a prefixed name. A glm matrix is
+// stored unchanged: EXR's row-major matrices for row vectors equal glm's column-major matrices for column vectors.
+// worldToCamera maps to EXR's camera space, which is left-handed and looks along +z. Every EXR file also gets the
+// chromaticities of Rec. 709.
 using MetadataValue = std::variant<int, double, std::string, glm::mat4, Rational, TimeCode>;
 using Metadata = std::map<std::string, MetadataValue>;
 
@@ -55,8 +56,8 @@ using defocus::writeImage;
 // OpenEXR uses. Numeric attributes of PNG files are stored as strings.
 Image readImage(const std::filesystem::path& path, Metadata& metadata);
 
-// Reads an image in strips of rows, as readImage does, for images that do not fit into memory. An image is kept in
-// memory if its format's decoder only returns complete images (interlaced PNG, tiled TIFF and EXR).
+// Reads the same values as readImage, but in strips of rows, for images that do not fit into memory. An image is kept
+// in memory if its format's decoder only returns complete images (interlaced PNG, tiled TIFF and EXR).
 class StripReader {
 public:
     // Throws Error if the file cannot be read.
@@ -66,8 +67,8 @@ public:
 
     [[nodiscard]] int width() const;
     [[nodiscard]] int height() const;
-    // Returns rows [first, first + count), valid until the next call. A strip may begin within the previous strip, but
-    // not before its first row. Throws Error if the rows cannot be read.
+    // Returns rows [first, first + count), valid until the next call. Strips may overlap, but must not skip rows, and
+    // `first` must not decrease. Throws Error if the rows cannot be read.
     ImageView rows(int first, int count);
 
 private:
@@ -82,21 +83,23 @@ void writeImage(const std::filesystem::path& path, const ImageView& image, const
 
 // Named images of equal size in one EXR file, such as the colours summed over some samples of a frame. Layer NAME has
 // the channels NAME.R, NAME.G, NAME.B and NAME.A: 32-bit float, with lossless ZIP compression. Names must not end with
-// a dot. readLayers returns the layers in alphabetical order. Both functions throw Error under the conditions of
-// readImage and writeImage; readLayers also throws if the file has no layers.
+// a dot.
 struct ImageLayer {
     std::string name;
     Image image;  // image with 3 or 4 channels
 };
-// Writes named channels of images of equal size to one EXR file: 32-bit float, with lossless ZIP compression. Throws
-// Error if images differ in size or if two channels have the same name.
+// Image whose channels have names in an EXR file.
 struct NamedChannels {
     std::vector<std::string> names;  // one per channel of `image`, such as "N.X"
     Image image;
 };
+// Writes the channels of images of equal size to one EXR file: 32-bit float, with lossless ZIP compression. Throws
+// Error if images differ in size or if two channels have the same name.
 void writeChannels(const std::filesystem::path& path, const std::vector<NamedChannels>& parts,
                    const Metadata& metadata);
 
+// readLayers returns the layers in alphabetical order, and throws Error in the same cases as readImage and if the file
+// has no layers. writeLayers throws Error in the same cases as writeChannels.
 void writeLayers(const std::filesystem::path& path, const std::vector<ImageLayer>& layers, const Metadata& metadata);
 std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* metadata = nullptr);
 

@@ -299,7 +299,7 @@ struct StripReader::State {
     bool tiled = false;
     std::function<Image(int first, int count)> read;
     Image strip;    // rows that rows() returned last; the complete image if the file has tiles
-    int begin = 0;  // row of the image with which `strip` begins
+    int begin = 0;  // index in the image of the first row of `strip`
 };
 
 StripReader::StripReader(const std::filesystem::path& path) {

@@ -19,7 +19,7 @@ struct RowPlace {
 
 class ImageRowWriter {
 public:
-    // Throws Error, with the path in its message, if the file cannot be created. `place` is ignored except for EXR.
+    // Throws Error, with the path in its message, if the file cannot be created. `place` is stored only in EXR files.
     ImageRowWriter(const std::filesystem::path& path, int width, int height, int channels, const Metadata& metadata,
                    const WriteOptions& options = {}, const RowPlace& place = {}, NamedBy namer = NamedBy::user);
     ~ImageRowWriter();  // deletes the temporary file unless finish() was called

@@ -54,7 +54,7 @@ struct Strip {
 
 // Divides the image into strips that each fit into `maxBytes` together with all intermediate images.
 std::vector<Strip> stripsOf(int width, int height, std::uint64_t maxBytes) {
-    constexpr double bytesPerPixel = 160;  // measured with HDR-FLIP, which needs the most memory
+    constexpr double bytesPerPixel = 160;  // measured with HDR-FLIP, the metric that needs the most memory
     const int margin = std::max(windowRadius, flipRadius());
     const double fitting = static_cast<double>(maxBytes) / (bytesPerPixel * width);
     const int rows = std::max(static_cast<int>(std::min(fitting, 1e9)) - 2 * margin, margin);
@@ -67,8 +67,8 @@ std::vector<Strip> stripsOf(int width, int height, std::uint64_t maxBytes) {
     return strips;
 }
 
-// Returns the errors of one row of the strip. `y` is the index of the row in the strip, `maskRow` its index in the
-// image.
+// Returns the errors of one row of `pair`, which holds a strip of the images. `y` is the row's index in the strip,
+// `maskRow` its index in the image.
 ErrorSums rowErrors(const ComparablePair& pair, const Image& displayA, const Image& displayB, const Image* mask, int y,
                     int maskRow) {
     ErrorSums row;

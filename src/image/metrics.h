@@ -28,11 +28,12 @@ struct CompareOptions {
     std::optional<HdrFlipOptions> hdrFlip;  // if set: HDR-FLIP over these exposures instead of LDR-FLIP
     const Image* mask = nullptr;            // mask with 1 channel; only pixels with a value > 0 are compared
     Image* flipMap = nullptr;               // if set: receives FLIP per pixel (1 channel), regardless of the mask
-    std::function<void(const ImageView& rows)> takeFlip = {};  // if set: called with strips of FLIP rows, from the top
+    std::function<void(const ImageView& rows)> takeFlip =
+        {};  // if set: called with the FLIP map in strips from the top
 };
 
-// Image that is read in strips of rows, from the top. rows(first, count) returns linear rows, which are valid until the
-// next call. A strip may begin within the previous strip, but not before its first row.
+// Image that is read in strips of rows, from the top. rows(first, count) returns rows of linear values, which are valid
+// until the next call. Strips may overlap, but must not skip rows, and `first` must not decrease.
 struct ImageStrips {
     int width = 0;
     int height = 0;

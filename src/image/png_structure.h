@@ -11,7 +11,7 @@ namespace defocus::engine {
 
 // Returns a copy of the PNG file `encoded` with only the chunks for pixels and text. Colour profiles are dropped
 // because libpng prints warnings about them. Throws Error, with `name` in its message, for a truncated file, a wrong
-// checksum, an invalid header or palette, and missing or misplaced chunks.
+// checksum, an invalid header or palette, or missing or misplaced chunks.
 std::vector<unsigned char> checkedPng(std::span<const std::byte> encoded, const std::string& name);
 
 // Decompresses the pixels of a file that checkedPng() returned, row by row. Throws Error, with `name` in its message,

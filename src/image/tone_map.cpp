@@ -1,7 +1,8 @@
 // Sources of the curves. sRGB: IEC 61966-2-1.
 //
-// ACES: Stephen Hill's fit of the RRT and the Rec.709 ODT, published in MJP's BakingLab. The input matrix converts sRGB
-// to the RRT's saturated AP1; the output matrix converts the ODT's space to sRGB.
+// ACES: Stephen Hill's fit of the RRT and the Rec.709 ODT, published in MJP's BakingLab. The input matrix converts
+// linear sRGB to AP1 and applies the RRT's saturation. The output matrix applies the ODT's saturation and converts to
+// linear sRGB.
 //
 // AgX: Troy Sobotka's view transform. Matrices and polynomial of the base look are from Benjamin Wrensch, "Minimal AgX
 // Implementation", 2023. AgX's output is encoded for a display with gamma 2.2.

@@ -1,6 +1,6 @@
 #pragma once
-// Seidel astigmatism and coma: blur that varies over the lens points l = (u, v). Munkberg, Toth and Akenine-Möller 2012
-// leave blur that depends on the lens point to future work.
+// Seidel astigmatism and coma: blur that varies over the lens points l = (u, v). This extends Munkberg, Toth and
+// Akenine-Möller 2012, who leave such blur to future work.
 //
 // The image position is m = (n.x, n.y/k), where n is in normalised device coordinates and k is the aspect ratio. |m| is
 // 1 at the left and right edges. A ray through the lens point l of the unit disk misses the ideal image point. The
@@ -20,12 +20,12 @@
 
 namespace defocus::engine {
 
-// Returns the coma coefficient B that gives points at the left and right edges a coma tail of `length`. Both are
-// fractions of the image's width.
+// Returns the coma coefficient B that gives points at the left and right edges a coma tail of `length`. B and `length`
+// are fractions of the image's width.
 double comaOfTail(double length);
 
-// Returns ∇W, the image offset of a ray by astigmatism and coma, in units of half the image's width. `ndc` is the image
-// position, and `lensPoint` lies in the unit disk.
+// Returns the image offset of a ray that astigmatism and coma cause, in units of half the image's width: ∇W, the
+// gradient of the wavefront error. `ndc` is the image position, and `lensPoint` lies in the unit disk.
 glm::dvec2 aberration(const ClipCircleOfConfusion& coc, const glm::dvec2& ndc, const glm::dvec2& lensPoint);
 
 // Returns the diameter of a disk that contains the offsets (by astigmatism and coma) of the rays through all lens

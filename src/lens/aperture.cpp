@@ -57,8 +57,8 @@ double angleOfShare(const Blade& blade, double share) {
 }
 
 // Maps the disk to the aperture polygon, preserving relative areas. The angle of a point selects the blade and a
-// fraction of the blade's area. The radius of the point is multiplied by the radius of the edge. The first corner lies
-// at angle 0.
+// fraction of the blade's area. The point's distance from the centre is multiplied by the distance of the blade's edge
+// in the same direction. The first corner lies at angle 0.
 glm::dvec2 betweenBlades(const Aperture& aperture, const glm::dvec2& disk) {
     const Blade blade{pi / aperture.bladeCount, aperture.bladeCurvature};
     const double turn = std::atan2(disk.y, disk.x) / (2 * blade.halfAngle);
@@ -71,8 +71,8 @@ glm::dvec2 betweenBlades(const Aperture& aperture, const glm::dvec2& disk) {
 
 // ---- radial light distribution --------------------------------------------------------------------------------------
 
-// Returns the fraction t of the aperture's area that transmits the fraction `share` of the light, counted from the
-// centre: ∫₀ᵗ 1 + k(2τ − 1) dτ = (1 − k)t + kt² = share. k ∈ [−1, 1] is the spherical aberration.
+// Returns t such that the innermost fraction t of the aperture's area transmits the fraction `share` of the light:
+// ∫₀ᵗ 1 + k(2τ − 1) dτ = (1 − k)t + kt² = share. k ∈ [−1, 1] is the spherical aberration.
 double aberratedShare(double k, double share) {
     const double linear = 1 - k;
     const double divisor = linear + std::sqrt(std::max(linear * linear + 4 * k * share, 0.0));
@@ -100,8 +100,7 @@ double valueAt(const Image& image, int x, int y) {
     return glm::dot(glm::dvec3(pixel[0], pixel[1], pixel[2]), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-// Maps a position in the grid of an aperture image's cells to lens coordinates, y up. The image's longer side spans
-// [−1, 1].
+// Maps a position in an aperture image, in cells, to lens coordinates, y up. The image's longer side spans [−1, 1].
 glm::dvec2 lensPoint(const ApertureImage& image, double column, double row) {
     const double half = 0.5 * std::max(image.columns, image.rows);
     return {(column - 0.5 * image.columns) / half, (0.5 * image.rows - row) / half};

@@ -23,7 +23,7 @@ struct ApertureImage {
     int columns = 0;
     int rows = 0;
     std::vector<double> rowEnds;  // cumulative fraction of all light at the end of each row; the last is 1
-    // Cumulative fraction of the row's light at the end of each image cell; columns · rows values.
+    // For each cell: fraction of its row's light up to the cell's end; columns · rows values.
     std::vector<float> cellEnds;
 };
 
@@ -47,9 +47,9 @@ Aperture makeAperture(const Lens& lens);
 // centre, except with a ring-shaped aperture or an aperture image.
 glm::dvec2 apertureSample(const Aperture& aperture, const glm::dvec2& square);
 
-// Returns the light density at a lens point, without normalisation; 0 outside the aperture. Without an aperture image,
-// the mean density over the aperture is 1. With an image, the result is the fraction of all light that passes through
-// the image's cell at the point (see ApertureImage).
+// Returns the light density at a lens point; 0 outside the aperture. The unit depends on the aperture: without an
+// aperture image, the mean density over the aperture is 1. With an image, the result is the fraction of all light that
+// passes through the image's cell (see ApertureImage) at the point.
 double lightDensity(const Aperture& aperture, const glm::dvec2& point);
 
 // Maps (r, s) ∈ [0, 1)² to the unit disk; the map is area-preserving and continuous (Shirley and Chiu 1997).

@@ -17,8 +17,8 @@
 
 namespace defocus::engine {
 
-// Sets focal length and horizontal aperture of `lens` from `camera`, except values for which `isSet` returns true.
-// `isSet` is called with the names of their fields (lens/lens_fields.h). `aspect` is the image's width over its height.
+// Sets the focal length and the horizontal aperture of `lens` from `camera`, except fields for whose name
+// (lens/lens_fields.h) `isSet` returns true. `aspect` is the image's width over its height.
 void fitToCamera(Lens& lens, const Camera& camera, double aspect, const std::function<bool(std::string_view)>& isSet);
 
 }  // namespace defocus::engine

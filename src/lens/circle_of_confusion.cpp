@@ -41,8 +41,8 @@ Interval squared(const Interval& p) {
 struct Parts {
     Interval radius2;  // r², squared distance from the image's centre
     Interval factor;   // surface's blur factor times the radial blur gain 1 + g·r²
-    Interval front;  // signed CoC / image width by the formula for points in front of the focus plane (F in the header)
-    Interval behind;  // signed CoC / image width by the formula for points behind the focus plane (B in the header)
+    Interval front;    // F = a/w + b₁·q: signed CoC / image width of points in front of the focus plane
+    Interval behind;   // B = a₂/w + b₂·q: signed CoC / image width of points behind the focus plane
 };
 
 Parts partsOver(const ClipCircleOfConfusion& coc, const CocBox& box) {
@@ -160,9 +160,9 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     const double pixels = width / box.zNear;
     const double factor = parts.factor.max;
 
-    // The clip-space blur C (CoC · depth) has kinks, where its slope jumps, at the ends of the focus range and at the
-    // blur limits. Linear interpolation along an edge of length L has the largest error if the kink lies in the middle
-    // of the edge: (change of slope)·L/4.
+    // Bound the error of interpolating the clip-space blur C (CoC · depth) at kinks, where its slope jumps: at the ends
+    // of the focus range and at the blur limits. Along an edge of length L, the error is largest for a kink in the
+    // middle: (change of slope)·L/4.
     const Interval added{box.own.addedMin, box.own.addedMax};
     const double maxAdded = std::max(std::abs(added.min), std::abs(added.max));
     const double unscaled =
@@ -178,7 +178,8 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     kinkAt(coc.backgroundLimit);
     if (coc.hasFocusRange() && (strictlyInside(parts.front, 0) || strictlyInside(parts.behind, 0)))
         change = std::max(change, slope);
-    // Blur modifiers (factor and added blur) that vary along an edge increase the interpolation error at such a kink.
+    // Blur modifiers (factor and added blur) that vary along an edge increase the error at a kink. `ownChange` bounds
+    // the change of the CoC that they cause.
     const double base = std::max(std::abs(parts.front.min), std::abs(parts.behind.max));
     const double gained = 1 + coc.gain * parts.radius2.max;
     const double factors = box.own.factorMax - box.own.factorMin;
@@ -186,10 +187,10 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     deviation.kinks = change * longestEdge / 4 * pixels;
     if (change > 0) deviation.kinks += ownChange / 4 * (width + longestEdge * pixels);
 
-    // A function with second derivatives of at most H deviates from a chord of length L by at most H·L²/8. Field
-    // curvature, radial blur gain and astigmatism add terms with r²·w to the clip-space blur, where w is the depth and
-    // r the distance from the image's centre. Lengths are measured in clip space and divided by the nearest depth. The
-    // second derivatives of r²·w are then at most 2·(1 + r)².
+    // Bound the error where C is curved. A function with second derivatives of at most H deviates from a chord of
+    // length L by at most H·L²/8. Field curvature, radial blur gain and astigmatism add terms in r²·w to C, where w is
+    // the depth and r the distance from the image's centre. If lengths are measured in clip space relative to the
+    // nearest depth, the second derivatives of r²·w are at most 2·(1 + r)².
     const double length = longestEdge / box.zNear * (1 + 1 / std::min(tanHalf.x, tanHalf.y));
     const double reach = 1 + std::sqrt(parts.radius2.max);
     const double second = 2 * reach * reach *
@@ -197,9 +198,10 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
                            3 * box.own.factorMax * coc.gain * (base + coc.front * reach) + std::abs(coc.astigmatism));
     deviation.curved = second * length * length / 8 * width;
 
-    // A product of two linear functions deviates from linear interpolation by at most a quarter of the product of their
-    // changes along the edge. Blur modifiers at vertices are linear inside a triangle. They multiply other linear
-    // functions: the depth w and the linear parts of the clip-space blur.
+    // Bound the error of blur modifiers that vary along an edge. Inside a triangle, each modifier is linear: the factor
+    // multiplies C, and the added blur multiplies the depth w. A product of two linear functions deviates from linear
+    // interpolation along an edge by at most a quarter of the product of their changes. The curvature of C itself is
+    // bounded above.
     const double ofGain = 2 * coc.gain * reach * base * (1 + 1 / std::min(tanHalf.x, tanHalf.y));
     const double products = factors * (gained * unscaled + ofGain) + added.max - added.min;
     deviation.curved += products * longestEdge / 4 * pixels;

@@ -31,22 +31,23 @@
 namespace defocus::engine {
 
 struct ClipCircleOfConfusion {
-    double a = 0;        // coefficient a of 1/depth in the blur in front of the focus plane (F above); ≤ 0
-    double aBehind = 0;  // a₂, the coefficient of 1/depth in the blur behind the focus plane (B above); at most a
-    double front = 0;    // b₁, the depth-independent term of the blur in front of the focus plane (F above)
-    double behind = 0;   // b₂, the depth-independent term of the blur behind the focus plane (B above); at most b₁
-    // The terms b₁ and b₂ are multiplied by the focus term q = 1 + κ·r² + t·n, which varies over the image if the focus
-    // plane is tilted or curved. n is the image position, and r its distance from the centre (1 at the left and right
-    // edges).
-    glm::dvec2 tilt{0};    // tilt t of the focus plane: slope of the focus term q over normalised device coordinates
-    double curvature = 0;  // field curvature κ: change of the focus term q at the left and right edges of the image
+    // At depth w, the blur is F = a/w + b₁·q in front of the focus plane, and B = a₂/w + b₂·q behind it (see above).
+    double a = 0;        // a of F = a/w + b₁·q, the blur in front of the focus plane; ≤ 0
+    double aBehind = 0;  // a₂ of B = a₂/w + b₂·q, the blur behind the focus plane; ≤ a
+    double front = 0;    // b₁ of F = a/w + b₁·q, the blur in front of the focus plane
+    double behind = 0;   // b₂ of B = a₂/w + b₂·q, the blur behind the focus plane; ≤ b₁
+    // The focus term q = 1 + κ·r² + t·n is the focus distance divided by the depth of the focus surface. It varies over
+    // the image if the surface is tilted (t) or curved (κ). n is the image position, and r its distance from the centre
+    // (1 at the left and right edges).
+    glm::dvec2 tilt{0};    // tilt t of the focus plane: gradient of the focus term q in normalised device coordinates
+    double curvature = 0;  // field curvature κ: added to the focus term q at the left and right edges of the image
     double gain = 0;       // radial blur gain g: the blur is multiplied by 1 + g·r²
-    double foregroundLimit =
-        std::numeric_limits<double>::infinity();  // R₁, max CoC in front of the focus plane / image width
-    double backgroundLimit =
-        std::numeric_limits<double>::infinity();  // R₂, max CoC behind the focus plane / image width
-    double aspect = 1;                            // aspect ratio k: image width / height
-    // Fraction of the image's width per mm on the sensor, times Lens::blurScale. Converts the blur that vertices add.
+    // R₁ and R₂: max CoC in front of and behind the focus plane, as fractions of the image's width.
+    double foregroundLimit = std::numeric_limits<double>::infinity();
+    double backgroundLimit = std::numeric_limits<double>::infinity();
+    double aspect = 1;  // aspect ratio k: image width / height
+    // Converts the blur that vertices add, in mm on the sensor, to a fraction of the image's width. Includes
+    // Lens::blurScale; 0 for a pinhole.
     double shareOfMillimetre = 0;
     double astigmatism = 0;  // coefficient A of astigmatism in aberrations.h
     double coma = 0;         // coefficient B of coma in aberrations.h
@@ -56,7 +57,7 @@ struct ClipCircleOfConfusion {
     // it (F and B above) then have different coefficients.
     [[nodiscard]] bool hasFocusRange() const { return front != behind || a != aBehind; }
     // Returns true if the lens has neither artistic controls nor aberrations, except axial chromatic aberration. The
-    // clip-space blur (CoC · depth) at depth w is then a + front·w, a linear function of depth.
+    // clip-space blur (CoC · depth) of such a lens is a linear function of the depth w: a + front·w.
     [[nodiscard]] bool thinLens() const;
     // Returns true if the blur of a point depends on its position in the image, not only on its depth.
     [[nodiscard]] bool varies() const;
@@ -93,8 +94,8 @@ struct OwnBlur {
     [[nodiscard]] bool none() const { return !varies() && factorMin == 1 && addedMin == 0; }
 };
 
-// Returns the bounds of the blur modifiers of an object with blur factor `factor` ≥ 0 and vertex blur within
-// `vertices`.
+// Returns bounds on how an object modifies the lens's blur, for the object's factor `factor` ≥ 0 and the bounds
+// `vertices` of its vertices' modifiers.
 OwnBlur ownBlur(const ClipCircleOfConfusion& coc, double factor, const VertexBlurBounds& vertices);
 
 // Depths and image positions of a box's content. Depths are [zNear, zFar] in m with 0 < zNear ≤ zFar; infinity is
@@ -121,10 +122,11 @@ double largestCocAtInfinity(const ClipCircleOfConfusion& coc, int width);
 // Upper bounds, in px, on the CoC error if the clip-space blur, CoC · depth, is interpolated linearly inside a
 // triangle.
 struct CocDeviation {
-    // Error at kinks, where the slope of the clip-space blur jumps. Splitting triangles there removes the error.
+    // Max error at kinks, depths at which the slope of the clip-space blur jumps. Splitting triangles there removes
+    // this error.
     double kinks = 0;
-    // Error where the clip-space blur is curved, also due to blur modifiers that vary between vertices. Only smaller
-    // triangles reduce the error.
+    // Max error where the clip-space blur is not linear inside a triangle, for example because blur modifiers differ
+    // between its vertices. Only smaller triangles reduce this error.
     double curved = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Defines a lens in the terms of photographers, USD and Blender, and computes its parameters for rendering.
+// Defines a lens by the parameters that photographers, USD and Blender use, and derives the parameters for rendering.
 //
 // Let A be the aperture's diameter and s the focus distance (m), W the image's width in px, and θx the horizontal field
 // of view. A point at depth z is blurred to a disk of diameter
@@ -27,7 +27,7 @@ struct Lens {
     double exposureTime = 0;         // exposure time in s (photographic_exposure.h); 0: no effect on the exposure
     double iso = 100;                // sensitivity, > 0
 
-    // Shape and aberrations of the aperture; see aperture.h and aberrations.h.
+    // Shape of the aperture, and aberrations of the lens; see aperture.h and aberrations.h.
     int bladeCount = 0;                   // 0: a disk; else a polygon of 3 or more blades
     double bladeRotation = 0;             // rotation in radians; also rotates aperture images
     double bladeCurvature = 0;            // curvature of the blades; 0: straight, 1: a circle
@@ -36,8 +36,8 @@ struct Lens {
     double sphericalAberration = 0;       // [−1, 1]; > 0: blur disks with a bright rim, < 0: with a bright centre
     double catEye = 0;                    // fraction of the aperture's radius clipped at image corners, [0, 1]
     double axialChromaticAberration = 0;  // dioptres between red and blue focus planes; > 0: the red plane is farther
-    double astigmatism = 0;               // radial streak length in mm on the sensor at the edges; see aberrations.h
-    double coma = 0;                      // comet tail length in mm on the sensor at the edges; > 0: outwards
+    double astigmatism = 0;               // radial streak length in mm at the sensor's edges; see aberrations.h
+    double coma = 0;                      // comet tail length in mm at the sensor's edges; > 0: points outwards
     std::shared_ptr<const Image> apertureImage = {};  // grey values are transmission; null: shape from the fields above
 
     // Artistic controls of the blur; see circle_of_confusion.h.

@@ -18,12 +18,14 @@ namespace defocus::engine {
 
 // Kind of effect that a lens value has. Values whose effect a frame does not show are reported as unused.
 enum class LensFeature {
-    camera,     // changes the field of view, or turns depth of field off
-    exposure,   // changes only the brightness of PNG, JPEG and video
-    fStop,      // changes the size of the blur, and the exposure
-    blur,       // changes the size of the blur
-    shape,      // changes the shape of the aperture
-    lensPoint,  // makes the blur depend on the colour or on the position in the image
+    camera,    // changes the field of view, or turns depth of field off
+    exposure,  // changes only the brightness of PNG, JPEG and video
+    fStop,     // changes the size of the blur, and the exposure
+    blur,      // changes the size of the blur
+    shape,     // changes the shape of the aperture
+    // Makes the blur depend on the colour or on the image position: cat's eye, axial chromatic aberration, astigmatism,
+    // coma.
+    lensPoint,
 };
 
 // Section of control panels and help texts in which a lens value is listed.
@@ -38,8 +40,8 @@ struct LensField {
     double min = 0;  // range of the value, in `unit`
     double max = 0;
     std::variant<double Lens::*, int Lens::*, bool Lens::*> member;
-    // Member with the value in a request, in `unit`; monostate: the request has no such member, and Request::focus sets
-    // the value.
+    // Member of LensSettings that holds the value in a request, in `unit`. monostate: there is no such member, because
+    // Request::focus sets the value.
     std::variant<std::monostate, std::optional<double> LensSettings::*, std::optional<int> LensSettings::*,
                  std::optional<bool> LensSettings::*>
         given;
@@ -67,8 +69,8 @@ bool overridden(const Lens& lens, const LensField& field);
 // constraints between fields.
 void setLensField(Lens& lens, const LensField& field, double value);
 
-// Return and set a request's value of a field, in the field's unit; nullopt: the value of the file's camera applies.
-// giveLensValue throws Error like setLensField.
+// givenLensValue returns, and giveLensValue sets, a request's value of a field, in the field's unit. nullopt: the value
+// of the file's camera applies. giveLensValue throws Error like setLensField.
 std::optional<double> givenLensValue(const LensSettings& given, const LensField& field);
 void giveLensValue(LensSettings& given, const LensField& field, std::optional<double> value);
 

@@ -17,7 +17,7 @@ namespace defocus::engine {
 
 namespace {
 
-// Dimensions of a sample: lens r and s, pixel x and y, time, chromatic band, and light x and y.
+// Dimensions of a sample: two on the lens, pixel x and y, time, chromatic band, and two on the lights.
 constexpr std::size_t dimensionCount = 8;
 using Coordinates = std::array<double, dimensionCount>;
 
@@ -41,8 +41,8 @@ double seedShift(std::uint32_t seed, std::size_t dimension) {
 
 constexpr std::array<std::uint32_t, dimensionCount> bases = {2, 3, 5, 7, 11, 13, 17, 19};
 
-// Returns a coordinate of Halton point index + 1, because point 0 is a corner of the unit cube. With seed 0, a shift
-// moves the point of index 0 to the centre of the cube.
+// Returns a coordinate of Halton point number index + 1, shifted modulo 1. Halton point number 0, a corner of the unit
+// cube, is not used. With seed 0, the shift moves the first point that is used to the centre of the cube.
 double shiftedHalton(std::uint64_t index, std::size_t dimension, std::uint32_t seed) {
     const std::uint32_t base = bases[dimension];
     return fraction(radicalInverse(base, index + 1) - 1.0 / base + 0.5 + seedShift(seed, dimension));
@@ -57,9 +57,9 @@ std::uint32_t permuted(std::uint32_t base, std::uint32_t digit, std::uint32_t be
     return digits[digit];
 }
 
-// Returns the Owen-scrambled radical inverse. With seed 0, a rotation of every digit also moves index 0 to 1/2: 0.1000…
-// in base 2, 0.1111… in base 3, 0.2222… in base 5. Unlike a shift on the torus, the rotation preserves the number of
-// points in each elementary interval.
+// Returns the Owen-scrambled radical inverse. With seed 0, each digit is then shifted modulo the base, by the same
+// amount in all points, so that index 0 gives 1/2: 0.1000… in base 2, 0.1111… in base 3, 0.2222… in base 5. Unlike a
+// shift of the value modulo 1, this preserves the number of points in each elementary interval.
 double scrambledHalton(std::uint64_t index, std::size_t dimension, std::uint32_t seed) {
     const std::uint32_t base = bases[dimension];
     std::uint32_t before = hashOf(seed, static_cast<std::uint32_t>(dimension));
@@ -105,7 +105,7 @@ std::uint32_t owenScrambled(std::uint32_t x, std::uint32_t seed) {
 // Primitive polynomial modulo 2 and its first direction numbers, as listed by Joe and Kuo.
 struct Direction {
     std::uint32_t degree = 0;
-    std::uint32_t coefficients = 0;  // bits: coefficients of powers degree − 1 … 1, highest power first
+    std::uint32_t coefficients = 0;  // bits: coefficients of x^(degree − 1) … x, highest power first
     std::array<std::uint32_t, 5> first{};
 };
 

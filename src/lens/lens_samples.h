@@ -48,7 +48,7 @@ struct LensSample {
 };
 
 // Returns sample `index` of a sequence. With seed 0, the first sample lies in the middle of the pixel, the exposure and
-// the chromatic band. Its lens point is the lens's centre, except with a ring or an aperture image.
+// the chromatic band. Its lens point is the lens's centre, except with a ring-shaped aperture or an aperture image.
 LensSample lensSample(const Aperture& aperture, Sequence sequence, std::uint64_t index, std::uint32_t seed);
 
 // Returns samples [first, first + count) of a sequence.

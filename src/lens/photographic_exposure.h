@@ -4,9 +4,9 @@
 //
 // A scene value of 1 is a luminance of 1 cd/m². glTF lights are in candela and lux, so lit surfaces are in candela per
 // square metre. The exposure value at ISO 100 is EV100 = log2(N²/t · 100/S) with f-number N, exposure time t in s and
-// ISO sensitivity S. The sensor saturates at a luminance of 1.2 · 2^EV100 cd/m². The factor 1.2 = 78 / (100 · 0.65) is
-// ISO 12232's saturation-based speed with a lens that transmits 65 % of the light. The saturation luminance maps to 1,
-// display white.
+// ISO sensitivity S. The sensor saturates at a luminance of 1.2 · 2^EV100 cd/m². The factor 1.2 = 78 / (100 · 0.65)
+// follows from ISO 12232's saturation-based speed (constant 78) for a lens that transmits 65 % of the light. The
+// saturation luminance maps to 1, display white.
 //   Lagarde and de Rousiers 2014, Moving Frostbite to Physically Based Rendering, 5.1.
 
 #include "lens/lens.h"

@@ -164,7 +164,7 @@ constexpr double maxSmallTriangles = 4e6;
 // Returns the approximate number of small triangles into which the triangles of the object's drawn levels are divided,
 // with at most `maxParts` parts per edge. The number of parts of an edge is proportional to its length; most triangles
 // have edges of the mean length. For objects that reach the near plane, the interpolation error of the blur has no
-// bound; 8 parts per edge are assumed, because few of their triangles are near.
+// bound. Few of their triangles are near enough to need more than 8 parts per edge, so 8 parts are assumed for all.
 double smallTriangles(const ObjectPlan& object, const World& world, const FramePlan& plan, double maxParts) {
     constexpr double partsNearby = 8;
     const bool bounded = std::isfinite(object.cocDeviation.curved);
@@ -269,7 +269,7 @@ void leaveOutLens(FramePlan& plan, const World& world) {
     plan.largestBlur = largestBlur(plan, world);
     plan.usesLens = plan.settings.keepAll || plan.settings.refocus || plan.largestBlur >= minBlur;
     if (plan.usesLens) return;
-    const double aspect = plan.coc.aspect;  // kept for the pinhole, which also needs the aspect ratio
+    const double aspect = plan.coc.aspect;  // not reset: it belongs to the image, not to the lens
     plan.coc = {};
     plan.coc.aspect = aspect;
     plan.apertureDiameter = 0;
@@ -471,7 +471,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     chooseAllLevels();
     chooseBlending(plan, world);
     leaveOutSamples(plan);
-    if (plan.samples.size() < settings.sampleCount) chooseAllLevels();  // fewer samples can use coarser levels
+    if (plan.samples.size() < settings.sampleCount) chooseAllLevels();  // splits the remaining samples
     parallelFor(plan.objects.size(), [&](std::size_t i) {
         ObjectPlan& object = plan.objects[i];
         chooseRefinement(object, world, plan);

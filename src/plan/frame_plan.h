@@ -44,11 +44,11 @@ struct VisibleLevel {
 // see circle_of_confusion.h) then has an error of at most RenderSettings::cocTolerance.
 enum class Refinement {
     none,  // triangles are drawn undivided
-    // Triangles are cut where the slope of the clip-space blur jumps and, before the lens shifts vertices, at the near
-    // plane.
+    // Triangles are cut where the slope of the clip-space blur jumps. They are also cut at the near plane, before the
+    // lens shifts their vertices.
     split,
-    // Triangles are divided into small ones because the clip-space blur is curved inside them. They are then cut as by
-    // `split` if ObjectPlan::cuts is set.
+    // Triangles are divided into small ones, because the clip-space blur is not linear inside them. If ObjectPlan::cuts
+    // is set, the small triangles are also cut as with `split`.
     subdivide,
 };
 
@@ -68,30 +68,32 @@ struct ObjectPlan {
     int mesh = -1;
     std::string name;
     glm::dmat4 viewFromObject{1.0};  // transform from object space to view space, computed in double precision
-    ObjectPose pose;                 // pose in the middle of the exposure
+    ObjectPose pose;                 // pose halfway through the exposure
     // Poses at the shutter times (see Shutter in plan/view.h); empty if the object doesn't move relative to the camera.
     std::vector<ObjectPose> motion;
     bool skinned = false;
-    bool deformed = false;      // true: the skin or morph targets deform the mesh
-    Bounds viewBox;             // bounding box in view space over the entire exposure
-    double nearestDepth = 0;    // nearest depth of the bounding box in m; may be less than View::nearPlane
-    double farthestDepth = 0;   // farthest depth of the bounding box in m
-    CocRange coc;               // CoC in px over the bounding box; `smallest` also covers RenderSettings::refocus
+    bool deformed = false;     // true: the skin or morph targets deform the mesh
+    Bounds viewBox;            // bounding box in view space over the entire exposure
+    double nearestDepth = 0;   // nearest depth of the bounding box in m; may be less than View::nearPlane
+    double farthestDepth = 0;  // farthest depth of the bounding box in m
+    // CoC in px over the bounding box. `smallest` is also the min over all focus distances of RenderSettings::refocus.
+    CocRange coc;
     CocDeviation cocDeviation;  // bounds in px of the error of interpolating the CoC inside the drawn triangles
     double projectedEdge = 0;   // projected mean edge length of level 0 at the nearest depth, px
     double lambda = 0;          // fractional level of detail λ
-    // The coarser of the two levels next to λ, ⌊λ⌋ + 1, with the first samples. No samples if λ is an integer, or with
-    // LodMode::nearest.
+    // Level ⌊λ⌋ + 1, the coarser of the two levels around the fractional level λ. The first samples of the plan draw
+    // it; no sample does if λ is an integer, or with LodMode::nearest.
     LevelDraw coarse;
-    // The finer level, ⌊λ⌋, with the remaining samples. With LodMode::nearest, level round(λ) with all samples.
+    // Level ⌊λ⌋, the finer level, drawn by the samples that do not draw `coarse`. With LodMode::nearest, level
+    // round(λ), drawn by all samples.
     LevelDraw fine;
     // With LodMode::continuous, the last sample of `coarse` is also the first sample of `fine`. In this shared sample,
     // `coarse` is drawn in this fraction of the pixels, and `fine` in the others. 0 if no sample is shared.
     double boundaryShare = 0;
     std::vector<VisibleLevel> visible;  // levels of which some clusters are culled; other levels are drawn completely
     double cocScale = 1;                // factor on the blur of the entire object, ≥ 0
-    OwnBlur own;                        // bounds of the blur modifiers of the object's surfaces
-    bool blurMoves = false;             // true: vertices have blur modifiers that change during the exposure
+    OwnBlur own;                        // bounds of the surfaces' blur factor and added blur
+    bool blurMoves = false;             // true: the blur that some vertices add changes during the exposure
     Refinement refinement = Refinement::none;
     // Max number of parts into which Refinement::subdivide divides an edge.
     std::uint32_t maxParts = maxEdgeParts;
@@ -131,8 +133,8 @@ struct ShadowPlan {
     std::vector<ObjectPlan> casters;
     // Corners of boxes that contain all casters (relative to the camera, in m, world axes).
     std::vector<glm::dvec3> corners;
-    // Corners of the volume that contains all that any lens sample sees, in the coordinates of `corners`. Shadow maps
-    // need not extend beyond this volume.
+    // Corners of a volume that contains everything visible in any lens sample (relative to the camera, in m, world
+    // axes). Shadow maps need not extend beyond this volume.
     std::vector<glm::dvec3> seen;
     double casterError = 0;  // max deviation of the casters' levels from full detail, m
 };
@@ -155,8 +157,8 @@ struct FramePlan {
     double largestBlur = 0;
     ClipCircleOfConfusion coc;
     std::vector<LensSample> samples;  // samples to draw, in this order
-    // `frameSamples` is the number of samples in the completed frame, counted from the start of the sequence.
-    // `frameFirst` is the index of the first sample that was planned together with `samples`.
+    // Samples [frameFirst, frameSamples) of the sequence were planned together; `samples` may hold only some of them.
+    // `frameSamples` is the number of samples of the frame once these are drawn.
     std::uint32_t frameSamples = 0;
     std::uint32_t frameFirst = 0;
     std::vector<SampleMoment> moments;  // one per sample; empty if nothing moves during the exposure

@@ -12,8 +12,9 @@ namespace defocus::engine {
 
 namespace {
 
-// Formats the level, its number of triangles and the number of samples that draw it. An object's two levels may share a
-// sample: `shared` is the fraction of that sample's pixels that the other level draws.
+// Formats the level, its number of triangles and the number of samples that draw it. An object's two levels may share
+// one sample, in which each draws some of the pixels. `shared` is the fraction of these pixels that is drawn with the
+// object's other level.
 std::string drawText(const LevelDraw& draw, double shared) {
     if (draw.sampleCount == 0) return "";
     return fmt::format("{} ({} tri) x {:.4g}", draw.level, draw.triangleCount, draw.sampleCount - shared);

@@ -13,12 +13,12 @@ namespace defocus::engine {
 
 inline constexpr std::uint32_t blockSamples = 64;  // lens samples per block; the frame's sum is the sum of its blocks
 
-// Effects that make the simplification of a level invisible. Normal rendering selects levels by both effects;
-// benchmarks can isolate one effect.
+// Reasons why a simplified level looks like the full mesh: blur, and a small size in the image. Normal rendering
+// selects levels by both; benchmarks can isolate one.
 enum class LodCause {
     blurAndSize,
-    size,  // projected size of the object only, as with a pinhole
-    blur,  // blur of the lens only, as if pixels were infinitely small
+    size,  // levels depend only on the projected size, as with a pinhole
+    blur,  // levels depend only on the blur, as if pixels were infinitely small
 };
 
 struct RenderSettings {
@@ -27,8 +27,9 @@ struct RenderSettings {
     // textures have one texel per position.
     std::uint32_t positions = 1;
     Sequence sequence = Sequence::sobol;
-    std::uint32_t seed = 0;         // selects one of many sets of sample points
-    std::uint32_t firstSample = 0;  // index of the first sample in the sequence; differs for reference images
+    std::uint32_t seed = 0;  // selects one of many sets of sample points
+    // Index of the first sample in the sequence. Reference images use a later part of the sequence.
+    std::uint32_t firstSample = 0;
     LodMode lod = LodMode::fractional;
     LodMetric metric = LodMetric::automatic;
     LodCause lodCause = LodCause::blurAndSize;

@@ -30,7 +30,7 @@ FramePlan samplesOf(const FramePlan& plan, std::uint32_t first, std::uint32_t co
     for (ObjectPlan& object : part.objects) {
         object.coarse = within(object.coarse, first, count);
         object.fine = within(object.fine, first, count);
-        // The sample that draws both levels may lie outside the range.
+        // The sample that draws both levels of the object may lie outside the range.
         if (!boundarySample(object)) object.boundaryShare = 0;
     }
     return part;

@@ -54,7 +54,7 @@ glm::dmat4 withoutScale(const glm::dmat4& world) {
     return {glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), world[3]};
 }
 
-// Returns the camera of a track for an image of `aspect` = width / height.
+// Places a camera from a separate file (a camera track) for an image of `aspect` = width / height.
 PlacedCamera trackedCamera(const TrackedCamera& tracked, double aspect) {
     PlacedCamera placed{tracked.camera, withoutScale(tracked.worldFromCamera), -1, true};
     if (tracked.showsSensor && tracked.camera.physical) {
@@ -236,8 +236,9 @@ double skyScale(const Pose& pose) {
 
 Environment environmentOrDefault(const Scene& scene) {
     if (scene.environment) return *scene.environment;
-    // Bright neutral studio: a bright wall around a dark floor and ceiling, which smooth metals reflect as bands.
-    // `lighting` > 1 makes the sky light the scene more strongly than its background radiance suggests.
+    // Bright neutral studio: a bright wall all around, between a dark floor and a dark ceiling, which smooth metals
+    // reflect as bands. `lighting` > 1 makes the sky light the scene more strongly than its background radiance
+    // suggests.
     Environment sky;
     sky.type = EnvironmentType::gradient;
     sky.zenith = {0.12f, 0.13f, 0.15f};

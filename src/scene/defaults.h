@@ -51,9 +51,9 @@ std::span<const StudioLight> studioLights();
 std::vector<PlacedLight> lightsOrDefault(const Scene& scene, const Pose& pose, const PlacedCamera& camera);
 Environment environmentOrDefault(const Scene& scene);
 
-// Returns the factor (≥ 1) by which the default sky's radiance is multiplied to balance the sky with the lights of the
-// pose. With this factor, the sky gives the scene's centre a seventh of the lights' illuminance, as a clear sky does
-// relative to the sun.
+// Returns the factor (≥ 1) by which the default sky's radiance is multiplied to match the scene's lights in this pose.
+// With this factor, the sky gives the scene's centre a seventh of the lights' illuminance, as a clear sky does relative
+// to the sun.
 double skyScale(const Pose& pose);
 
 }  // namespace defocus::engine

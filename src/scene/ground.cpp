@@ -63,7 +63,7 @@ void addGround(Scene& scene, const Pose& pose) {
     material.baseColorFactor = {reflectance, reflectance, reflectance, 1};
     material.metallicFactor = 0;
     material.roughnessFactor = 1;
-    material.specularFactor = 0;  // diffuse only: a highlight would reveal lights outside the image
+    material.specularFactor = 0;  // no highlights, which would show lights that are not in the image
     scene.materials.push_back(std::move(material));
     scene.meshes.push_back(disk(static_cast<int>(scene.materials.size()) - 1));
 

@@ -23,11 +23,11 @@ struct VertexBlur {
     bool operator==(const VertexBlur&) const = default;
 };
 
-// Min and max of the blur modifiers of a mesh's vertices.
+// Min and max of the VertexBlur of a mesh's vertices.
 struct VertexBlurBounds {
     float factorMin = 1;
     float factorMax = 1;
-    float addedMin = 0;  // min added blur over the exposure, mm
+    float addedMin = 0;  // min of the added blur over vertices and exposure, mm on the sensor
     float addedMax = 0;
     bool moves = false;  // true if the added blur of a vertex changes during the exposure
     bool operator==(const VertexBlurBounds&) const = default;
@@ -59,7 +59,7 @@ struct MorphTarget {  // displacements at weight 1; each array is empty or has o
 
 struct Primitive {
     int material = -1;                   // index into Scene::materials; -1: glTF's default material
-    std::vector<std::uint32_t> indices;  // triangle list into Mesh::vertices; front faces are counter-clockwise
+    std::vector<std::uint32_t> indices;  // three per triangle, into Mesh::vertices; counter-clockwise from the front
 };
 
 // Points or line segments, which withStrokes (scene/strokes.h) turns into triangles.

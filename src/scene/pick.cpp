@@ -90,7 +90,8 @@ void sortInSpace(TriangleGroups& groups, const Place& place) {
     groups.triangles = std::move(sorted);
 }
 
-// Returns the mesh's triangles, prepared for `rays` rays. `place(index)` returns the position of vertex `index`.
+// Returns the mesh's triangles, sorted and grouped if `rays`, the number of rays to trace, is large enough.
+// `place(index)` returns the position of vertex `index`.
 template <typename Place>
 TriangleGroups groupsOf(const Mesh& mesh, std::size_t rays, const Place& place) {
     TriangleGroups groups;
@@ -171,7 +172,7 @@ bool misses(const Ray& ray, const Ball& ball) {
 // Triangles of one object, prepared for intersection with many rays.
 class Target {
 public:
-    // `undeformed`: triangles of the undeformed mesh. `rays`: number of rays to follow.
+    // `undeformed`: triangles of the undeformed mesh. `rays`: number of rays that will be traced.
     Target(const Mesh& mesh, const TriangleGroups& undeformed, std::size_t rays, const Object& object)
         : mesh_(mesh), undeformed_(undeformed), object_(object), deformed_(deformed(object)) {
         if (deformed_) {

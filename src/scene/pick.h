@@ -1,6 +1,7 @@
 #pragma once
 // Finds the first surface that a ray hits, on the CPU. A single ray is tested against all triangles, which takes
-// milliseconds per million triangles. For many rays, the triangles of each mesh are first sorted in space.
+// milliseconds per million triangles. For many rays, each mesh is first sorted into groups of neighbouring triangles
+// with bounding boxes.
 
 #include <optional>
 #include <vector>

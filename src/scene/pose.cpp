@@ -243,8 +243,8 @@ std::vector<bool> nodesOf(const Scene& scene, const Pose& pose) {
     return nodes;
 }
 
-// Returns a pose without bounds. The pose contains the objects of the same nodes as `exposed`, the frame's pose; if
-// `exposed` is null, it contains the objects of the nodes that are visible at `time`.
+// Returns a pose without bounds. The pose has the objects of the same nodes as `exposed`, the pose at the frame's own
+// time. If `exposed` is null, the pose has the objects of the nodes that are visible at `time`.
 Pose posed(const Scene& scene, double time, int clip, const Pose* exposed) {
     // Compute world matrices from parents to children: first the nodes of the drawn scene, then nodes outside it that
     // skins use as joints.
@@ -271,7 +271,7 @@ Pose posed(const Scene& scene, double time, int clip, const Pose* exposed) {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i)
         if (scene.nodes[i].parent < 0) walkDown(scene, static_cast<int>(i), visited, place);
 
-    // Add objects and lights in node order.
+    // Add the objects of the shown nodes, and the lights, in node order.
     const std::vector<bool> shown = exposed != nullptr ? nodesOf(scene, *exposed) : std::vector<bool>();
     pose.objects.reserve(scene.nodes.size());
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {

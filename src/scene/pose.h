@@ -14,14 +14,15 @@ struct Object {  // mesh instance with all its primitives
     int mesh = -1;
     int node = -1;
     std::string name;  // name of the node or, if empty, of the mesh; "#i" is appended for instance i
-    // For a skinned object, the matrix of its first joint, because some code needs a single matrix.
+    // For a skinned object, the matrix of its first joint, for code that needs one matrix per object.
     glm::dmat4 worldFromObject{1.0};
     double cocScale = 1;  // multiplies the circle of confusion of the object, ≥ 0
     // World matrix times inverse bind matrix of each joint; empty without a skin. With a skin, worldFromObject does not
     // apply to vertices.
     std::vector<glm::dmat4> worldFromJoint;
     std::vector<double> morphWeights;
-    // True for the ground of addGround. Default framing and focus ignore the ground, and it casts no shadows.
+    // True for the ground plane that addGround (scene/ground.h) adds. Default framing and focus ignore the ground, and
+    // it casts no shadows.
     bool ground = false;
 
     [[nodiscard]] bool skinned() const { return !worldFromJoint.empty(); }
@@ -39,9 +40,9 @@ struct Pose {
     std::vector<glm::dmat4> worldFromNode;  // matrices of the nodes; same indices as Scene::nodes
     std::vector<Object> objects;
     std::vector<PlacedLight> lights;       // at most maxLights; intensity 0 while an animation hides the light
-    std::size_t faintLights = 0;           // number of fainter lights that were dropped
+    std::size_t faintLights = 0;           // number of lights dropped because of maxLights, the faintest first
     std::vector<Camera> cameras;           // cameras with animated values; same indices as Scene::cameras
-    std::optional<TrackedCamera> tracked;  // state of Scene::cameraTrack
+    std::optional<TrackedCamera> tracked;  // camera of Scene::cameraTrack at this time
     Bounds bounds;                         // bounding box of all objects except the ground, in world space
 };
 
@@ -54,8 +55,9 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip = 0);
 // the same order, even if an animation shows or hides objects during the exposure.
 Pose shutterPoseAt(const Scene& scene, double time, int clip, const Pose& exposed);
 
-// Returns the pose's lights with the angular diameters and radii of the lights `before`, matched by index. Returns
-// `before` if the pose has no lights.
+// Returns the pose's lights, but with the sizes (angular diameters and radii) of the lights `before`, matched by index,
+// because --light-angle and --light-radius change these. Returns `before`, which may be default lights, if the pose has
+// no lights.
 std::vector<PlacedLight> movedLights(const std::vector<PlacedLight>& before, const Pose& pose);
 
 // Returns the index of the node with this name. Throws Error, with a list of existing names, if there is none.

@@ -15,8 +15,8 @@ namespace defocus::engine {
 // joint.
 std::vector<glm::dvec3> posedPositions(const Mesh& mesh, const Object& object);
 
-// Returns world-space normals, transformed by the inverse transpose of each vertex's matrix Σ w_j · M_j / Σ w_j, with
-// the length of the morphed mesh normals. Returns an empty vector if the mesh has no normals.
+// Returns the vertex normals in world space; empty if the mesh has no normals. Each morphed normal is transformed by
+// the inverse transpose of its vertex's matrix Σ w_j · M_j / Σ w_j, and keeps its length.
 std::vector<glm::vec3> posedNormals(const Mesh& mesh, const Object& object);
 
 // Returns whether the object has a skin or a nonzero morph weight.

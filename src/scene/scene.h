@@ -55,9 +55,9 @@ struct Material {
     float normalScale = 1.0f;
     float occlusionStrength = 1.0f;
     TextureUse baseColor = {};          // sRGB-encoded
-    TextureUse metallicRoughness = {};  // linear texture; roughness in G, metalness in B
-    TextureUse normal = {};             // linear texture; normal in tangent space, +y up
-    TextureUse occlusion = {};          // linear texture, channel R
+    TextureUse metallicRoughness = {};  // linear values; roughness in G, metalness in B
+    TextureUse normal = {};             // linear values; normal in tangent space, +y up
+    TextureUse occlusion = {};          // linear values in channel R
     TextureUse emissive = {};           // sRGB-encoded
     AlphaMode alphaMode = AlphaMode::opaque;
     float alphaCutoff = 0.5f;  // alpha below which AlphaMode::mask draws nothing
@@ -68,14 +68,14 @@ struct Material {
     float ior = 1.5f;  // index of refraction ≥ 1; 0: reflectance 1 at all angles
     float specularFactor = 1.0f;
     glm::vec3 specularColorFactor{1.0f};
-    TextureUse specular = {};       // linear texture, channel A
+    TextureUse specular = {};       // linear values in channel A
     TextureUse specularColor = {};  // sRGB-encoded
 
     // KHR_materials_transmission and KHR_materials_volume.
     float transmissionFactor = 0.0f;
-    TextureUse transmission = {};  // linear texture, channel R
+    TextureUse transmission = {};  // linear values in channel R
     float thicknessFactor = 0.0f;  // thickness in object units; 0: thin wall without refraction
-    TextureUse thickness = {};     // linear texture, channel G
+    TextureUse thickness = {};     // linear values in channel G
     float attenuationDistance = std::numeric_limits<float>::infinity();  // distance in scene units; +∞: no absorption
     glm::vec3 attenuationColor{1.0f};
 
@@ -83,29 +83,29 @@ struct Material {
     float clearcoatFactor = 0.0f;
     float clearcoatRoughnessFactor = 0.0f;
     float clearcoatNormalScale = 1.0f;
-    TextureUse clearcoat = {};           // linear texture, channel R
-    TextureUse clearcoatRoughness = {};  // linear texture, channel G
-    TextureUse clearcoatNormal = {};     // linear texture like `normal`; without it, the coat uses the mesh normal
+    TextureUse clearcoat = {};           // linear values in channel R
+    TextureUse clearcoatRoughness = {};  // linear values in channel G
+    TextureUse clearcoatNormal = {};     // like `normal`; without it, the coat uses the mesh normal
 
     // KHR_materials_sheen.
     glm::vec3 sheenColorFactor{0.0f};
     float sheenRoughnessFactor = 0.0f;
     TextureUse sheenColor = {};      // sRGB-encoded
-    TextureUse sheenRoughness = {};  // linear texture, channel A
+    TextureUse sheenRoughness = {};  // linear values in channel A
 
     // KHR_materials_anisotropy. The rotation is the angle from the tangent to the direction of stretched highlights,
     // counter-clockwise.
     float anisotropyStrength = 0.0f;
     float anisotropyRotation = 0.0f;  // rad
-    TextureUse anisotropy = {};       // linear texture; direction in RG, strength in B
+    TextureUse anisotropy = {};       // linear values; direction in RG, strength in B
 
     // KHR_materials_iridescence: a thin film on the surface.
     float iridescenceFactor = 0.0f;
     float iridescenceIor = 1.3f;                 // ≥ 1
     float iridescenceThicknessMinimum = 100.0f;  // nm
     float iridescenceThicknessMaximum = 400.0f;  // max thickness in nm; also the thickness without a texture
-    TextureUse iridescence = {};                 // linear texture, channel R
-    TextureUse iridescenceThickness = {};        // linear texture, channel G
+    TextureUse iridescence = {};                 // linear values in channel R
+    TextureUse iridescenceThickness = {};        // linear values in channel G
 
     // KHR_materials_dispersion: 20 divided by the Abbe number; 0: none.
     float dispersion = 0.0f;
@@ -113,7 +113,7 @@ struct Material {
     // KHR_materials_diffuse_transmission.
     float diffuseTransmissionFactor = 0.0f;
     glm::vec3 diffuseTransmissionColorFactor{1.0f};
-    TextureUse diffuseTransmission = {};       // linear texture, channel A
+    TextureUse diffuseTransmission = {};       // linear values in channel A
     TextureUse diffuseTransmissionColor = {};  // sRGB-encoded
 
     // Returns whether surfaces behind this material are visible through it by transmission.
@@ -200,7 +200,7 @@ enum class EnvironmentType {
     none,      // black and transparent: alpha is the coverage by geometry
     uniform,   // radiance `zenith` in all directions
     gradient,  // radiance mix(horizon, zenith, d.y) for d.y ≥ 0, mix(horizon, nadir, -d.y) below the horizon
-    map,       // equirectangular HDR image; the centre column shows −z, the right half has d.x > 0
+    map,       // equirectangular HDR image; the centre column shows −z, the right half shows d.x > 0
 };
 
 struct Environment {
@@ -273,13 +273,13 @@ struct AnimationClip {
     float duration = 0.0f;  // time of the last key in seconds
 };
 
-// Content of the file that is not drawn, and the reason. `count` is the number of items with the same `what` and
-// `reason`.
+// A kind of content in the scene file that is not drawn, and the reason why. `count` is the number of items with the
+// same `what` and `reason`.
 struct Ignored {
     std::string what;
     std::string reason;
     std::uint64_t count = 1;
-    bool damage = false;  // true: ignored because the file is damaged; causes a warning
+    bool damage = false;  // true: ignored because the file is damaged, about which the user is warned
 };
 
 struct Scene {
@@ -304,7 +304,7 @@ struct Scene {
     std::string variant;                     // chosen material variant; empty: the default materials
     std::vector<std::string> extensions;     // glTF extensions that the file uses, sorted
     std::vector<Ignored> ignored;
-    std::shared_ptr<const CameraTrack> cameraTrack;  // camera of another file; null: the scene's own cameras
+    std::shared_ptr<const CameraTrack> cameraTrack;  // camera from a separate file; null: use the scene's own cameras
 };
 
 // Returns the material with this index; for −1, glTF's default material.

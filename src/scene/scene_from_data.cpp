@@ -251,7 +251,7 @@ void addCamera(const std::string& label, const CameraData& data, Scene& scene) {
 }
 
 void addLight(const std::string& label, const LightData& data, Scene& scene) {
-    constexpr double rightAngle = std::numbers::pi / 2 + 1e-4;  // π/2 in radians; 1e-4 allows for rounded input
+    constexpr double rightAngle = std::numbers::pi / 2 + 1e-4;  // 1e-4 accepts a π/2 that was rounded up
     checkChoice(label, "type", data.type, LightType::spot);
     checkRange(label, "color", data.color, 0, maxFloat);
     checkRange(label, "intensity", data.intensity, 0, maxFloat);

@@ -6,7 +6,7 @@
 
 namespace defocus::engine {
 
-// Camera in whose image points and lines are one pixel wide.
+// Camera for which points and lines are drawn one pixel wide.
 struct StrokeView {
     glm::dmat4 worldFromCamera{1.0};
     double pixelTangent = 0;  // width of a pixel at depth 1

@@ -30,7 +30,7 @@ float rayLength(const std::array<float, 6>& heights, float t) {
 }
 
 // Returns a cosine wave over the position t across a fin (0 at the first fin ray, 1 at the last). The wave is 1 on each
-// fin ray and 0 halfway between two fin rays; `rays` is the number of periods.
+// fin ray and 0 halfway between two fin rays; `rays` is the number of periods, one less than the number of fin rays.
 float rayWave(float t, int rays) {
     return 0.5f + 0.5f * std::cos(2.0f * std::numbers::pi_v<float> * t * static_cast<float>(rays));
 }
@@ -210,8 +210,8 @@ void addFin(const Fin& fin, const FinRows& rows, const FishPattern& pattern, Fis
             const float t = fin.rowsAlongRays ? rows.at[row] : along;
             const float r = fin.rowsAlongRays ? along : rows.at[row];
             const FinRay ray = fin.rowsAlongRays ? shared : fin.ray(t);
-            // The normal of the fin's front is the cross product of the surface's derivatives across and along the
-            // vertex rows.
+            // The normal of the fin's front is the cross product of the surface's derivatives by t (across the fin) and
+            // r (from root to edge), computed as differences over this step.
             constexpr float step = 0.004f;
             const float tStep = t + step > 1.0f ? -step : step;
             const float rStep = r + step > 1.0f ? -step : step;

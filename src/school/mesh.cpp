@@ -75,7 +75,7 @@ public:
             length_[i] = length_[i - 1] + 0.5f * pi / static_cast<float>(quarter) * std::sqrt(dy * dy + dz * dz);
         }
     }
-    // Returns the angle at the fraction `fraction` (0 to 1) of the perimeter.
+    // Returns the ellipse's angle parameter at `fraction` (0 to 1) of the cross-section's perimeter; 0 at the back.
     [[nodiscard]] float angle(float fraction) const {
         const float turns = 4.0f * fraction;
         const float quadrant = std::floor(turns);
@@ -103,7 +103,8 @@ void addBody(const Fish& fish, const Rings& rings, float edge, FishSurface& surf
         const float a = rings.at[ring];
         const FishSection section = fishSection(shape, a);
         const Girth girth(section);
-        // Normals need the slope of the skin along the body, which comes from the neighbouring cross-sections.
+        // Normals need the slope of the skin along the body. It is computed from the cross-sections at this distance
+        // ahead and behind.
         const float reach = std::min(0.004f, 0.4f * std::min(a, 1.0f - a));
         const FishSection ahead = fishSection(shape, a - reach);
         const FishSection behind = fishSection(shape, a + reach);

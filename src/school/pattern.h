@@ -12,7 +12,7 @@ namespace defocus::engine {
 struct FishBand {  // coloured band around the fish's body; lengths are in body lengths
     float a = 0.5f;
     float halfWidth = 0.05f;
-    float bow = 0.0f;    // shift of the band towards the tail along back and belly, relative to mid-height
+    float bow = 0.0f;    // shift of the band's ends, at back and belly, towards the tail
     float slant = 0.0f;  // shift of the band towards the tail along the back, and towards the head along the belly
     glm::vec3 color{0.0f};
     glm::vec3 rim{0.0f};

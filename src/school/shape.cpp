@@ -54,7 +54,7 @@ float distanceToSegment(const glm::vec2& p, const glm::vec2& a, const glm::vec2&
 }
 
 // Adds the fish's scales to the relief. They overlap like roof tiles: each scale covers the front of the scale behind
-// it. Scales are disks; the foremost disk that contains the point is visible.
+// it. Scales are disks; at each point of the skin, the foremost disk that contains it is visible.
 void addScales(const FishShape& shape, float a, float alongGirth, float detail, FishRelief& relief) {
     const float behindGill = glm::smoothstep(shape.gillA * 0.97f, shape.gillA * 1.12f, a);
     const float beforeTail = 1.0f - glm::smoothstep(0.93f, 1.0f, a);
@@ -94,7 +94,7 @@ void addHead(const FishShape& shape, const glm::vec2& p, float detail, FishRelie
     const float mouth = distanceToSegment(p, glm::vec2(-0.05f, snout.centre), corner);
     const float grooveMouth = bell(mouth, fine);
     relief.displacement += 0.006f * bell(mouth - 2.2f * fine, 1.3f * fine) - 0.009f * grooveMouth;
-    // Add the eye: a soft ring around the socket.
+    // Add the eye socket: a soft ridge around the eye, with a groove inside it.
     const FishSection eyeSection = fishSection(shape, shape.eyeA);
     const glm::vec2 eye(shape.eyeA, eyeSection.centre + shape.eyeHeight * eyeSection.halfHeight);
     const float toEye = glm::length(p - eye);
@@ -150,8 +150,8 @@ FishRelief fishRelief(const FishShape& shape, const FishSkinPoint& point, float 
 }
 
 FishSpine::FishSpine(const FishShape& shape) {
-    // Returns the heading along the spine in radians. The swimming wave grows from head to tail; the uniform bend is
-    // zero at originA.
+    // Returns the heading along the spine in radians. The swimming wave grows from head to tail. The uniform bend adds
+    // an angle that is zero at the body position originA.
     const auto heading = [&](float a) {
         const float envelope = glm::smoothstep(0.1f, 1.25f, a) + 0.08f;
         return shape.turn * (a - originA) +

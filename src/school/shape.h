@@ -114,7 +114,7 @@ public:
 
 private:
     static constexpr int steps = 256;
-    static constexpr float first = -0.2f;  // position along the body of the first tabulated spine point
+    static constexpr float first = -0.2f;  // position of the first tabulated spine point along the body
     static constexpr float last = 2.3f;
     struct Station {
         glm::vec2 position{0.0f};  // x and z coordinates of the spine point

@@ -14,8 +14,9 @@ std::uint32_t onRing(const VertexRow& ring, std::uint32_t i) {
     return ring.first + (i == ring.count ? 0u : i);
 }
 
-// Adds the triangles between two open rows of vertices; the triangles face the front. Each step uses the shorter
-// diagonal, which avoids sheared triangles between rows that are shifted relative to each other.
+// Adds the triangles between two open rows of vertices. Their front faces are seen from where row `a` lies above row
+// `b` and both run from left to right. Each step uses the shorter diagonal, which avoids sheared triangles between rows
+// that are shifted relative to each other.
 void stitchRows(const VertexRow& a, const VertexRow& b, const std::vector<glm::vec3>& positions,
                 std::vector<std::uint32_t>& indices) {
     std::uint32_t i = a.first;
@@ -37,7 +38,8 @@ void stitchRows(const VertexRow& a, const VertexRow& b, const std::vector<glm::v
     }
 }
 
-// Returns the vertices along the outline of a surface made of open rows, counter-clockwise as seen from the front.
+// Returns the vertices along the outline of a surface made of open rows (not rings), counter-clockwise as seen from the
+// front.
 std::vector<std::uint32_t> outline(const std::vector<VertexRow>& rows) {
     std::vector<std::uint32_t> loop;
     for (std::size_t r = 0; r < rows.size(); ++r) loop.push_back(rows[r].first);

@@ -47,7 +47,7 @@ double blurredShare(const FramePlan& plan, double minCoc) {
     std::array<bool, std::size_t{columns} * rows> covered{};
     double blurred = 0;
     int open = columns * rows;
-    for (const ObjectPlan& object : plan.objects) {  // the nearest object comes first
+    for (const ObjectPlan& object : plan.objects) {  // nearest first, so each grid cell counts for the nearest box
         CocBox box{.ndcMin = glm::dvec2(-1), .ndcMax = glm::dvec2(1)};
         if (object.nearestDepth > plan.view.nearPlane) box = cocBoxOf(object.viewBox, object.own, plan);
         const auto [left, right] = cellsIn(box.ndcMin.x, box.ndcMax.x, columns);

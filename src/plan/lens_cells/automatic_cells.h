@@ -1,5 +1,5 @@
 #pragma once
-// Chooses between the two methods that "auto" can use. If a visible part of the image has a large blur, "multirate" is
+// Chooses between the two methods that "auto" can use. If enough of the image is strongly blurred, "multirate" is
 // chosen, which blurs the image of each lens sample (lens_cells.h). Else "accumulation" is chosen, whose samples cost
 // less. The choice depends on the view and the scene, not on the number of samples or the machine. All machines that
 // share a frame therefore make the same choice.
@@ -13,7 +13,7 @@ struct FramePlan;
 // Smallest CoC diameter at which gaps between lens samples become visible. With 64 samples, the neighbouring images of
 // a point are then 0.9 px apart.
 inline constexpr double minBlurOfCells = 8;  // px
-// Min fraction of the image whose CoC must reach minBlurOfCells for method "auto" to use lens cells.
+// Method "auto" uses lens cells if at least this fraction of the image has a CoC of minBlurOfCells or more.
 inline constexpr double minShareOfCells = 0.01;
 
 // Returns the fraction of the image, 0 … 1, in which the CoC diameter is at least `minCoc` px. The fraction is

@@ -11,15 +11,15 @@ namespace defocus::engine {
 
 inline constexpr std::size_t patchDepths = 5;
 
-// Returns the sides of the patches, in object units, at depths evenly spaced over the object's bounding box. The box
-// must lie in front of the near plane. A patch is a square of side √(1 + ¾c²) px for a blur disk of diameter c px. The
+// Returns the side lengths of the patches, in object units, at depths evenly spaced over the object's bounding box. The
+// box must lie beyond the near plane. A patch is a square of side √(1 + ¾c²) px for a blur disk of diameter c px. The
 // square has the same variance along an axis as the disk convolved with a pixel. c is the CoC in the middle of the
-// image, clamped to the range in the box. With LodCoc::centre, the box's centre replaces all depths.
+// image, clamped to the object's range of CoCs. With LodCoc::centre, all entries are the patch at the box's centre.
 // RenderSettings::lodCause can omit the disk or the pixel from the convolution.
 std::array<double, patchDepths> blurredPatches(const ObjectPlan& object, const FramePlan& plan);
 
 // Returns the smallest |CoC| in px over a range of depths and image positions (`box`). If RenderSettings::refocus is
-// set, the result also covers all its focus distances.
+// set, the result is the min over all its focus distances.
 double smallestCoc(const FramePlan& plan, const CocBox& box);
 
 // Returns the projected length in px of one unit of object space, at the depth of the bounding box's centre.

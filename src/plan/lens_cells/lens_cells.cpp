@@ -24,7 +24,7 @@ constexpr double cellWidth = 0.35;
 constexpr std::uint32_t fewestSamples = 4;
 constexpr std::uint32_t maxPointsOfCell = 16;
 constexpr std::uint32_t maxPoints = 1u << 14;  // max number of lens points, summed over all cells
-// Min number of cells into which the lens is divided for all blocks of samples but the first.
+// Min number of cells in the common division of the lens, which all blocks of samples after the first use.
 constexpr std::uint32_t cellsOfBlocks = maxPoints / maxPointsOfCell;
 
 // Mean and covariance of lens points, and the fraction of the unit disk that they cover. The default values describe a
@@ -60,7 +60,7 @@ double filledArea(const ApertureImage& image) {
             squares += std::pow(inRow * (end - std::exchange(before, end)), 2);
         }
     }
-    const double diameter = std::max(image.columns, image.rows);  // of the disk, in cells
+    const double diameter = std::max(image.columns, image.rows);  // diameter of the unit disk, in cells of the image
     return std::min(1.0, 1 / (squares * std::numbers::pi / 4 * diameter * diameter));
 }
 
@@ -84,9 +84,10 @@ void rotate(std::vector<LensSample>& samples, double angle) {
 }
 
 // Moves each of `samples`, the first points of the sample sequence, to the mean point of its lens cell, the region of
-// the lens that the sample represents. A cell consists of several points of the same sequence. All points are divided
-// evenly among nearby samples. The division runs along two axes, so the mean points form rows and columns. The axes are
-// rotated, so that adjacent columns interleave across a blurred vertical or horizontal edge.
+// the lens that the sample represents. A cell is approximated by several points of the same sequence: `points` points
+// per sample are computed, and each sample gets equally many points near it. The division runs along two axes, so the
+// mean points form rows and columns. The axes are rotated, so that adjacent columns interleave across a blurred
+// vertical or horizontal edge.
 void moveToMeans(std::vector<LensSample>& samples, const FramePlan& plan) {
     const auto count = static_cast<std::uint32_t>(samples.size());
     const std::uint32_t points = std::min(maxPointsOfCell, maxPoints / count);
@@ -112,8 +113,8 @@ glm::dmat2 root(const glm::dmat2& m) {
     return {a, b, 0, std::sqrt(std::max(m[1][1] - b * b, 1e-12))};
 }
 
-// Returns the lens points of `samples` after a linear transformation. Afterwards, their mean is the mean of `lens`, and
-// their covariance is the covariance of `lens` minus `variance` along each axis.
+// Returns the lens points of `samples`, transformed so that their mean is the mean of `lens`, and their covariance is
+// the covariance of `lens` minus `variance` along each axis.
 std::vector<glm::vec2> matched(const std::vector<LensSample>& samples, const LensSpread& lens, double variance) {
     glm::dmat2 wanted = lens.covariance;
     for (glm::length_t axis = 0; axis < 2; ++axis) wanted[axis][axis] -= std::min(variance, 0.75 * wanted[axis][axis]);
@@ -180,8 +181,8 @@ LensCells lensCells(const FramePlan& plan) {
     samples.erase(samples.begin(), samples.begin() + plan.frameFirst);
     for (const LensSample& sample : samples)
         cells.pixelShift -= glm::dvec2(sample.pixel) / static_cast<double>(samples.size());
-    // For a CoC of c px, the lens point (1, 0) moves the image by c/2 px. A blur with a standard deviation of blur·c px
-    // in the image therefore corresponds to a standard deviation of 2·blur on the lens, in lens radii.
+    // For a CoC of c px, the lens point (1, 0) moves the image by c/2 px. A standard deviation of `blur`·c px in the
+    // image therefore corresponds to 2·`blur` lens radii on the lens.
     cells.middles = matched(samples, lens, 4 * blur * blur);
     return cells;
 }

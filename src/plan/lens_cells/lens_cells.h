@@ -41,11 +41,12 @@ struct LensCells {
     std::vector<glm::vec2> middles;  // centre of each cell, in the coordinates of LensSample::lens
     // Shift in px that is added to LensSample::pixel, so that the mean position of the samples is the pixel's centre.
     glm::dvec2 pixelShift{0};
-    // Numbers of classes of pixels with similar blur, in front of and behind the focus plane. Both are 0 if the samples
-    // are so dense that they need no blur. Samples move to the cells' centres even then, to avoid popping.
+    // Numbers of blur classes, groups of pixels with similar blur, in front of and behind the focus plane. Both are 0
+    // if the samples are so dense that their images need no blur. Samples are moved to the cells' centres even then;
+    // otherwise, the image would pop when a class is added.
     int inFront = 0;
     int behind = 0;
-    std::string reason;  // why images are not blurred; empty if images are blurred
+    std::string reason;  // why the samples' images cannot be blurred; empty if they can be
     [[nodiscard]] int classes() const { return inFront + behind; }
 };
 
@@ -54,8 +55,8 @@ std::string reasonForNoCells(const FramePlan& plan);
 
 // Returns the lens cells of the plan's samples. A frame may consist of several blocks of samples, each with a plan. The
 // first block divides the lens into as many cells as the block has samples. Later blocks take their cells from a
-// common, finer division of the lens. The blur of a later block depends on the number of the frame's samples up to the
-// block's end.
+// common, finer division of the lens. LensCells::blur of a later block depends on the number of samples that the frame
+// has at the end of that block.
 LensCells lensCells(const FramePlan& plan);
 
 // Moves each sample of the plan to the centre of its lens cell, and shifts its position in the pixel by
@@ -63,8 +64,8 @@ LensCells lensCells(const FramePlan& plan);
 void moveToCells(FramePlan& plan, const LensCells& cells);
 
 // Returns the image resolution that a lens sample needs along each axis at a CoC of `coc` px, as a fraction of full
-// resolution. The fraction is 2^−k for a blur with the variance cellClassVariance(k). It is 1 for less blur, and if the
-// images of the samples are not blurred (LensCells::blur is 0).
+// resolution. The fraction is 2^−k for a blur with the variance cellClassVariance(k), and 1 for smaller variances than
+// that of k = 0. It is always 1 if the images of the samples are not blurred (LensCells::blur is 0).
 double pixelRate(const LensCells& cells, double coc);
 
 }  // namespace defocus::engine

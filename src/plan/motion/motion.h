@@ -17,8 +17,8 @@ std::vector<ObjectPose> objectMotion(const World& world, const View& view, std::
 // Returns true if the exposure time is greater than 0.
 bool shutterIsOpen(const World& world, const View& view);
 
-// Fills plan.moments and plan.middleFromView. Both stay empty if no object and no shadow caster moves, and no blur
-// modifier of a vertex changes.
+// Fills plan.moments and plan.middleFromView. Both stay empty if no object and no shadow caster moves, and the blur
+// that vertices add doesn't change.
 void planMoments(FramePlan& plan, const World& world, const std::vector<ObjectPlan>& casters);
 
 }  // namespace defocus::engine

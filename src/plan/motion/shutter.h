@@ -11,7 +11,7 @@
 
 namespace defocus::engine {
 
-// Settings of the exposure's duration and of the sampling of motion.
+// Settings for the duration of the exposure and for the sampling of motion.
 struct ShutterSettings {
     double seconds = 0;  // duration of the exposure in s; 0: no motion blur
     ShutterPosition position = ShutterPosition::centre;
@@ -30,10 +30,10 @@ struct ShutterMoment {
     glm::dmat4 worldFromCamera{1.0};
 };
 
-// Fills `opened` (World::shutter) and view.shutterCameras with the results of `momentAt`. The argument of `momentAt` is
-// a time in seconds relative to the frame's time. `opened` and the cameras stay empty if the exposure has no duration;
-// the cameras also stay empty if the camera doesn't move. With ExactMotion, the shutter times are the times of the lens
-// samples, which follow from `view` and `settings`.
+// Fills `opened` (World::shutter) and view.shutterCameras with the results of `momentAt`, whose argument is a time in
+// seconds relative to the frame's time. Both stay empty if the exposure has no duration. view.shutterCameras also stays
+// empty if the camera doesn't move. With ExactMotion, the shutter times are the times of the lens samples, which follow
+// from `view` and `settings`.
 void openShutter(const ShutterSettings& shutter, const RenderSettings& settings,
                  const std::function<ShutterMoment(double)>& momentAt, Shutter& opened, View& view);
 

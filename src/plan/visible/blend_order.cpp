@@ -14,7 +14,7 @@ namespace defocus::engine {
 namespace {
 
 constexpr std::size_t maxConvexTriangles = 1000;  // max triangles of a primitive that isConvex() tests
-constexpr std::size_t maxParts = 5000;            // max parts in a frame; limits the time for comparing pairs of parts
+constexpr std::size_t maxParts = 5000;            // max parts to sort in a frame; limits the time for comparing pairs
 constexpr double tolerance = 1e-4;                // allowance for rounded positions, relative to the primitive's size
 
 // An alpha-blended or transmissive primitive of an object.
@@ -29,7 +29,7 @@ struct Candidate {
 struct BlendNode {
     std::size_t candidate = 0;
     BlendRun run;
-    BlendPart part;  // unset for entire primitives that are transmissive or drawn by stochastic transparency
+    BlendPart part;  // unset if the node is an entire primitive, transmissive or drawn by stochastic transparency
 };
 
 // Draw-order constraints between a node and the nodes before it in BlendSorter::nodes_, as indices of these nodes.
@@ -59,7 +59,7 @@ private:
     const World* world_;
     std::vector<Candidate> candidates_;  // sorted by object, the nearest object first
     std::vector<BlendNode> nodes_;
-    std::vector<Relations> relations_;  // one entry per node
+    std::vector<Relations> relations_;  // draw-order constraints, one entry per node
 };
 
 void BlendSorter::findCandidates() {
@@ -77,7 +77,7 @@ void BlendSorter::findCandidates() {
     }
 }
 
-// Returns the convex parts of a candidate at its drawn levels; empty if there are too many parts, or if the mesh
+// Returns the convex parts of a primitive at its drawn levels; empty if there are too many parts, or if the mesh
 // deforms.
 std::vector<BlendNode> BlendSorter::partsOf(std::size_t candidate) const {
     const Candidate& from = candidates_[candidate];
@@ -159,8 +159,8 @@ void BlendSorter::relate() {
 }
 
 // Returns the indices of the nodes in an order that satisfies the constraints between sorted nodes. Where several nodes
-// could be next, the node of the farthest object comes first. A cycle is broken by drawing one of its nodes, or a node
-// behind it, with stochastic transparency.
+// could be next, the node of the farthest object comes first. If a cycle of constraints leaves no node free to be next,
+// a remaining node is drawn with stochastic transparency, which needs no order.
 std::vector<std::size_t> BlendSorter::backToFront() {
     const std::size_t count = nodes_.size();
     std::vector<std::vector<std::size_t>> later(count);

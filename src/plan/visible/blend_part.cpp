@@ -100,8 +100,8 @@ bool mayHide(const BlendPart& front, const BlendPart& behind, const FramePlan& p
         const PosedPart& p = front.poses[std::min(i, front.poses.size() - 1)];
         const PosedPart& q = behind.poses[std::min(i, behind.poses.size() - 1)];
         if (p.nearest + p.rounding >= q.farthest) continue;
-        // If the blur differs from a thin lens's blur, the lens shifts do not preserve planes, so only the depths are
-        // compared.
+        // Planes can separate the parts only if lens samples map planes to planes, as with a thin lens. With other
+        // lenses, only the depths are compared.
         if (plan.usesCocControls || mayHide(p, front.flat, q, behind.flat, 0.5 * plan.apertureDiameter)) return true;
     }
     return false;

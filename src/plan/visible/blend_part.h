@@ -33,8 +33,8 @@ struct BlendPart {
     glm::dvec2 low{0}, high{0};
 };
 
-// Returns the part of the object that the triangles in `indices` form. `positions` are the vertex positions of the
-// drawn level, in object space.
+// Returns the poses and image bounds of the part that consists of the object's triangles `indices`. `positions` are the
+// vertex positions of the drawn level, in object space.
 BlendPart blendPart(const ObjectPlan& object, const FramePlan& plan, const std::vector<glm::vec3>& positions,
                     std::span<const std::uint32_t> indices);
 

@@ -20,15 +20,15 @@ namespace defocus::engine {
 namespace {
 
 constexpr int minMapSize = 128;         // min width and height of a shadow map, px
-constexpr int maxImageMapSize = 2048;   // up to this limit in px, a shadow map is at least as large as the image
+constexpr int maxImageMapSize = 2048;   // lower bound in px of the map size if the image is larger than this
 constexpr double resolvedShare = 0.95;  // fraction of visible points where a texel must be at most texelPixels wide
-// Max texel width in px. It exceeds 1, because each lens sample shifts the texels, and the mean over the samples
+// Max texel width in px. It may exceed 1, because each lens sample shifts the texels, and the mean over the samples
 // smooths the shadows' edges.
 constexpr double texelPixels = 2;
-// Max number of texels of a map. If twice the image's pixel count is larger, that count is the limit.
+// A map has at most twice as many texels as the image has pixels, but the limit is never below this number.
 constexpr double minTexelLimit = 1 << 20;
 constexpr double maxSampleTexels = 64 << 20;  // max number of texels in all maps of a lens sample (256 MiB of depths)
-constexpr double minShare = 0.01;             // lights below this fraction of the visible illuminance cast no shadow
+constexpr double minShare = 0.01;             // lights below this share of the illuminance cast no shadow
 constexpr double widestTangent = 3;           // max tan of half a map's field of view
 constexpr double levelErrorTexels = 0.5;      // max simplification error of a caster, texels
 constexpr std::size_t maxBoxes = 64;          // with more casters, a single box contains all casters
@@ -104,7 +104,7 @@ bool oneMapShows(const PlacedLight& placed, const glm::dvec3& position, const st
 
 struct ShadowCandidate {
     int light = 0;
-    double share = 0;  // fraction of the visible illuminance that the light causes
+    double share = 0;  // light's share of the illuminance of the visible surfaces
     int faces = 1;
 };
 
@@ -138,8 +138,8 @@ std::vector<ShadowMap> chosenMaps(const World& world, const FramePlan& plan, con
 }
 
 // Returns the number of points on each light per lens sample. A penumbra has as many brightness steps as there are
-// points in all samples, so frames with few samples use several points per sample. The number of samples includes all
-// earlier samples of the frame.
+// points in all samples, so frames with few samples use several points per sample. If the frame is drawn in blocks of
+// samples, the samples of earlier blocks count, too.
 std::uint32_t pointsFor(const RenderSettings& settings, std::size_t maps) {
     const std::uint64_t samples = std::uint64_t{settings.firstSample} + settings.sampleCount;
     const std::uint64_t wanted = (smoothPoints + samples - 1) / std::max<std::uint64_t>(samples, 1);
@@ -298,9 +298,9 @@ ShadowProjection mapProjection(const World& world, const glm::dvec3& camera, con
 
 // ---- size of the shadow maps ----------------------------------------------------------------------------------------
 
-// Returns the resolution (texels per side) that the shadow map needs at the point `seen`: the width of a texel there is
-// texelPixels times the smallest visible detail, which is one pixel or half the blur's diameter, if that is larger.
-// Returns 0 if the point is outside the map.
+// Returns the resolution (texels per side) that the shadow map needs at the point `seen`. At that resolution, a texel
+// at the point is texelPixels times as wide as the larger of a pixel and half the blur's diameter. Returns 0 if the
+// point is outside the map.
 double texelsNeeded(const FramePlan& plan, const ShadowProjection& projection, int size, const SeenPoint& seen) {
     const glm::vec4 place(glm::vec3(seen.place), 1);
     const double w = glm::dot(projection.clipRows[3], place);
@@ -337,8 +337,9 @@ int mapSize(const World& world, const FramePlan& plan, const ShadowPlan& shadows
     return std::min(size, static_cast<int>(most));
 }
 
-// Returns the position in [0, 1)² on every light for point number `point` of a lens sample. The points of one sample
-// are consecutive in the sequence, so the points of all samples together are evenly distributed.
+// Returns the position in [0, 1)² of light point number `point` of a lens sample. The position is the same on all
+// lights. The points of one sample are consecutive in the sequence, so the points of all samples together are evenly
+// distributed.
 glm::dvec2 lightPoint(const FramePlan& plan, const LensSample& sample, std::uint32_t point) {
     if (plan.shadows.points == 1) return glm::dvec2(sample.light);
     const std::uint64_t index = std::uint64_t{sample.index} * plan.shadows.points + point;

@@ -1,12 +1,11 @@
 #pragma once
 // Computes soft shadows with the same lens samples as the depth of field (Haeberli and Akeley 1990). Each lens sample
-// has a point on every light and a shadow map rendered from that point. The mean over the samples contains the
-// penumbrae.
+// has a point on every light and a shadow map rendered from that point. The mean over the samples shows soft shadows.
 //
 // Lights are disks that face the receiver. A directional light has an angular diameter; other lights have a radius. The
-// surroundings (environment map) act as one more light if they light the scene. For them, each lens sample has a
-// direction instead of a point, chosen in proportion to radiance. An occluder in that direction removes this sample's
-// share of the surface's ambient light.
+// surroundings (environment map) act as one more light if they light the scene. For the surroundings, each lens sample
+// has a direction instead of a point, chosen in proportion to radiance. An occluder in that direction removes this
+// sample's share of the surface's ambient light.
 
 #include <array>
 #include <cstdint>
@@ -20,7 +19,7 @@ namespace defocus::engine {
 
 inline constexpr int surroundings = -1;  // value of ShadowMap::light for the environment
 // Max number of shadow maps per sample. The weakest lights beyond this number cast no shadow. In frames with few
-// samples, spare maps give each light several points.
+// samples, unused maps give each light several points per sample, for smoother penumbrae.
 inline constexpr std::size_t maxShadowMaps = 8;
 
 // Projection of a shadow map. Positions are relative to the camera, in m, in world axes.
@@ -38,8 +37,8 @@ struct ShadowProjection {
 std::uint32_t maxPointsPerSample(std::size_t maps);
 
 // Chooses the lights that cast shadows, the points on each light, the map size and the casters. Lights that cause less
-// than 1 % of the visible illuminance cast no shadow. On surfaces in focus, a texel is at most two pixels wide.
-// `objects` are all objects of the world in the plan's pose, including objects outside the image.
+// than 1 % of the illuminance of the visible surfaces cast no shadow. On surfaces in focus, a texel is at most two
+// pixels wide. `objects` are all objects of the world in the plan's pose, including objects outside the image.
 ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vector<ObjectPlan>& objects);
 
 // Returns the directions from which the environment lights the world.

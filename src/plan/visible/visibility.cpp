@@ -21,36 +21,39 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double snapping = 1.0 / 128;
 // Max rounding error of a float position, relative to the sum of the magnitudes of its added terms.
 constexpr double transformation = 0x1p-21;
-constexpr double storage = 1e-6;   // relative error of a cluster's stored values
+constexpr double storage = 1e-6;   // max relative rounding error of a cluster's bounds, which are floats
 constexpr double guardBand = 1.8;  // |NDC| beyond which triangles may be clipped
 constexpr int shutterParts = 4;    // number of intervals between two shutter times, each with its own motion bound
-// Max number of shutter times (times at which motion is sampled) for culling. With more, all clusters are drawn.
+// Max number of shutter times (times at which motion is sampled) for culling. With more shutter times, no cluster is
+// culled.
 constexpr std::size_t maxMoments = 64;
 constexpr double minSaving = 1.0 / 8;  // min culled fraction of a level's triangles; if fewer are culled, all are drawn
 // Min number of culled triangles between two drawn ranges. A shorter gap is drawn, too, which joins the ranges.
 constexpr std::uint32_t minGap = 128;
 
-// Bounds of the lens in object space during a part of the exposure.
+// Bounds of the lens in object space during a time interval of the exposure.
 struct LensRange {
-    glm::dvec3 eye{0};             // centre of the lens in the middle of this part of the exposure
+    glm::dvec3 eye{0};             // centre of the lens halfway through the interval
     glm::dmat3 viewFromNormal{1};  // inverse transpose of the object's matrix
     double inverseSize = 0;        // Frobenius norm of the object's inverse matrix
-    // Max distance of a lens point from its position in the middle of this part of the exposure.
+    // Max distance of a lens point, at any time of the interval, from its position halfway through.
     double motion = 0;
 };
 
 // An object as seen by all samples of the frame.
 struct ObjectViews {
-    std::vector<glm::dmat4> viewFromObject;  // matrix in the middle of the exposure, then at each shutter time
-    std::vector<LensRange> lenses;           // lens bounds for parts of the exposure; empty: no culling of back faces
-    double lensRadius = 0;                   // radius in m of the disk that bounds the lens
-    // Max factor by which the lens shift shrinks a triangle's altitude in the image if the focus plane is tilted.
+    std::vector<glm::dmat4> viewFromObject;  // matrix halfway through the exposure, then at each shutter time
+    // Lens bounds, for culling back faces, in time intervals of the exposure; empty: back faces are not culled.
+    std::vector<LensRange> lenses;
+    double lensRadius = 0;  // radius in m of the disk that bounds the lens
+    // With a tilted focus plane, the shape of a triangle's image depends on the lens point. Max factor, ≥ 1, by which
+    // its altitude shrinks.
     double shapeLoss = 1;
     // Volume in m³ of a cube with sides of one object unit; min over the exposure.
     double minVolume = 0;
     double largestSize = 0;    // upper bound of the norms of viewFromObject
-    double largestOffset = 0;  // max distance in m of the object's origin from the camera
-    OwnBlur own;               // bounds of the blur modifiers of the object's surfaces
+    double largestOffset = 0;  // max distance in m from the camera to the object's origin, over all viewFromObject
+    OwnBlur own;               // bounds of the surfaces' blur factor and added blur
 };
 
 double frobeniusNorm(const glm::dmat3& m) {
@@ -58,9 +61,9 @@ double frobeniusNorm(const glm::dmat3& m) {
 }
 
 // Returns bounds of the lens in object space while the object's matrix, A with translation T, moves linearly from
-// `from` to `to`. A lens point e lies at x = A⁻¹(e − T). Let A, T and x₀ be the values in the middle; ΔA and ΔT are
-// half the changes. At time τ ∈ [−1, 1] from the middle, x − x₀ = −τ·(I + τ·A⁻¹·ΔA)⁻¹·A⁻¹(ΔT + ΔA·x₀). Returns nullopt
-// if the matrix may become singular or mirrored.
+// `from` to `to`. A lens point e lies at x = A⁻¹(e − T). Let A, T and x₀ be the values halfway through the movement,
+// and let ΔA and ΔT be half the changes from start to end. At time τ ∈ [−1, 1] from halfway,
+// x − x₀ = −τ·(I + τ·A⁻¹·ΔA)⁻¹·A⁻¹(ΔT + ΔA·x₀). Returns nullopt if the matrix may become singular or mirrored.
 std::optional<LensRange> lensRange(const glm::dmat4& from, const glm::dmat4& to, bool mirrored, ObjectViews& views) {
     const glm::dmat4 middle = 0.5 * (from + to);
     const glm::dmat3 matrix(middle);
@@ -152,7 +155,7 @@ Bounds viewBoxOf(const Cluster& cluster, const ObjectViews& views) {
 // object to view space, and wᵢ are the depths of the corners. f is the number of px per unit at distance 1, and h the
 // lens's distance from the triangle's plane. The triangle's edges are at most f·L·‖A‖·d/w² px long, where d is the max
 // distance of a corner from the lens, and w the min depth. Its altitude in px is twice the area over the edge length.
-// The result is the h at which this altitude equals the max loss by rounding.
+// The result is the h at which this altitude equals the largest reduction of the altitude by rounding.
 double minPlaneDistance(const Cluster& cluster, const Bounds& box, const ObjectViews& views, const FramePlan& plan) {
     const double min = -box.maximum.z;
     const double max = -box.minimum.z;
@@ -224,7 +227,7 @@ public:
     explicit Runs(VisibleLevel& level) : level_(&level), runs_(&level.primitives.emplace_back()) {}
 
     void show(const IndexRange& range) {
-        // There are too few culled triangles since the last range to start a new range.
+        // If too few triangles were culled after the last range, extend that range over them.
         if (!runs_->empty() && (away_ + outside_) < minGap)
             runs_->back().count += 3 * (away_ + outside_) + range.count;
         else {
@@ -244,8 +247,8 @@ public:
 private:
     VisibleLevel* level_;
     std::vector<IndexRange>* runs_;
-    std::uint32_t away_ = 0;     // number of triangles that face away, since the last range in runs_
-    std::uint32_t outside_ = 0;  // number of triangles outside the image, since the last range in runs_
+    std::uint32_t away_ = 0;     // triangles that face away, after the last range in runs_
+    std::uint32_t outside_ = 0;  // triangles outside the image, after the last range in runs_
 };
 
 VisibleLevel levelWithoutHidden(const ObjectViews& views, const ObjectPlan& object, std::uint32_t number,
@@ -309,9 +312,9 @@ double thinLensReach(const ClipCircleOfConfusion& coc, const OwnBlur& own, doubl
 // Returns true if all corners of the box lie outside one plane of the frustum, which the lens widens. For the left
 // plane, at image position −1, this means x/tan(θx/2) + w + |C| < 0, with half a pixel added for the jitter. x is the
 // view-space position, w the depth, θx the horizontal field of view and C the clip-space blur (CoC · depth). For a thin
-// lens, |C(w)| is convex, so the corners bound it. For other lenses, |C|/w is at most `largest` divided by the image's
-// width in px. If a side of `area`, the rectangle of a tile, lies inside the image, one more pixel is added for the
-// rounding of vertex positions.
+// lens, |C(w)| is convex, so the corners bound it. For other lenses, |C|/w is at most `largest`, the largest CoC in px,
+// divided by the image's width in px. If a side of `area`, the rectangle of a tile, lies inside the image, one more
+// pixel is added for the rounding of vertex positions.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,
                            const PixelRectangle& area) {
     const View& view = plan.view;

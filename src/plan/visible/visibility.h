@@ -35,8 +35,8 @@
 
 namespace defocus::engine {
 
-// Returns the range of depths and image positions of `viewBox`, which must lie beyond the near plane. `own` bounds the
-// blur modifiers (factor and added blur) of the surfaces in the box.
+// Returns what bounds the CoC in `viewBox`, a box in view space that must lie beyond the near plane: its ranges of
+// depth and image position, and the bounds `own` of its surfaces' blur modifiers (factor and added blur).
 CocBox cocBoxOf(const Bounds& viewBox, const OwnBlur& own, const FramePlan& plan);
 
 // Returns true if no lens sample sees any part of the box. `own` bounds the blur modifiers (factor and added blur) of
@@ -46,8 +46,8 @@ bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const O
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,
                            const PixelRectangle& area);
 
-// Culls clusters of a rigid object that no lens sample sees. Fills object.visible and reduces the triangle counts of
-// object.coarse and object.fine.
+// Culls those clusters of a rigid object that are visible in no lens sample. Fills object.visible and reduces the
+// triangle counts of object.coarse and object.fine.
 void leaveOutClusters(ObjectPlan& object, const World& world, const FramePlan& plan);
 
 }  // namespace defocus::engine

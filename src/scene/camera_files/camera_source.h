@@ -18,7 +18,8 @@ struct CameraSource {
 // .usda, .gltf, .glb and .json; the message says how to convert other USD files.
 CameraSource cameraSourceOf(const std::string& text);
 
-// Reads the camera of a camera reference. Throws Error, with the file's name, if the file or the camera can't be used.
+// Reads the camera that a camera reference such as "shot.usda:/World/cam" names. Throws Error, with the file's name, if
+// the file or the camera can't be used.
 CameraTrack openCamera(const std::string& source);
 
 }  // namespace defocus::engine

@@ -14,7 +14,8 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double unitsPerMillimetre = 0.01;  // USD gives lens lengths in tenths of the layer's unit, which is 1 m here
+// USD gives lens lengths in tenths of the layer's unit. The unit is 1 m here, so 1 mm is 0.01 tenths of it.
+constexpr double unitsPerMillimetre = 0.01;
 
 // Names of the lens values that USD attributes express, directly or indirectly.
 constexpr std::array<std::string_view, 5> usdValues = {"focalLength", "horizontalAperture", "fStop", "focusDistance",

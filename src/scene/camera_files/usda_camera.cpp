@@ -14,8 +14,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double widestSensor = 1000;  // max sensor width in mm; a wider sensor means that the file stores mm
-// Default of the layer entry metersPerUnit. USD gives focal length and sensor size in tenths of the unit, here in mm.
+// Max plausible sensor width in mm. If USD's unit (tenths of the layer's unit) gives a wider sensor, focal length and
+// sensor size are read as mm instead.
+constexpr double widestSensor = 1000;
+// Default of the layer entry metersPerUnit: the layer's unit is 1 cm, so USD's tenths of a unit are mm.
 constexpr double plainUnit = 0.01;
 constexpr const char* lensPrefix = "defocus:";
 

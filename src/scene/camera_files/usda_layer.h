@@ -15,7 +15,7 @@ namespace defocus::engine {
 struct UsdValue {
     std::vector<double> numbers;     // booleans are 0 or 1
     std::vector<std::string> texts;  // strings, tokens, paths and assets
-    bool blocked = false;            // true for the value None, which means no value
+    bool blocked = false;            // true: the value is None, with which USD states that there is no value
 };
 
 struct UsdAttribute {

@@ -18,7 +18,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Adds each object's memory to the scene's memory budget. Instances share a mesh, but each needs memory of its own.
+// Counts each object's memory against the scene's memory budget. Instances share a mesh, but each needs memory of its
+// own.
 void checkObjects(gltf::Source& source, const gltf::Hierarchy& hierarchy, const Scene& scene) {
     constexpr std::uint64_t objectBytes = 2304;  // measured memory of an object: its pose and its draw data
     constexpr std::uint64_t jointBytes = 4 * sizeof(glm::dmat4);  // memory of a joint's matrices in pose and frame plan
@@ -74,7 +75,7 @@ Scene readScene(gltf::Source& source, const std::filesystem::path& path, const P
     scene.textures = std::move(textures.textures);
     scene.images = std::move(textures.images);
     scene.imageNames = std::move(textures.names);
-    source.document.json.erase("materials");  // free memory, which the meshes need
+    source.document.json.erase("materials");  // releases memory that the meshes need
 
     scene.meshes = gltf::readMeshes(source, scene.materials, progress);
 

@@ -35,8 +35,8 @@ glm::mat3 textureTransform(const nlohmann::json& json) {
             toFloat(s * scale[1]), toFloat(c * scale[1]),  0.0f, toFloat(offset[0]), toFloat(offset[1]), 1.0f};
 }
 
-// Returns the reason why a texture without a supported image is not drawn: it has no image, or only an image in the
-// format of an extension.
+// Returns the reason why a texture without a supported image is not drawn: it has no image, or only an image in a
+// format of an unsupported extension.
 std::string withoutImage(const nlohmann::json& texture) {
     std::vector<std::string> formats;
     if (const auto extensions = texture.find("extensions"); extensions != texture.end() && extensions->is_object())

@@ -125,7 +125,7 @@ Strokes readStrokes(Source& source, const tinygltf::Primitive& primitive, const 
     strokes.vertices.weights = strokes.vertices.weights1 = {};
     strokes.indices =
         strokeList(primitive.mode, readIndices(source, primitive, strokes.vertices.count(), nullptr, what));
-    constexpr std::uint64_t quadBytes = 512;  // bytes of four vertices and two triangles
+    constexpr std::uint64_t quadBytes = 512;  // upper bound for four vertices and two triangles, bytes
     takeBudget(source, strokes.indices.size(), quadBytes, what);
     dropUnplacedStrokes(source, strokes);
     return strokes;
@@ -147,7 +147,9 @@ bool drawable(Source& source, const tinygltf::Primitive& primitive, const std::s
 std::vector<Group> groupPrimitives(Source& source, const tinygltf::Mesh& mesh, const nlohmann::json& json,
                                    const std::string& label) {
     std::vector<Group> groups;
-    std::map<VertexSource, std::size_t> places;  // index into `groups`; only uncompressed primitives
+    // Index into `groups` of the group with these vertices. Compressed primitives are not listed: they share no
+    // vertices.
+    std::map<VertexSource, std::size_t> places;
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         const tinygltf::Primitive& primitive = mesh.primitives[i];
         if (!drawable(source, primitive, fmt::format("{}, primitive {}", label, i)) || isStroke(primitive)) continue;

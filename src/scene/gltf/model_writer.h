@@ -1,6 +1,6 @@
 #pragma once
-// Builds and writes tinygltf models whose data lies in one buffer. Source: glTF 2.0 specification, buffers and accessors
-// (3.6).
+// Builds and writes tinygltf models whose data lies in one buffer. Source: glTF 2.0 specification, buffers and
+// accessors (3.6).
 
 #include <cstdint>
 #include <filesystem>
@@ -11,13 +11,13 @@
 
 namespace defocus::engine::gltf {
 
-// Appends `count` values of `valueBytes` bytes each to the model's first buffer, with a buffer view and an accessor, and
-// returns the accessor's index. `type`, `component` and `target` are TINYGLTF_… constants; `valueBytes` is a multiple of
-// 4.
+// Appends `count` values of `valueBytes` bytes each to the model's first buffer, with a buffer view and an accessor,
+// and returns the accessor's index. `type`, `component` and `target` are TINYGLTF_… constants; `valueBytes` is a
+// multiple of 4.
 int appendValues(tinygltf::Model& model, const void* values, std::size_t count, std::size_t valueBytes, int type,
                  int component, int target);
 
-// Appends vectors of floats.
+// Appends float vectors as appendValues does.
 template <typename Vector>
 int appendVectors(tinygltf::Model& model, const std::vector<Vector>& values) {
     static_assert(TINYGLTF_TYPE_VEC2 == 2 && TINYGLTF_TYPE_VEC3 == 3 && TINYGLTF_TYPE_VEC4 == 4);

@@ -32,7 +32,8 @@ enum class Kind {
 struct Property {
     std::string_view name;
     Kind kind;
-    std::string_view target = {};  // top-level array that the indices refer to; for the four kinds of indices
+    // Top-level array that the indices refer to; only for the kinds index, indices, indexMap and indexMaps.
+    std::string_view target = {};
     std::span<const Property> properties = {};  // members of the object; only for Kind::object and Kind::objects
     std::size_t length = 0;                     // number of entries; 0: any; only for Kind::numbers
     bool required = false;

@@ -49,7 +49,7 @@ struct Source {
     std::vector<std::optional<std::vector<std::byte>>> buffers;        // bytes; nullopt: a fallback buffer without data
     std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // bytes of views with EXT_meshopt_compression
     UnpackBudget budget;
-    std::set<std::filesystem::path> files;  // external files whose size has raised the memory limit
+    std::set<std::filesystem::path> files;  // external files that grantFile has counted
     std::vector<Ignored> ignored;
     std::map<std::pair<std::string, std::string>, std::size_t> ignoredPlaces;  // (what, reason) → index into `ignored`
 };

@@ -70,8 +70,8 @@ void attempt(const Source& source, ReadImage& image, const auto& step) {
     }
 }
 
-// Returns image `index` with its name and label, but not yet decoded. The size of an external file raises the memory
-// limit (grantFile).
+// Returns image `index` with its name and label, but not yet decoded. Raises the memory limit in proportion to the size
+// of an external file (grantFile).
 ReadImage openImage(Source& source, std::size_t index) {
     const nlohmann::json& json = source.document.json["images"][index];
     ReadImage result;
@@ -104,8 +104,8 @@ TextureImage roughnessOf(const TextureImage& glossy, double glossinessFactor) {
     return rough;
 }
 
-// Replaces the specular-glossiness textures, which materials hold in `metallicRoughness`, with roughness textures. A
-// material whose texture was removed because it has no image becomes a dielectric.
+// Replaces the specular-glossiness textures, which materials hold in `metallicRoughness`, with roughness textures. If
+// such a texture was removed because it has no image, its material becomes a dielectric.
 void convertGlossiness(Source& source, std::vector<Material>& materials, Textures& textures) {
     std::map<std::pair<int, float>, int> converted;  // (texture, roughness factor) → converted texture
     for (std::size_t i = 0; i < materials.size(); ++i) {
@@ -114,8 +114,8 @@ void convertGlossiness(Source& source, std::vector<Material>& materials, Texture
             findExtension(source.document.json["materials"][i], "KHR_materials_pbrSpecularGlossiness");
         if (extension == nullptr || !extension->contains("specularGlossinessTexture")) continue;
         if (!use.used()) {
-            // The specular-glossiness texture was removed, and it had the reflectance at normal incidence. With the IOR
-            // of 0 that such materials have, the surface would be a mirror. Make it a dielectric instead.
+            // The reflectance at normal incidence was in the specular-glossiness texture, which has been removed. Such
+            // materials have an IOR of 0, with which the surface would be a mirror. Make it a dielectric instead.
             materials[i].ior = Material().ior;
             continue;
         }
@@ -162,7 +162,7 @@ Textures readTextures(Source& source, std::vector<Material>& materials, const Pr
     });
 
     Textures result;
-    std::vector<int> places(used.size(), -1);  // index into `result.images`
+    std::vector<int> places(used.size(), -1);  // index into `result.images` of each image of the file; −1: not read
     for (std::size_t i = 0; i < used.size(); ++i) {
         if (!read[i].fault.empty()) ignoreDamaged(source, "texture", read[i].fault, 1);
         if (!used[i] || !read[i].fault.empty()) continue;
