@@ -103,7 +103,7 @@ Metadata fileMetadata(const FilmFrame& film, std::size_t file, const Metadata& o
     metadata[settingsAttribute] = film.settings[file];
     const std::string ending = film.files[file].extension().string();
     if (ending != ".exr" && ending != ".png")
-        metadata["comments"] = film.settings[file];  // JPEG files keep no other text attribute
+        metadata["comments"] = film.settings[file];  // "comments" is the only text attribute that JPEG files keep
     return metadata;
 }
 
@@ -283,7 +283,7 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
                        const std::vector<FilmFrame>& frames, const FilmOptions& options, const FilmMetadata& metadata,
                        const std::function<bool()>& stop, const Progress& progress) {
     std::error_code ignored;
-    if (!options.resume) fs::remove(options.timings, ignored);  // remove the times of an earlier run
+    if (!options.resume) fs::remove(options.timings, ignored);  // delete the timings file of an earlier run
 
     // Draw one frame after another while the writer thread encodes and writes the previous ones.
     const Clock::time_point start = Clock::now();

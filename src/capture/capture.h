@@ -26,20 +26,23 @@ struct FilmFrame {
     std::vector<std::filesystem::path> files;  // image files, one per file name pattern
     WriteOptions write;                        // encoding of PNG, JPEG and video
     bool finished = false;                     // whether all files exist with the requested settings
-    // First existing image file that was made with settings other than this run's. Set only with FilmOptions::resume.
+    // First existing image file whose settings differ from this run's. Set only with FilmOptions::resume.
     std::filesystem::path other;
 };
 
 struct FilmOptions {
     std::vector<std::string> outputs;  // file name patterns; see capture/frame_files.h
-    // Samples to draw: writes their sum to FRAME.partFIRST-END.exr. Requires exactly one output, an EXR file. nullopt:
-    // all samples.
+    // Range of samples to draw; nullopt: all samples. If set, their sum is written to FRAME.partFIRST-END.exr, which
+    // requires exactly one output, an EXR file.
     std::optional<SampleRange> sampleRange;
-    FilmSettings settings;  // `encoding` is set per file by filmFrames(); a frame's time limit is ignored
-    bool metered = false;   // true: the caller stores a metered exposure in FilmFrame::write before renderFilm()
-    std::filesystem::path timings;      // path of the sidecar file, timings.jsonl
-    bool resume = false;                // true: keep the frames that are already finished
-    std::vector<RefocusRun> runs = {};  // runs of frames computed from lens images; empty with sampleRange
+    // `encoding` is set per file by filmFrames(). Request::timeLimit is ignored; the callback `stop` of
+    // renderFilm() can limit the time of the run.
+    FilmSettings settings;
+    bool metered = false;  // true: the caller stores a metered exposure in FilmFrame::write before renderFilm()
+    std::filesystem::path timings;  // path of the sidecar file, timings.jsonl
+    bool resume = false;            // true: keep the frames that are already finished
+    // Frames to compute from lens images (one image per lens sample); must be empty if sampleRange is set.
+    std::vector<RefocusRun> runs = {};
     // Called with the image of the first rendered frame, unless the frame is drawn in tiles, and with the options for
     // writing this image to PNG, JPEG and video.
     std::function<void(const Image&, const WriteOptions&)> firstDrawn;
@@ -65,7 +68,7 @@ struct FilmFigures {
     double renderMilliseconds = 0;  // sum over all frames of the time for planning and rendering, without writing
     double totalMilliseconds = 0;   // wall-clock time until the last file is written
     std::uint64_t triangles = 0;
-    std::optional<int> stoppedBefore;  // number of the next frame; nullopt if the run was not stopped
+    std::optional<int> stoppedBefore;  // first frame not drawn because the run was stopped; nullopt: not stopped
 };
 
 // A function that returns the metadata of a frame's files, without render times.

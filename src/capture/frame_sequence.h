@@ -21,7 +21,7 @@ struct SequenceBase {
     std::vector<PlacedLight> lights;
     CameraChoice camera;
     bool cameraStands = false;                     // true: the camera stays as in `view`; false: it follows its node
-    std::set<std::string, std::less<>> fixedLens;  // lens fields that don't follow the camera's values
+    std::set<std::string, std::less<>> fixedLens;  // lens fields that the shot sets instead of the camera
     glm::dvec3 centre{0.0};                        // scene's centre at the start; default centre of turntables
     std::vector<std::string> hidden;               // nodes that aren't drawn
     ShutterSettings shutter;                       // exposure of each frame, during which the camera may move

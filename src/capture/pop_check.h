@@ -25,9 +25,9 @@ public:
     PopCheck(const World& world, const MethodUse& method, RendererOptions options);
 
     // Compares the objects' levels of detail in `plan` with their levels in the preceding frame. If any differ, draws
-    // the frame with the new and with the old levels and compares the two images. The world must be posed for this
-    // frame. If this function was not called for the preceding frame, it only keeps the plan for the next call. Needs a
-    // current GL context.
+    // the frame with the new and with the old levels and compares the two images. If there was no call for the
+    // preceding frame, only stores `plan` for the next call. The world must be posed for this frame. Needs a current GL
+    // context.
     void note(int frame, const FramePlan& plan);
 
     [[nodiscard]] const std::optional<FramePop>& largest() const { return largest_; }

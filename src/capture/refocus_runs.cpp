@@ -54,8 +54,8 @@ StillFrame stillFrame(const Shot& shot, const SequenceBase& base, const FilmSett
     return still;
 }
 
-// Returns the run of the frames with indices [first, end) in `stills`; nullopt if no single set of lens images covers
-// these frames. `number`: frame number of the run's first frame.
+// Returns the run that computes all frames with indices [first, end) in `stills` from one set of lens images; nullopt
+// if one set is not enough. `number`: frame number of the run's first frame.
 std::optional<RefocusRun> runOver(const std::vector<StillFrame>& stills, std::size_t first, std::size_t end, int number,
                                   std::uint32_t samples) {
     const Lens& lens = stills[first].lens;

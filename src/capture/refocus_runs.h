@@ -21,8 +21,9 @@ struct RefocusRun {
     FocusRange range;           // focus distances of the frames, m
     std::uint32_t samples = 0;  // number of lens images, at least the number of samples of a single frame
 
-    // Returns a string that identifies the lens images among those of one frame, for the frame's settings hash: frames
-    // without a shape in common are computed from images of a disk, all others from images of their own shape.
+    // Returns a string that identifies the run's lens images, for the settings hash of its frames. It also states
+    // whether these images have a disk as aperture. They have the frames' own aperture only if its shape and f-number
+    // are the same in all frames.
     [[nodiscard]] std::string text() const;
 };
 
@@ -32,9 +33,9 @@ struct RefocusRuns {
     std::vector<std::string> rendered;
 };
 
-// Divides `frames` into runs of consecutive frames that one set of lens images serves. Each run has the length that
-// saves the most lens samples; frames that save none are in no run. `samples`: number of lens samples with which a
-// single frame would be rendered.
+// Divides `frames` into runs of consecutive frames that can be computed from one set of lens images. Each run has the
+// length that saves the most lens samples. Frames for which no run saves any are in no run. `samples`: number of lens
+// samples of a frame that is rendered on its own.
 RefocusRuns refocusRuns(const Shot& shot, const SequenceBase& base, const FilmSettings& settings,
                         const FrameRange& frames, std::uint32_t samples);
 
@@ -44,7 +45,8 @@ const RefocusRun* runOf(const std::vector<RefocusRun>& runs, int frame);
 // Returns the memory in bytes that a run's lens images take. `view`: the view of any of the run's frames.
 std::uint64_t memoryOf(const RefocusRun& run, const View& view);
 
-// Computes the frames of runs from lens images. Keeps the lens images of one run in memory.
+// Computes frames from the lens images of their run (see RefocusRun). Keeps the lens images of one run at a time in
+// memory.
 class RefocusedPictures {
 public:
     struct Picture {

@@ -32,13 +32,13 @@ struct LensTrack {
     Easing easing = Easing::smooth;
 };
 
-// Target on which the lens is focused. It is evaluated for each frame, so that the focus follows moving objects. A
-// pixel refers to an image of the shot's size.
+// Target on which the lens is focused. It is evaluated for each frame, so that the focus follows moving objects.
+// FocusPixel is a pixel of an image of the shot's size.
 using FocusTarget = std::variant<FocusDistance, FocusNode, FocusPixel, FocusAuto>;
 
 struct FocusTrack {
     std::vector<Key<FocusTarget>> keys;
-    Easing easing = Easing::smooth;  // interpolation in 1/distance, as on a focus ring
+    Easing easing = Easing::smooth;  // curve between the keys; 1/distance is interpolated, as on a focus ring
 };
 
 struct CameraKeys {
@@ -67,7 +67,7 @@ struct Dolly {
 using ShotMovement = std::variant<std::monostate, CameraKeys, Turntable, Dolly>;
 
 // Returns the defaults for values that neither the shot nor an option sets. The number of lens samples is fixed,
-// because noise that changes with the number of samples would be visible. LodMode::continuous makes the smallest jumps
+// because noise that changes with the number of samples would be visible. LodMode::continuous causes the least popping
 // when objects change their levels of detail (docs/results.md#popping).
 inline Request shotDefaults() {
     Request request;
@@ -91,8 +91,8 @@ struct Shot {
     std::optional<double> shutterAngle;  // degrees; replaces the exposure time in seconds; 360: always open
     ShotMovement movement;
     std::optional<FocusTrack> focus;
-    std::map<std::string, LensTrack, std::less<>> lens;        // constant or keyed values, by name of the lens field
-    std::map<std::string, LensTrack, std::less<>> methodKeys;  // keyed values, by name of the method's setting
+    std::map<std::string, LensTrack, std::less<>> lens;        // constant values or keyframes, by name of lens field
+    std::map<std::string, LensTrack, std::less<>> methodKeys;  // keyframes, by name of the method's setting
     bool animateSeed = false;                                  // new sample positions, thus new noise, in each frame
 
     std::vector<std::string> outputs = {"frames/####.exr"};

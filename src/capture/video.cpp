@@ -182,7 +182,7 @@ std::string complaint(const Ffmpeg& ffmpeg, const fs::path& messages) {
 // Throws Error unless the video is readable and has all its frames. On a full disk, ffmpeg reports success but leaves
 // an incomplete video.
 void checkFilm(const fs::path& film, std::size_t frames, const fs::path& name) {
-    PendingFile messages(name.string() + ".log");  // the log and the video are temporary files
+    PendingFile messages(name.string() + ".log");  // temporary log of ffmpeg, deleted at the end of this function
     PendingFile counted(name.string() + ".count");
     Ffmpeg ffmpeg({"ffmpeg", "-v", "error", "-nostdin", "-i", fileName(film), "-map", "0:v:0", "-c", "copy", "-f",
                    "null", "-progress", "pipe:1", "-"},

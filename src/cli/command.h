@@ -21,7 +21,7 @@ struct GlobalOptions {
     std::vector<std::string> words;   // command line, beginning with the program's name
 };
 
-// Adds all commands with their options. `global` must outlive the program.
+// Adds all commands with their options. `global` must outlive `program`.
 void addCommands(CLI::App& program, GlobalOptions& global);
 
 // Returns a command followed by all its direct and indirect sub-commands.

@@ -27,8 +27,9 @@ inline glm::ivec2 asVector(const Pixel& pixel) {
 // setting that the method doesn't have.
 MethodUse namedMethod(const Request& request);
 
-// Returns namedMethod(request), but "accumulation" instead of "auto" if the request has a memory limit. The limit may
-// require tiles, which only accumulation can draw, and the limit must not change the image.
+// Returns namedMethod(request), but "accumulation" instead of "auto" if the request has a memory limit. Only
+// accumulation can draw tiles, which the limit may require. It is used even without tiles, so that the image doesn't
+// depend on the limit.
 MethodUse chosenMethod(const Request& request);
 
 // Returns the settings for planning the frame. An automatic number of samples is replaced by 64.

@@ -56,8 +56,8 @@ Image allInFocus(LightField& field, const Progress& progress) {
     const double tolerance = 1 / std::max(info.pixelsPerDioptre, 1e-12);  // tolerance in dioptres: one pixel of blur
     Image sum(size.width, size.height, 4);
     std::vector<int> counts(depth.pixels.size());
-    // The image of the lens's centre comes first. Its depth is the reference and needs no comparison, so each pixel
-    // gets at least the colour of this image.
+    // The image of the lens's centre comes first. The depths of the others are compared with its depth, so its own
+    // colours are always added and no pixel stays empty.
     std::vector<std::size_t> order = {field.central()};
     for (std::size_t i = 0; i < info.points.size(); ++i)
         if (i != field.central()) order.push_back(i);

@@ -1,6 +1,6 @@
 #pragma once
-// Computes focal stacks, all-in-focus images, depths and circles of confusion from lens images, for depth-from-defocus
-// data sets.
+// Computes focal stacks, all-in-focus images, depths and circles of confusion from lens images (one image per lens
+// sample), for depth-from-defocus data sets.
 
 #include <vector>
 
@@ -25,8 +25,8 @@ Image centralCoc(LightField& field, const Refocusing& refocusing);
 
 // Returns the image in which everything is in focus, seen from the lens's centre: linear, premultiplied RGBA. Each
 // pixel shows one surface. Its colour is the mean over the lens images that show this surface, shifted so that the
-// surface is in focus. A lens image counts as showing the surface if the difference in depth would cause at most one
-// pixel of blur.
+// surface is in focus. A lens image counts as showing the surface if its depth there differs from the surface's depth
+// by at most one pixel of blur.
 Image allInFocus(LightField& field, const Progress& progress = {});
 
 }  // namespace defocus::engine

@@ -77,7 +77,7 @@ void GapFilling::addPixel(std::size_t pixel, const std::uint16_t* colour, float 
     const double dioptres = depth > 0 ? 1 / static_cast<double>(depth) : 0;
     const double c = blur_.diameter * (blur_.focus - dioptres);
     const double variance = std::clamp(cellVariance_ * c * c - minVariance, 0.0, classVariance(classes - 1));
-    std::size_t upper = 0;  // first class whose blur variance is at least `variance`
+    std::size_t upper = 0;  // first class (pixels of similar blur) with a variance of at least `variance`
     while (classVariance(upper) < variance) ++upper;
     const double lower = upper > 0 ? classVariance(upper - 1) : 0;
     const auto share = static_cast<float>((variance - lower) / (classVariance(upper) - lower));
@@ -147,8 +147,8 @@ Image GapFilling::mean() const {
         if (!isEmpty(behind_[k])) layOver(image, behind_[k], nearer, classVariance(k));
         if (k > 0) addWeights(behind_[k - 1], -1, nearer);
     }
-    // Composite the sharp samples. In pixels where samples in front of the focus plane hide everything else, the mean
-    // of these samples replaces the unknown background.
+    // Composite the sharp samples. Where samples in front of the focus plane cover a pixel, its background is unknown;
+    // use the mean of these samples instead.
     for (std::size_t p = 0; p < pixels; ++p) {
         const float open = total - inFront[p];
         float* const pixel = image.pixels.data() + 4 * p;

@@ -34,7 +34,7 @@ struct DioptreBlur {
 
 class GapFilling {
 public:
-    static constexpr std::size_t classes = 5;  // classes of similar blur on each side of the focus plane
+    static constexpr std::size_t classes = 5;  // number of classes of similar blur on each side of the focus plane
 
     // `images`: number of images that will be passed to add().
     GapFilling(const PartSize& size, const DioptreBlur& blur, std::size_t images);
@@ -52,7 +52,7 @@ private:
 
     PartSize size_;
     DioptreBlur blur_;
-    double cellVariance_;  // variance of the blur by a cell (part of the lens), as a fraction of the squared CoC
+    double cellVariance_;  // blur variance of one cell (part of the lens), divided by the squared CoC diameter
     double weights_ = 0;   // sum of the images' weights
     Sum sharp_;            // samples with hardly any blur
     std::vector<Sum> front_, behind_;  // sums of pixels grouped by blur, in front of and behind the focus plane

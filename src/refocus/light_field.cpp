@@ -48,14 +48,14 @@ void checkThinLens(const Lens& lens) {
     }
 }
 
-// Returns the largest distance in px by which focusing within the focus range shifts the image seen from a lens point.
+// Returns the maximum shift in px of a lens image, along each axis, over the focus range.
 double largestMove(const LightFieldInfo& info) {
     return std::max(std::abs(info.shift(info.range.nearest)), std::abs(info.shift(info.range.farthest)));
 }
 
 // Returns the margin in px that lens images need so that they still cover the refocused image when they are shifted.
 int marginOf(const LightFieldInfo& info) {
-    return static_cast<int>(std::ceil(std::min(largestMove(info), 1e6) + 0.5));  // 0.5 px for rounding in integerMove
+    return static_cast<int>(std::ceil(std::min(largestMove(info), 1e6) + 0.5));  // 0.5 px: integerMove() rounds
 }
 
 // Returns the number stored under `name` in a file's metadata; nullopt if it is missing, of another type, or not

@@ -29,14 +29,14 @@ struct LightFieldInfo {
     double focusDistance = 1;        // focus distance s of the rendered images, m
     double fStop = 1;                // f-number of the rendered aperture
     double pixelsPerDioptre = 0;     // shift P of the image seen from lens point (1, 1) per dioptre of focus, px
-    FocusRange range;                // focus distances for which the images' margin and levels suffice
+    FocusRange range;                // focus distances for which the margin and levels of detail of the images suffice
     bool disk = true;                // the rendered aperture is a uniform disk
     std::vector<glm::dvec2> points;  // lens point (u, v) of each image
     std::vector<glm::dvec2> pixels;  // position of each image's sample in its pixel: px right and up from the centre
-    Metadata metadata;               // metadata of the frame, without the values of the other members
+    Metadata metadata;               // metadata of the frame, without the attributes that store the other members
 
-    // Returns by how many px a change of the focus distance to `otherFocus` moves the image seen from lens point (1,
-    // 1), to the right and up.
+    // Returns the shift in px, to the right and up, of the image seen from lens point (1, 1) if the focus distance
+    // changes to `otherFocus`.
     [[nodiscard]] double shift(double otherFocus) const {
         return pixelsPerDioptre * (1 / otherFocus - 1 / focusDistance);
     }
@@ -62,7 +62,7 @@ public:
     virtual ~LensImages() = default;
     [[nodiscard]] virtual const LightFieldInfo& info() const = 0;
     [[nodiscard]] virtual const std::string& name() const = 0;  // name of the images in messages
-    // Returns the image seen from lens point i, with its margin: linear, premultiplied RGBA.
+    // Returns the image seen from lens point i, including the margin: linear, premultiplied RGBA.
     [[nodiscard]] virtual std::shared_ptr<const HalfImage> colour(std::size_t i) = 0;
 };
 
@@ -76,7 +76,7 @@ public:
     [[nodiscard]] const LightFieldInfo& info() const override { return info_; }
     // colour() and depth() throw Error if the file is damaged.
     [[nodiscard]] std::shared_ptr<const HalfImage> colour(std::size_t i) override;
-    // Returns the depths in m of the image seen from lens point i, with its margin.
+    // Returns the depths in m of the image seen from lens point i, including the margin.
     [[nodiscard]] Image depth(std::size_t i) { return parts_.depth(i); }
     // Keeps colours in memory after the first read if all of them fit into half of the free memory. This saves time if
     // several refocused images are computed.

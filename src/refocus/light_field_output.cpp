@@ -56,7 +56,8 @@ Request LightFieldOutput::suited(Request request) {
 
 void LightFieldOutput::start(const Progress& progress) {
     const Request& request = driver_.firstRequest();
-    // Start a frame without a margin first, to get the range of visible depths and the metadata.
+    // First begin a frame without a margin, to get the metadata and the visible depths, from which the margin is
+    // derived.
     FrameParts parts{.untiledReason = "--lens-images needs whole images"};
     driver_.start(request, parts, progress);
     const double own = driver_.frame().view.lens.focusDistance;

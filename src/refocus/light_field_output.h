@@ -30,8 +30,8 @@ public:
     // request sets another method, an unsuitable number of samples, a target error or a time limit.
     static Request suited(Request request);
 
-    // Begins the frame of the driver's request, which must have been returned by suited(). Throws Error if the lens or
-    // the focus range is unsuitable (lightFieldInfo), or if SceneDriver::start throws it.
+    // Begins the frame of the driver's first request, which suited() must have returned. Throws Error in the same cases
+    // as lightFieldInfo() and SceneDriver::start().
     void start(const Progress& progress = {});
     // Draws and writes the next image. Returns false once all images are written.
     bool advance();

@@ -20,9 +20,10 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double curveFactor = 24;  // k of log2(1 + k·r); larger values keep more detail in shadows, less in highlights
+// k of the tone curve log2(1 + k·radiance); larger values keep more detail in shadows, less in highlights.
+constexpr double curveFactor = 24;
 constexpr double mostRadiance = 4096;
-constexpr int depthColumns = 256;  // max columns of the depth image from which a click reads the focus
+constexpr int depthColumns = 256;  // max columns of the depth image in which a click looks up the focus distance
 constexpr int maxQuality = 90;
 constexpr int minQuality = 20;
 

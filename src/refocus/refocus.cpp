@@ -48,7 +48,7 @@ Refocusing asRendered(const LightFieldInfo& info) {
 }
 
 glm::ivec2 integerMove(const LightFieldInfo& info, std::size_t image, double shift) {
-    constexpr double farthest = 1e6;  // max move in px; keeps the result within the range of int
+    constexpr double farthest = 1e6;  // max shift in px, so that the result fits into an int
     const double within = std::clamp(shift, -farthest, farthest);
     return glm::ivec2(glm::floor(within * info.points[image] + info.pixels[image] + 0.5));
 }

@@ -25,7 +25,7 @@ struct Refocusing {
     double focusDistance = 1;        // distance in m, within LightFieldInfo::range
     double fStop = 1;                // at least LightFieldInfo::fStop
     std::optional<Lens> shape = {};  // lens with the shape of the aperture; nullopt: shape as rendered
-    bool fillGaps = false;           // true: blur each image, so that few images don't show as copies (gap_filling.h)
+    bool fillGaps = false;  // true: blur each image, so that blurred points don't appear as copies (gap_filling.h)
 };
 
 // Returns the focus and the aperture with which the lens images were rendered.
@@ -39,18 +39,19 @@ struct ShiftedImage {
 };
 
 // Returns the displacement of an image in whole px, to the right and up. `shift`: displacement in px of the image seen
-// from lens point (1, 1). The rounding accounts for the sample's position within its pixel.
+// from lens point (1, 1). The result is the offset to the pixel that contains the shifted position of the image's
+// sample.
 glm::ivec2 integerMove(const LightFieldInfo& info, std::size_t image, double shift);
 
 // Returns the shift and the weight of each lens image that contributes to the refocused picture, in the order of
-// LightFieldInfo::points. Throws Error, with `name` in its message, if the focus distance or the f-number is outside
-// the rendered range. Also throws if the picture needs an aperture shape or f-number other than the rendered one, but
-// the rendered aperture was not a full disk, and if no lens point lies within the aperture.
+// LightFieldInfo::points. Throws Error, with `name` in its message, in three cases: the focus distance or f-number is
+// outside the rendered range; the aperture must change, but was not rendered as a full disk; no lens point lies within
+// the aperture.
 std::vector<ShiftedImage> shiftedImages(const LightFieldInfo& info, const Refocusing& refocusing,
                                         const std::string& name);
 
-// Returns the refocused picture: linear, premultiplied RGBA. Throws Error if shiftedImages throws it or if the file is
-// damaged. Keeps only a few lens images in memory at a time.
+// Returns the refocused picture: linear, premultiplied RGBA. Throws Error in the same cases as shiftedImages(), and if
+// the file is damaged. Keeps only a few lens images in memory at a time.
 Image refocused(LightField& field, const Refocusing& refocusing, const Progress& progress = {});
 // Returns the refocused picture without gap filling: the weighted mean of the shifted images.
 Image sharpSum(LensImages& images, const Refocusing& refocusing, const Progress& progress = {});

@@ -16,8 +16,8 @@ namespace defocus::engine {
 std::optional<Lens> apertureShape(const LensSettings& settings);
 
 // Returns the focus and aperture that `settings` give; values that are not set are those of the rendered lens images.
-// Throws the errors of apertureShape and focusAtPixel, and UsageError for a focus that is neither a distance nor a
-// pixel.
+// Throws in the same cases as apertureShape() and focusAtPixel(), and throws UsageError for a focus that is neither a
+// distance nor a pixel.
 Refocusing refocusingOf(const RefocusSettings& settings, LightField& field);
 
 }  // namespace defocus::engine

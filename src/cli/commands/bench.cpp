@@ -109,8 +109,8 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
               })
         ->group(group);
     addBenchOutput(*command, arguments->output, "the results speedup.csv and speedup.json");
-    // Leave out the settings that the bench varies itself. The cache is left out because the results include the build
-    // time of the pyramids, and exposure because images are compared at EV 0.
+    // Leave out the settings that the bench varies itself. Also leave out the cache, because the results include the
+    // pyramids' build time, and exposure, because images are compared at EV 0.
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"samples", "positions", "quality", "targetError", "timeLimit", "lod", "method",
                                          "cacheFolder", "noCache", "exposureTime", "iso"}));

@@ -38,7 +38,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Returns whether the program includes ray tracers. If so, `bench convergence` bakes the scene's lighting into unlit
-// colours, because ray tracers shade differently.
+// colours, because ray tracers and the rasterizer shade differently.
 bool hasRayTracers() {
     return std::ranges::any_of(methods(), [](const Method& method) { return !method.needsGl; });
 }
@@ -189,7 +189,7 @@ std::vector<PublishedForm> publishedForms(const Request& scene, const PreparedFr
 }
 
 void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& global) {
-    // Check scene, lens, device and folders before the measurements, which take long.
+    // Check scene, lens, device and folders first, because the measurements take a long time.
     Progress progress = terminalProgress(global);
     ConvergenceOptions options = arguments.options;
     Request scene = arguments.request;

@@ -54,9 +54,9 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
     fmt::print("{}, {} x {} px, {} of {} frames of each movement, on {}\n\n", subject.scene, subject.width,
                subject.height, options.frames, options.pathFrames, subject.device);
 
-    // Write all results after each measurement, so that an interrupted run loses at most one measurement.
     std::vector<PoppingFrame> frames;
     std::vector<SampleStep> steps;
+    // Called after each measurement, so that an interrupted run loses at most one.
     const auto write = [&] {
         std::fflush(stdout);
         if (folder.empty()) return;

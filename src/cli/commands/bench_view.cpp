@@ -25,7 +25,7 @@ namespace {
 struct ViewBenchArguments {
     Request request = measuredRequest();
     ViewBenchOptions options;
-    bool refocus = false;  // true: measure changes of focus and f-number
+    bool refocus = false;  // true: measure the response to changes of focus and f-number, not to camera movement
     BenchOutput output;
 };
 

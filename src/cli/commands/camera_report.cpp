@@ -35,7 +35,7 @@ struct CameraFacts {
     glm::dvec2 sensor{0};       // mm
     glm::dvec2 fieldOfView{0};  // degrees
     double acceptable = 0;      // acceptable circle of confusion, mm
-    bool customary = false;     // true: `acceptable` is the customary sensor diagonal / 1500
+    bool customary = false;     // true: `acceptable` is the usual default, the sensor diagonal / 1500
     DepthOfField depth;
     bool plain = true;  // true: near and far limits of focus are exact (a thin lens without artistic controls)
     std::vector<Blur> blurs;

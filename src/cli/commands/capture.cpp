@@ -52,7 +52,7 @@ struct CaptureArguments {
     std::optional<FrameRange> range;
     Share shard;
     std::optional<SampleRange> sampleRange;
-    std::vector<std::string> outputs;  // patterns from the command line; empty: the shot's outputs
+    std::vector<std::string> outputs;  // file name patterns from the command line; empty: those of the shot are used
     bool resume = false;
     bool overwrite = false;
     bool dryRun = false;
@@ -105,13 +105,13 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
     return options;
 }
 
-// Replaces method "auto" by one method for all frames, so that the look doesn't change within the shot. Evaluates the
-// rule of "auto" for up to 16 frames, spread over the complete shot. Uses multirate if the rule selects multirate for
-// any of these frames, else accumulation.
+// Replaces method "auto" by one method for all frames, so that the look doesn't change within the shot. Chooses a
+// method for up to 16 frames, spread over the complete shot. Uses multirate if it is chosen for any of these frames,
+// else accumulation.
 void settleMethod(CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base) {
     const MethodUse use = chosenMethod(arguments.request);
     if (use.method->name != automaticMethod) return;
-    // Plan the frames without levels of detail, because the rule of "auto" doesn't depend on them.
+    // Plan the frames without levels of detail, because these don't affect the choice of the method.
     const LodMode lod = std::exchange(prepared.settings.lod, LodMode::off);
     addPyramids(prepared);
     constexpr int maxPlanned = 16;

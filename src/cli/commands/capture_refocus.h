@@ -1,6 +1,6 @@
 #pragma once
 // Chooses the runs of frames that `defocus capture --refocus` computes from lens images (one image per lens sample),
-// and reports the saved work.
+// and reports how many lens samples this avoids.
 
 #include <string>
 #include <vector>
@@ -14,11 +14,11 @@ namespace defocus::engine {
 // fit into half of the memory.
 RefocusRuns chosenRuns(const Shot& shot, const SequenceBase& base, const FilmSettings& settings);
 
-// Returns a line that states how many lens samples --refocus saved.
+// Returns a line with the number of lens samples that need not be rendered because of --refocus.
 std::string savedText(const FilmSettings& settings, const FilmFigures& figures);
 
-// Returns a line that states how many lens samples --refocus would have saved for the frames in `film`, which were
-// rendered without it. Returns an empty string if it would have saved none.
+// Returns a line with the number of lens samples that --refocus would have avoided for the frames in `film`, which were
+// rendered without it. Returns an empty string if it would have avoided none.
 std::string possibleSaving(const Shot& shot, const SequenceBase& base, const FilmSettings& settings,
                            const std::vector<FilmFrame>& film);
 

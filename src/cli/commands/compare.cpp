@@ -136,7 +136,7 @@ void checkLimits(const CompareArguments& arguments, const Difference& difference
 }
 
 void runCompare(const CompareArguments& arguments) {
-    // Check that the output file can be written before the images are compared, which may take long.
+    // Comparing the images may take a long time, so first check that the output file can be written.
     if (!arguments.errorMap.empty()) {
         checkImageOutputs({arguments.errorMap}, {}, {arguments.reference, arguments.test});
     }

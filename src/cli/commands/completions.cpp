@@ -23,8 +23,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Candidates that the shell replaces with the names of all files or all folders. The letters are options of compgen, a
-// command of bash.
+// Candidates that the shell replaces with the names of all files or all folders. The letter after the colon is the
+// option of bash's command compgen that lists them.
 constexpr std::string_view anyFile = ":f";
 constexpr std::string_view anyFolder = ":d";
 

@@ -354,7 +354,8 @@ void addCameraQuestion(CLI::App& command, InfoOptions& options) {
               "Maximum blur in mm on the sensor that counts as sharp. Default: the sensor's diagonal divided by 1500 "
               "(0.03 mm for 36 x 27 mm)")
         ->group(group);
-    // Leave out the aperture's shape and the aberrations: the report depends only on the aperture's diameter.
+    // Leave out other ways to choose the camera, and settings that don't affect the report: of the aperture, only the
+    // diameter matters.
     std::vector<std::string> unused = {"camera", "cameraFrom", "nodeBlur", "apertureImage"};
     for (const LensField& field : lensFields())
         if (field.section == LensSection::aperture) unused.emplace_back(field.name);

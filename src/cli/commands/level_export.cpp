@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t longestStem = 80;  // max bytes; file systems allow 255 for a file name
+constexpr std::size_t longestStem = 80;  // max bytes; leaves room for suffixes, as file systems allow 255 bytes
 
 // Returns `name` as a file name: only ASCII letters, digits and "-_.", without a leading dot.
 std::string safeStem(const std::string& name) {

@@ -19,7 +19,7 @@ std::filesystem::path levelFile(const std::filesystem::path& folder, const std::
 // Creates the folder before any long work. Throws Error if the folder or `firstFile` cannot be written.
 void prepareFolder(const std::filesystem::path& folder, const std::filesystem::path& firstFile);
 
-// Returns a level of a pyramid as a mesh, without materials, skin and morph targets.
+// Returns a level of a pyramid as a mesh, without materials, skin or morph targets.
 Mesh levelMesh(const Pyramid& pyramid, std::size_t level, const std::string& name);
 
 }  // namespace defocus::engine

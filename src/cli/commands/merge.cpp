@@ -29,7 +29,7 @@ struct MergeArguments {
     std::optional<double> exposure;  // EV; nullopt: exposure in the metadata of the parts
 };
 
-// Returns the exposure (EV) in the metadata of a part of a frame; 0 if the metadata contains none.
+// Returns the exposure (EV) stored in the metadata; 0 if there is none.
 double ownExposure(const Metadata& metadata) {
     const double* value = attributeOf<double>(metadata, "defocus:exposure");
     return value != nullptr ? *value : 0;

@@ -39,9 +39,9 @@ struct RefocusArguments {
     std::vector<std::filesystem::path> outputs = {"out.exr"};
     Request request;                 // only the settings listed by ownSettings() are used
     std::optional<double> exposure;  // exposure in EV; nullopt: as rendered
-    std::filesystem::path page;      // if not empty, write a web page to this file instead of outputs
+    std::filesystem::path page;      // if not empty, write an interactive web page to this file instead of images
     FocusPullFilm pull;              // video of a focus pull; written if pull.video isn't empty
-    // true: blur each lens image to fill the gaps between the copies of an out-of-focus point, one in each lens image
+    // true: blur each lens image, so that points out of focus don't appear as separate copies, one per lens image
     bool fillGaps = true;
     int stack = 0;  // number of pictures in a focal stack; 0: write one picture
 };

@@ -188,7 +188,7 @@ std::optional<PartialImage> partialImage(FrameOutput& output, SceneDriver& drive
                         frame.sampleTotal()};
 }
 
-// Writes the image of an interrupted render. Returns the message that the render was stopped.
+// Writes the image of an interrupted render. Returns a message for the user with the number of samples drawn.
 std::string writePartial(const std::vector<std::filesystem::path>& outputs, const PartialImage& partial) {
     for (const std::filesystem::path& path : outputs)
         writeOutput(path, partial.image, partial.metadata, partial.options);
@@ -196,9 +196,9 @@ std::string writePartial(const std::vector<std::filesystem::path>& outputs, cons
                        partial.sampleTotal);
 }
 
-// Keeps a copy of the image of the samples drawn so far. If a signal arrives within a long draw, this copy is written.
-// The copy is renewed at most twice a second, because reading an image takes time. Between short draws, the main thread
-// handles the signal itself.
+// Keeps a copy of the unfinished image, which is written if a signal arrives during a long draw. The copy is renewed at
+// most twice a second, because reading an image takes time. Between short draws, the main thread handles the signal
+// itself.
 class PartialCopies {
 public:
     PartialCopies(FrameOutput& output, SceneDriver& driver, const std::vector<std::filesystem::path>& outputs)

@@ -32,7 +32,7 @@ struct RenderArguments {
     bool keepPartial = false;                // true: if a signal stops the run, write the image of the samples so far
 };
 
-// Adds all options of the command. `arguments` must outlive the parsing.
+// Adds all options of the command. `arguments` must exist until the command line is parsed.
 void addRenderOptions(CLI::App& command, RenderArguments& arguments);
 
 }  // namespace defocus::engine

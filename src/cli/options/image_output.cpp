@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns the extension of an output to standard output: ".exr" for "exr:-".
+// Returns the file extension for an image on standard output: ".exr" for "exr:-".
 std::string streamExtension(const fs::path& output) {
     const std::string text = output.string();
     return text == "-" ? ".png" : "." + text.substr(0, text.find(':'));

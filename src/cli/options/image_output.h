@@ -11,7 +11,8 @@
 
 namespace defocus::engine {
 
-// Adds the option --output, which takes one or more images and sets `outputs`. --help shows out.exr as its default.
+// Adds the option --output, which stores the paths of one or more images in `outputs`. --help shows out.exr as its
+// default.
 CLI::Option* addImageOutputs(CLI::App& command, std::vector<std::filesystem::path>& outputs);
 
 bool isStandardOutput(const std::filesystem::path& output);
@@ -21,9 +22,10 @@ std::string shownOutput(const std::filesystem::path& output);
 // Returns the names of all outputs (see shownOutput), separated by commas.
 std::string shownOutputs(const std::vector<std::filesystem::path>& outputs);
 
-// Checks all outputs of a command. Throws Error for an unknown format, an unwritable file, an image to a terminal, two
-// outputs to the same file or to standard output, and an output that would replace an input. `more`: other files that
-// the command writes, such as figures. `inputs`: files that the command reads; empty and missing paths are ignored.
+// Checks all outputs of a command. Throws Error if a format is unknown, a file cannot be written, an image would go to
+// a terminal, an output would replace an input, or two outputs go to the same file or to standard output. `more`: other
+// files that the command writes, such as figures. `inputs`: files that the command reads; empty and missing paths are
+// ignored.
 void checkImageOutputs(const std::vector<std::filesystem::path>& images, const std::vector<std::filesystem::path>& more,
                        const std::vector<std::filesystem::path>& inputs);
 

@@ -35,7 +35,8 @@ CLI::Option* addNumber(CLI::App& command, const std::string& names, double& targ
 }
 
 bool isEveryday(const CLI::Option& option) {
-    return option.get_configurable() || option.get_name().starts_with("--help");  // CLI11 makes --help not configurable
+    // CLI11 marks --help as not configurable, although --help lists this option.
+    return option.get_configurable() || option.get_name().starts_with("--help");
 }
 
 std::vector<std::string> namesOf(const CLI::Option& option) {

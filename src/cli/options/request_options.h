@@ -11,7 +11,7 @@
 namespace defocus::engine {
 
 // Adds an option for each of the settings `names`. Options that set the same value exclude each other. `request`
-// provides the defaults in --help and must outlive the parsing.
+// provides the defaults in --help and must exist until the command line is parsed.
 void addSettings(CLI::App& command, Request& request, const std::vector<std::string>& names);
 
 // Rewrites boolean options with a value, because CLI flags take no value: "--dof false" and "--dof=false" become
@@ -25,7 +25,8 @@ std::vector<std::string> settingsOf(const std::vector<SettingGroup>& groups,
 // Adds an option for each setting of each method. Settings with the same name in several methods share one option.
 void addMethodSettings(CLI::App& command, Request& request);
 
-// Adds the options for developers of the program. Call this last, so that --help ends with these options.
+// Adds the options for developers of the program, except the settings `without`. Call this last, so that --help ends
+// with these options.
 void addDeveloperSettings(CLI::App& command, Request& request, const std::vector<std::string>& without = {});
 
 // Returns the setting that an option sets; null for an option that the command defines itself, even if the option has a

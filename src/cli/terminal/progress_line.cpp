@@ -29,8 +29,8 @@ std::string progressLine(std::string_view stage, double share, std::optional<dou
     const std::string percent = fmt::format("{:.0f} %", 100 * share);
     const std::string time = left ? fmt::format(", {} left", durationText(*left)) : std::string();
 
-    // The bar fills the columns that the text leaves. Space for the longest time text is reserved, so that the bar's
-    // length stays constant during a stage.
+    // The bar fills the columns that the text leaves free. Space for the longest time text is reserved, so that the
+    // bar's length stays constant during a stage.
     const std::size_t words = stage.size() + 1 + 3 + std::string_view("100 %, 59:59 min left").size();
     if (room >= words + narrowestBar)
         return fmt::format("{} {} {:>5}{}", stage, bar(share, std::min(room - words, widestBar)), percent, time);

@@ -8,8 +8,8 @@
 namespace defocus::engine {
 
 // Returns a line such as "samples [####----]  42 %, 12 s left", shorter than `columns`, so that no terminal wraps it.
-// If space is short, the function omits in this order: the bar, the stage's name after its first word, the time, the
-// first word. `share`: finished fraction, 0 … 1. `left`: remaining seconds; nullopt: unknown.
+// If space is short, the function omits in this order: the bar, all words of the stage's name but the first, the time,
+// the first word. `share`: finished fraction, 0 … 1. `left`: remaining seconds; nullopt: unknown.
 std::string progressLine(std::string_view stage, double share, std::optional<double> left, int columns);
 
 // Estimates the remaining time of a task. Stages with the same first word, such as the frames of a shot, count as one

@@ -28,7 +28,7 @@ sem_t wake;  // posted by the signal handler, in which sem_post is safe
 struct End {
     std::mutex mutex;
     std::function<std::string()> save = [] { return std::string("stopped"); };
-    bool byOther = false;  // true: another thread ends the process
+    bool byOther = false;  // true: the thread that called endWithoutSecondThread() ends the process
 };
 
 End& end() {

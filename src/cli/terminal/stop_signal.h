@@ -18,8 +18,8 @@ void setStopMessage(std::string message);
 // returns the line to print, instead of the line set by setStopMessage(). The function may run while the main thread is
 // inside a draw.
 void setStopAction(std::function<std::string()> save);
-// Makes the calling thread, instead of the watchdog thread, responsible for saving finished results and for ending the
-// process. Doesn't return if the watchdog thread (the "second thread" in names) has begun to end the process.
+// Makes the calling thread, instead of the watchdog thread (the "second thread"), responsible for saving finished
+// results and for ending the process. Doesn't return if the watchdog thread has begun to end the process.
 void endWithoutSecondThread();
 
 }  // namespace defocus::engine

@@ -98,8 +98,8 @@ public:
     }
 
     bool advance() override { return walk_.advance(); }
-    // Returns the number of samples drawn so far, averaged over all rows. The 1e-6 keeps a rounding error of share()
-    // from lowering the result by one.
+    // Returns the number of samples drawn so far, averaged over all rows. 1e-6 is added so that a rounding error of
+    // share(), the finished fraction, can't lower the result by one.
     [[nodiscard]] std::uint32_t samples() const override {
         return static_cast<std::uint32_t>(sampleTotal() * share() + 1e-6);
     }
@@ -147,8 +147,8 @@ public:
         part_.width = plan_.view.width;
         part_.height = plan_.view.height;
         if (count() == 0) return;  // the frame has no samples in the requested range
-        // Cat's eye and axial chromatic aberration weight the samples of a frame relative to each other, so partial
-        // sums of such frames cannot be merged.
+        // With cat's eye and axial chromatic aberration, the weights of samples are normalized over all samples of the
+        // frame, so partial sums cannot be merged.
         const Lens& lens = plan_.view.lens;
         if (plan_.usesLens && (lens.catEye > 0 || lens.axialChromaticAberration != 0))
             fail(

@@ -73,7 +73,8 @@ public:
 
     // Returns whether a frame was started. All functions below require a started frame.
     [[nodiscard]] bool started() const { return drawing_ != nullptr; }
-    [[nodiscard]] std::uint32_t samples() const;  // samples drawn so far; in tiles: mean over all rows, rounded down
+    // Number of samples drawn so far; for a frame in tiles, the mean over all rows, rounded down.
+    [[nodiscard]] std::uint32_t samples() const;
     [[nodiscard]] std::uint32_t sampleTotal() const;  // expected number of samples of the complete frame
     [[nodiscard]] double share() const;               // finished fraction of the work, 0 … 1; never decreases
     [[nodiscard]] const FramePlan& plan() const;      // plan of the complete frame

@@ -130,7 +130,8 @@ void FrameOutput::findShare() {
 void FrameOutput::start(const Progress& progress) {
     const Request& request = driver_.request();
     check(files_, request);
-    static_cast<void>(driver_.writeOptions());  // meter the exposure before the frame allocates memory
+    // Meter the exposure (in writeOptions) before the frame allocates memory.
+    static_cast<void>(driver_.writeOptions());
     wanted_ = {0, request.size.height};
     parts_ = {.samples = files_.samples, .untiledReason = files_.untiledReason, .shortDraws = files_.keepPartial};
     if (files_.untiledReason.empty() && !files_.samples)

@@ -21,8 +21,8 @@ namespace defocus::engine {
 
 struct FrameFiles {
     std::vector<std::filesystem::path> outputs;  // at least one file; a part of a frame is written to the first
-    std::optional<SampleRange> samples;          // write only partial sums over these samples, for the command `merge`
-    std::optional<Share> share;                  // write only this part of the rows, for the command `merge`
+    std::optional<SampleRange> samples;          // write only partial sums of these samples, for `merge`; nullopt: all
+    std::optional<Share> share;                  // part of the rows to write, for `merge`; nullopt: all rows
     bool resume = false;                         // keep rows that an interrupted run with the same settings finished
     std::string untiledReason;                   // reason why tiles are forbidden; empty: tiles are allowed
     bool keepPartial = false;                    // true: partialImage() returns the image of the samples so far
@@ -47,8 +47,8 @@ public:
     std::optional<Image> finish();
 
     [[nodiscard]] double share() const;  // finished fraction of the work, 0 … 1, including rows of an earlier run
-    // Returns the image of the samples drawn so far if FrameFiles::keepPartial is set, for an interrupted run; nullopt
-    // before the first sample, for parts of a frame, and for frames in tiles.
+    // Returns the image of the samples drawn so far, to be saved when a run is interrupted. Returns nullopt without
+    // FrameFiles::keepPartial, before the first sample, for parts of a frame, and for frames in tiles.
     [[nodiscard]] std::optional<Image> partialImage();
     // Returns the message about the files that an interrupted run leaves on disk, such as "stopped: 96 of 768 rows are
     // kept in out.tiles; …".

@@ -46,7 +46,7 @@ bool holds(const Metadata& metadata, const char* name, const std::string& text) 
     return found != nullptr && *found == text;
 }
 
-// Returns the image stored at `path`; nullopt if the file is missing, damaged or has a hash other than `hash`.
+// Returns the image stored at `path`; nullopt if the file is missing or damaged, or its hash is not `hash`.
 std::optional<Part> stored(const fs::path& path, std::uint64_t hash, Metadata& metadata) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) return {};
@@ -101,7 +101,7 @@ Part rendered(const World& world, const View& view, const ReferenceOptions& opti
     settings.firstSample = referenceOffset + half.first;
     settings.lod = LodMode::off;
     settings.shadows = options.shadows;
-    settings.keepAll = true;  // without culling, the reference has no culling error
+    settings.keepAll = true;  // disable culling, which could cause errors
     RendererOptions precise = options.renderer;
     precise.layerFormat = LayerFormat::rgba32f;
     precise.settings.clear();
@@ -130,8 +130,8 @@ Half secondHalf(std::uint32_t samples) {
     return {samples / 2, samples - samples / 2};
 }
 
-// Sets the reference's image to the mean of its two halves, and the estimate of its error to the difference between
-// that mean and one half.
+// Sets the reference's image to the mean of its two halves `one` and `other`, and its estimated error to the difference
+// between this mean and `one`.
 void complete(ReferenceImage& reference, const Part& one, const Part& other) {
     reference.image = meanOf(one.image, firstHalf(reference.samples), other.image, secondHalf(reference.samples));
     reference.remaining = compareImages(reference.image, one.image);

@@ -26,7 +26,7 @@ inline constexpr std::uint32_t referenceOffset = 1u << 20;
 inline constexpr Sequence referenceSequence = Sequence::halton;
 
 struct ReferenceOptions {
-    std::uint32_t samples = 4096;  // number of lens samples of both halves together, 2 … maxSamples
+    std::uint32_t samples = 4096;  // total number of lens samples in the reference's two halves, 2 … maxSamples
     RendererOptions renderer;      // RendererOptions::layerFormat is ignored
     Shadows shadows = Shadows::automatic;
 };
@@ -52,9 +52,8 @@ ReferenceImage renderedReference(const World& world, const View& view, const Ref
 // Computes ReferenceImage::hash without rendering the image. Needs no mesh pyramids.
 std::uint64_t referenceHash(const World& world, const View& view, const ReferenceOptions& options);
 
-// Returns whether the folder holds a file of another reference: a complete image, or an image of the first half of its
-// samples, whose hash is not `hash`. referenceImage() would replace that file. Files that cannot be read as images are
-// ignored.
+// Returns whether the folder holds a reference with a hash other than `hash`: its complete image, or the image of the
+// first half of its samples. referenceImage() would replace that file. Files that cannot be read as images are ignored.
 bool holdsOtherReference(const std::filesystem::path& folder, std::uint64_t hash);
 
 // Returns the image in `folder`/reference.exr if that file is complete and its hash equals referenceHash(). Otherwise

@@ -126,7 +126,7 @@ void SceneDriver::handOnPyramids(PreparedFrame& next, std::size_t kind) {
 }
 
 void SceneDriver::start(const Request& request, const FrameParts& parts, const Progress& progress) {
-    // Run all steps that may fail because of the request before the previous frame is replaced.
+    // Before the previous frame is replaced, run all steps that an invalid request can cause to fail.
     checkRequest(request);
     if (named_ && !sameScene(request, first_))
         throw UsageError("the request names another scene; create a SceneRenderer for it");

@@ -102,8 +102,8 @@ private:
     bool named_;  // true: the request names the scene; false: the caller passed the scene
     std::filesystem::path shaderFolder_;
     Request first_, request_;
-    std::shared_ptr<Scene> scene_;                                  // may be shared with other owners; never modified
-    PreparedFrame frame_;                                           // frame of request_; driver_ refers to frame_.world
+    std::shared_ptr<Scene> scene_;  // may be shared with other owners; never modified
+    PreparedFrame frame_;           // frame of request_; must outlive driver_, which refers to frame_.world
     std::array<std::vector<Pyramid>, pyramidKinds> otherPyramids_;  // pyramids for later frames, indexed by pyramidKind
     double loadMilliseconds_ = 0;
     double pyramidMilliseconds_ = 0;

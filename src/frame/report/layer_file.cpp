@@ -26,7 +26,7 @@ NamedChannels named(const std::string& layer, std::span<const char* const> chann
     return result;
 }
 
-// Returns the names of all objects or materials, in the order of their indices in NumberCounts.
+// Returns the names of all objects or materials. The indices in NumberCounts::values refer to this list.
 std::vector<std::string> namesIn(Layer layer, const Scene& scene, const Pose& pose) {
     std::vector<std::string> names;
     if (layer == Layer::objects) {

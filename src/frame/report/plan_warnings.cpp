@@ -45,17 +45,17 @@ std::string nothingBlurred(const FramePlan& plan) {
         plan.largestBlur, nearest, plan.view.lens.focusDistance, plan.view.lens.fStop, help);
 }
 
-// Distance in px between the images of a blurred point in neighbouring lens samples. With lens cells, each sample's
-// image is blurred by a Gaussian to fill these gaps; `size` is then the standard deviation of the Gaussian in px.
+// Gaps between the images of a blurred point in neighbouring lens samples. With lens cells (parts of the lens), each
+// sample's image is blurred by a Gaussian to fill the gaps.
 struct Gaps {
-    double size = 0;
+    double size = 0;  // gap in px; with lens cells: standard deviation of the Gaussian, px
     double max = 16;  // largest `size` that causes no warning, px
     double good = 8;  // `size` that the settings advised in the warning should achieve, px
 };
 
 Gaps gapsOf(const FramePlan& plan, const MethodUse& use, double blur, std::uint64_t samples) {
     if (const LensCells cells = use.method->blursCells ? lensCells(plan) : LensCells{}; cells.blur > 0) {
-        const double widest = std::sqrt(cellClassVariance(maxCellClasses - 1));  // max σ of the blur by lens cells, px
+        const double widest = std::sqrt(cellClassVariance(maxCellClasses - 1));  // max σ of the Gaussian, px
         return {cells.blur * blur, widest, 0.7 * widest};
     }
     return {blur * std::sqrt(std::numbers::pi / (4.0 * static_cast<double>(samples)))};
@@ -74,7 +74,7 @@ std::string copiesShow(const FramePlan& plan, double blur, const Gaps& gaps, std
         blur, grouped(samples), samples == 1 ? "" : "s", more, roundNumber(scale));
 }
 
-// Returns a warning if the blur of some object is too large for any number of samples; otherwise empty.
+// Returns a warning if the blur of some object is too large to be resolved by lens samples; otherwise empty.
 std::vector<std::string> immenseBlur(const FramePlan& plan) {
     double largest = 0;
     for (const ObjectPlan& object : plan.objects)
@@ -87,8 +87,8 @@ std::vector<std::string> immenseBlur(const FramePlan& plan) {
         roundNumber(plan.view.lens.blurScale * visibleShare * plan.view.width / largest))};
 }
 
-// Returns a warning if the blur varies so much inside triangles that even their maximum subdivision leaves an error;
-// otherwise empty.
+// Returns a warning if the blur varies so much inside triangles that even their maximum subdivision only approximates
+// it; otherwise empty.
 std::vector<std::string> coarseDivisions(const FramePlan& plan) {
     const auto bounded = [](const ObjectPlan& object) {
         return object.refinement == Refinement::subdivide && object.maxParts < maxEdgeParts;

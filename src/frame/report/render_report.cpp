@@ -49,8 +49,8 @@ glm::dmat4 ndcFromWorld(const FramePlan& plan) {
     return ndcFromCamera * cameraFromWorld(plan.view);
 }
 
-// Adds the settings that have Setting::recorded set to the metadata. Camera and lens have attributes of their own and
-// paths are private, so they are left out.
+// Adds to the metadata all settings whose Setting::recorded is true. Leaves out camera and lens, which have attributes
+// of their own, and paths, which are private.
 void addSettings(Metadata& metadata, const Request& request) {
     for (const Setting& setting : settings()) {
         const std::optional<std::string> text = setting.text(request);

@@ -1,6 +1,5 @@
 #pragma once
-// Gives reasons why a setting has no effect in a request. Each function returns a reason, or an empty string if its
-// condition doesn't apply.
+// Gives reasons why a setting has no effect in a request.
 
 #include <initializer_list>
 #include <string>
@@ -11,13 +10,13 @@ namespace defocus::engine {
 
 using Condition = std::string (*)(const SettingContext&);
 
-// Each function returns the reason why a setting has no effect if its condition applies, else an empty string. The
-// names of functions without a comment state their condition.
+// Each function tests one condition under which a setting has no effect. It returns the reason if the condition is met,
+// else an empty string. Functions without a comment are named after their condition.
 
-// Returns why a setting has no effect with a method that draws no lens samples; empty for other methods.
+// Returns why a setting has no effect with a method that has no lens samples; empty for other methods.
 std::string methodWithoutSamples(const SettingContext& context);
-// Returns why a setting has no effect with a method that draws no lens samples, or only one pixel position for each
-// sample; empty for other methods.
+// Returns why a setting has no effect with a method that has no lens samples, or that draws only one subpixel position
+// per lens sample; empty for other methods.
 std::string methodWithoutPositions(const SettingContext& context);
 // Returns why a setting has no effect with a method that supports only round and oval apertures; empty for other
 // methods.

@@ -1,7 +1,7 @@
 #pragma once
 // Defines presets, which are named groups of settings. Applying a preset sets all its settings; settings given later
-// override them. A request doesn't store the name of a preset: it matches a preset as long as all values of the preset
-// are set.
+// override them. A request doesn't store the name of a preset: it matches a preset as long as all the preset's settings
+// have the preset's values.
 
 #include <optional>
 #include <span>

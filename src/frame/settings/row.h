@@ -30,7 +30,7 @@ public:
         setting_.help = std::move(help);
     }
 
-    // Each of the following functions sets one column of the row, a member of Setting.
+    // The following functions set the columns of the row, which are the members of Setting.
     Row&& kind(SettingKind kind) && { return with(&Setting::kind, kind); }
     Row&& metavar(std::string metavar) && { return with(&Setting::metavar, std::move(metavar)); }
     Row&& unit(std::string unit) && { return with(&Setting::unit, std::move(unit)); }

@@ -25,7 +25,7 @@ enum class SettingGroup { scene, camera, lens, samples, method, display, develop
 enum class SettingEffect {
     pixels,   // the setting changes the linear image
     display,  // the setting changes only 8-bit output: PNG, JPEG and video
-    run,      // the setting changes only how the image is computed: time, memory, caches
+    run,      // the setting changes only the time, memory and caches of a run, not the image
 };
 
 // Inputs for deciding whether a setting has an effect.
@@ -48,7 +48,7 @@ struct Setting {
     std::string unit;     // "mm", "m", "s", "px", "degrees" …; empty: none
     double min = 0;       // allowed range, for SettingKind::number and ::integer
     double max = 0;
-    std::vector<std::string> choices;  // allowed words; a number setting also accepts numbers
+    std::vector<std::string> choices;  // allowed words; a numeric setting accepts numbers, too
     std::string help;
     bool everyday = false;              // true: listed by --help; false: only by --help-all
     std::string example;                // example value, for settings that have neither default nor choices
@@ -56,14 +56,14 @@ struct Setting {
     SettingEffect effect = SettingEffect::pixels;
     bool recorded = true;     // true: the setting is written to image metadata
     bool repeated = false;    // true: the option may be given several times; all values are kept
-    bool lensField = false;   // true: a field of lens/lens_fields.h, which a file's camera may also set
+    bool lensField = false;   // true: a lens field (lens/lens_fields.h), which a camera in the scene file may also set
     std::string shotPlace;    // JSON pointer in a shot, "/animation/clip"; empty: not in shots
     bool keyed = false;       // true: a shot may animate the setting with keyframes
     std::string schema;       // JSON schema of the value; empty: derived from the kind
     char arraySeparator = 0;  // separates array elements in the text; 0: the JSON value isn't an array
     Unused unused = {};       // empty function: the setting always has an effect
 
-    // Sets the value from its text. Throws Error, with the allowed values in its message, for any other text.
+    // Parses the text and sets the value. Throws Error, with the allowed values in its message, for an invalid text.
     std::function<void(Request&, const std::string&)> set;
     // Returns the value in the format that set() reads; nullopt if the value is unset.
     std::function<std::optional<std::string>(const Request&)> text;

@@ -50,7 +50,7 @@ void planeThrough(std::span<const glm::dvec3, 3> points, Lens& lens, const std::
         fail(
             "{}: the plane through the three points crosses the view axis at or behind the camera; choose other points",
             what);
-    // The plane equation normal·(X, Y, −w) = normal·points[0], divided by −normal.z, gives mx, my and s (see above).
+    // Dividing the plane equation normal·(X, Y, −w) = normal·points[0] by −normal.z gives w + mx·X + my·Y = s.
     lens.focusSwing = std::atan(-normal.x / normal.z);
     lens.focusTilt = std::atan(-normal.y / normal.z);
     lens.focusDistance = distance;

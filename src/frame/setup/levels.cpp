@@ -27,7 +27,7 @@ bool asksForLevels(const Request& request) {
 }
 
 // Returns the largest diameter of the circle of confusion in px over the scene's bounding box. Ignores the ground and
-// the blur scale of single objects. Returns infinity if the box reaches the near plane.
+// the blur scales of individual objects. Returns infinity if the box reaches the near plane.
 double largestBlur(const PreparedFrame& frame) {
     const View& view = frame.view;
     const Bounds& box = frame.world.pose.bounds;

@@ -1,5 +1,5 @@
 #pragma once
-// Chooses the animation and its time for a frame, and opens the shutter for motion blur.
+// Chooses a frame's animation, its time, and its exposure interval for motion blur.
 
 #include "frame/request.h"
 #include "plan/motion/shutter.h"

@@ -20,7 +20,7 @@ struct PreparedFrame {
     View view;
     RenderSettings settings;
     std::string sceneName;                 // file name, "fish school", or the name of a scene without a file
-    std::optional<std::string> scaleNote;  // names the guessed unit of the scene; nullopt: no guess
+    std::optional<std::string> scaleNote;  // note for the user about the guessed unit of the scene; nullopt: no guess
     std::string cameraName;
     Lens cameraLens;  // lens of the scene's camera, before the request's lens settings are applied
     std::vector<std::string> refusedLensValues;  // messages about invalid values in the camera's extras
@@ -40,9 +40,9 @@ Scene loadScene(const Request& request, const Progress& progress = {});
 // Error if the request names an object, camera or animation that the scene doesn't have.
 PreparedFrame placeFrame(const Request& request, const Progress& progress = {});
 
-// Places camera, lens and lights for a scene that is already loaded. Does not change the scene: its units, the blur of
-// its nodes, its strokes and its ground must already be set. `environment`: environment map to reuse; null: load the
-// request's map.
+// Places camera, lens and lights for a scene that is already loaded. Does not change the scene: its units, the blur
+// scales of its nodes, its ground, and its points and lines (setStrokes) must already match the request. `environment`:
+// environment map to reuse; null: load the request's map.
 PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& request,
                          const Environment* environment = nullptr);
 
@@ -53,7 +53,7 @@ void setNodeBlur(const Request& request, Scene& scene);
 // can't be used.
 void setCameraTrack(const Request& request, Scene& scene);
 
-// Returns whether the request names the scene's camera track.
+// Returns whether the scene's camera track comes from the camera file that the request names; true if neither exists.
 bool hasCameraTrack(const Request& request, const Scene& scene);
 
 // Replaces the scene's points and lines by triangles, one pixel wide in the request's view; see scene/strokes.h. The
@@ -67,8 +67,8 @@ void setGround(const Request& request, Scene& scene);
 // Returns the scene's own lights `own`, moved to the scene pose `pose` and with the light sizes that the request sets.
 std::vector<PlacedLight> sizedLights(const Request& request, const std::vector<PlacedLight>& own, const Pose& pose);
 
-// Updates the camera and lens of a frame that placeFrame() returned, for a request that differs from the frame's only
-// in its camera. The lights stay unchanged.
+// Updates the camera and lens of a frame that placeFrame() returned, for a request that differs from the frame's
+// request only in the camera. The lights stay unchanged.
 void placeCamera(PreparedFrame& frame, const Request& request);
 
 // Returns the request's environment. A default sky is scaled to the brightness of the scene's own lights. Throws Error
@@ -99,9 +99,9 @@ std::vector<std::string> damageWarnings(const Scene& scene);
 // Returns one line per entry of Scene::ignored, such as "3 × points: not supported".
 std::vector<std::string> ignoredLines(const Scene& scene);
 
-// Returns all warnings about a prepared frame: damage in its file, a guessed unit, a scene too large or too small,
-// invalid lens values in the camera's extras, a focus that no real lens can have, too many lights, and pyramids that
-// couldn't be stored.
+// Returns all warnings about a prepared frame: a damaged scene file, a guessed unit, a scene too large or too small,
+// invalid lens values in the camera's extras, a focus distance that does not exceed the focal length, too many lights,
+// and pyramids that couldn't be stored.
 std::vector<std::string> frameWarnings(const PreparedFrame& frame);
 
 }  // namespace defocus::engine

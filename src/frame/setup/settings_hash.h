@@ -17,10 +17,11 @@ struct FilmSettings {
     std::uint64_t world = 0;      // worldHash of meshes, materials, environment and shaders
     Request request;              // request with the method, the layer format and other settings that affect pixels
     std::string encoding;         // how pixels are encoded, such as tone map and exposure; empty: linear EXR
-    std::string lensImages = {};  // RefocusRun::text() of frames computed from lens images; else empty
+    std::string lensImages = {};  // identifies the lens images of refocused frames (RefocusRun::text()); else empty
 };
 
-// Returns the settings that `frame` has in common with the other frames of its shot. `frame` needs no pyramids.
+// Returns the settings that `frame` has in common with the other frames of its shot. The pyramids of `frame` need not
+// be built.
 FilmSettings filmSettings(const PreparedFrame& frame, const Request& request,
                           const std::filesystem::path& shaderFolder);
 

@@ -21,7 +21,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr double step = glm::radians(1.0);    // angle of the orbit per frame
-constexpr double settledSeconds = 1;          // time in s that the view rests before the orbit, as in typical use
+constexpr double settledSeconds = 1;          // time in s at rest before the orbit; users also pause before a movement
 constexpr std::uint32_t minStillSamples = 4;  // the window shows an accumulated image from this number of samples on
 constexpr double comparedShares[] = {0.25, 0.5, 0.75};  // fractions of the orbit at which PSNR is measured
 

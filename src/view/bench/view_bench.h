@@ -28,8 +28,8 @@ struct ViewBenchOptions {
 
 struct ViewBenchRow {
     std::string method;          // method and its settings, in the format of MethodUse::text
-    double framesPerSecond = 0;  // mean frame rate over the movement
-    double slowFrame = 0;        // 95th percentile of the frame times over the movement, ms
+    double framesPerSecond = 0;  // mean frame rate while the camera moves
+    double slowFrame = 0;        // 95th percentile of the frame times while the camera moves, ms
     double firstPicture = 0;     // time from the first camera change to the end of the frame that shows it, ms
     FrameQuality quality;        // resolution and lens samples of the last frame of the movement
     double movingPsnr = 0;       // PSNR in dB, from the mean squared error of three frames during the movement

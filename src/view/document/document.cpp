@@ -46,7 +46,7 @@ void sayCacheFailure(const PreparedFrame& frame, ViewState& state) {
     if (!frame.cacheFailure.empty()) sayFault(state, "simplified meshes are not cached: " + frame.cacheFailure);
 }
 
-// Replaces the scene, and resets the state of the previous scene.
+// Replaces the scene, and resets the state that belongs to the previous scene.
 void adoptScene(Document& document, ViewState& state, LoadedScene scene) {
     document.frame = std::move(scene.frame);
     document.draft = scene.draft;
@@ -102,7 +102,8 @@ void stepThroughHistory(Document& document, ViewState& state, const ViewActions&
     state.focusPoints.clear();
 }
 
-// Saves, restores or deletes a saved view. Throws Error if the file of saved views can't be read or written.
+// Saves the current view, or restores or deletes a saved view. Throws Error if the file of saved views can't be read or
+// written.
 void actOnSavedViews(ViewState& state, const ViewActions& actions) {
     std::vector<SavedView> views = state.savedViews;
     if (actions.saveView) {

@@ -15,7 +15,7 @@ struct Document {
     std::unique_ptr<PreparedFrame> frame;  // the scene, ready to draw; null: no scene is open
     bool draft = false;                    // true: `frame` has draft level-of-detail pyramids, not the final ones
     EditHistory history;
-    Request shown;                           // request that `frame` was last updated to match; see updateWorld
+    Request shown;                           // request for which `frame` was last updated; see updateWorld
     bool poseIsStale = false;                // true: the objects must be posed again even if the request is unchanged
     std::vector<double> ownBlurs;            // Node::cocScale of each scene node, as loaded
     std::vector<glm::dmat4> shutterCameras;  // View::shutterCameras; empty unless the view follows the file's camera
@@ -27,7 +27,7 @@ struct Document {
 void openScene(Document& document, const ViewState& state, const std::filesystem::path& scene);
 
 // Takes over the result of the scene loader, if there is one. Returns whether a new scene was opened, which invalidates
-// all references into `frame`. Needs a current GL context.
+// all references into Document::frame. Needs a current GL context.
 bool takeLoadedScene(Document& document, ViewState& state);
 
 // Returns the view that the window shows.

@@ -18,9 +18,9 @@ public:
     // Clears the history. `opened`: initial state of the scene, which reset() returns.
     void begin(const ViewEdit& opened);
 
-    // Receives the state of each frame. `held`: whether a mouse button, a key or a widget is held. `seconds`: time of
-    // the frame. An edit becomes an undo step when `held` becomes false. An edit without holding, such as by mouse
-    // wheel, becomes an undo step after half a second without change.
+    // Receives the state of each frame. `held`: whether a mouse button, a key or a widget is held. `seconds`: current
+    // time, see ViewState::now. An edit becomes an undo step when `held` becomes false. An edit without holding, such
+    // as by mouse wheel, becomes an undo step after half a second without change.
     void note(const ViewEdit& now, bool held, double seconds);
 
     // Return the state before the latest edit (undo) or after the next one (redo). Return nullopt if there is no such

@@ -28,8 +28,8 @@ constexpr auto surroundingsPart = [](auto& request) {
 };
 constexpr auto lightsPart = [](auto& request) { return std::tie(request.lightAngle, request.lightRadius); };
 
-// Calls `update` if the members that `part` selects differ between the state's request and the shown request. Reverts
-// these members in the state if `update` throws.
+// Calls `update` if the members that `part` selects differ between the state's request and the request that is shown.
+// If `update` throws, resets these members of the state to the values that are shown.
 template <typename Part, typename Update>
 void apply(const Part& part, Document& document, ViewState& state, const Update& update) {
     if (part(state.options) == part(document.shown)) return;
@@ -42,8 +42,8 @@ void apply(const Part& part, Document& document, ViewState& state, const Update&
     }
 }
 
-// Returns the state's request with the file's camera `camera`. Removes the camera position of the request, and replaces
-// a focus that depends on pixels of the image with the camera's own focus.
+// Returns the state's request with the file's camera `camera`. Removes the camera position of the request. If the focus
+// depends on pixels of the image, uses the camera's own focus instead.
 Request cameraRequest(const ViewState& state, const CameraChoice& camera) {
     Request request = state.options;
     request.camera = camera;
@@ -62,8 +62,8 @@ void updateLights(Document& document, const ViewState& state) {
     ++document.poseVersion;
 }
 
-// Returns the camera of the file that the view follows, as placed by the current pose. If the view follows no camera,
-// returns a camera at the view's position.
+// Returns the scene file's camera that the view follows, where the current pose places it. If the view follows no
+// camera, returns a camera at the view's position.
 PlacedCamera followedCamera(const Document& document, const ViewState& state) {
     const double aspect = static_cast<double>(state.pictureSize.x) / state.pictureSize.y;
     const PreparedFrame& frame = *document.frame;

@@ -32,7 +32,7 @@ float labelWidth(const Ui& ui, const std::string& text);
 
 std::string distanceText(double metres);
 
-// Draws messages, progress and the list of keys.
+// Draws messages, progress and the list of keyboard shortcuts.
 void drawNotices(const Ui& ui);
 
 // Draws the colour scale of the current overlay. `status`: top right corner of the status labels at the bottom left.

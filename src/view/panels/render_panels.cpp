@@ -54,8 +54,8 @@ void backgroundCombo(Background& background) {
         background = choices[chosen];
 }
 
-// Draws the row that applies a preset: the settings of a published paper. The window stores the lens separately from
-// the other settings, so the lens values that the preset sets or resets are also copied to that lens.
+// Draws the row that applies a preset: the settings of a published paper. The window stores the lens separately
+// (ViewState::lens), so the lens values of the previous and the new preset are also updated there.
 void presetRow(ViewState& state) {
     const Preset* const before = presetOf(state.options);
     if (!settingRow(state.options, "preset", presets().front().name)) return;

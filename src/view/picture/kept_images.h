@@ -15,10 +15,10 @@
 
 namespace defocus::engine {
 
-// Returns the range of focus distances for which lens images of the view are stored: from the nearest to the farthest
-// bounding box of the plan's objects. The range is limited to distances at which a lens image shifts by at most an
-// eighth of the picture's longer side, and it contains the view's own focus distance. Throws the errors of
-// lightFieldInfo().
+// Returns the range of focus distances for which lens images (one per lens sample) of the view are stored: from the
+// nearest to the farthest bounding box of the plan's objects. The range is limited to distances at which a lens image
+// shifts by at most an eighth of the picture's longer side, and it contains the view's own focus distance. Throws Error
+// in the same cases as lightFieldInfo().
 FocusRange keptRange(const View& view, const FramePlan& plan);
 
 class KeptImages {
@@ -29,13 +29,13 @@ public:
     // `world` must outlive this object. `software`: OpenGL runs on the CPU. Needs a current GL context.
     KeptImages(const World& world, RendererOptions options, bool software);
 
-    // Plans the lens images of a view: maxImages, or as many as fit into `bytes` and into a quarter of the free memory.
-    // Replaces the lens images of the previous view. `plan`: a plan of the view. If the lens or the memory doesn't
-    // allow lens images, none are planned; see obstacle().
+    // Plans the lens images of a view: at most maxImages, and only as many as fit into `bytes` and into a quarter of
+    // the free memory. Replaces the lens images of the previous view. `plan`: frame plan of the view. If the lens or
+    // the memory doesn't allow lens images, none are planned; see obstacle().
     void begin(const View& view, const RenderSettings& settings, const FramePlan& plan, std::uint64_t bytes);
     // Draws at least one lens image, and more until about `milliseconds` have passed. Returns false once all are drawn.
     bool grow(double milliseconds);
-    // Frees the memory of all lens images (images of single lens samples).
+    // Frees the memory of all lens images.
     void discard();
 
     // Returns the number of lens images drawn so far, and the number planned; both are 0 without a plan.

@@ -35,7 +35,7 @@ std::optional<PictureSide> comparedSide(const ViewState& state, const PictureSid
 }
 
 // Returns the focus distance (m) of the popping test at `seconds` after its start. The focus moves from the nearest to
-// the farthest object and back, as a cosine in 1/distance.
+// the farthest object and back; 1/distance follows a cosine over time.
 double poppingFocus(const FramePlan& plan, double nearPlane, double seconds) {
     double nearest = 1e6;
     double farthest = 1e-3;

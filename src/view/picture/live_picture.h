@@ -12,7 +12,7 @@ struct LivePicture {
     std::vector<std::string> warnings;  // warnings about the picture; empty while the view moves
 
     bool meterDue = false;                                       // true: the view has moved since the last metering
-    std::vector<std::string> clipping;                           // warnings about clipping
+    std::vector<std::string> clipping;                           // warnings that the picture is mostly white or black
     std::optional<std::pair<double, ToneMap>> clippingKnownFor;  // EV and tone map of the last clipping check
 };
 
@@ -22,8 +22,9 @@ std::string sideLabel(const PictureSide& side);
 // Adds samples to the picture of a view at rest; see ViewPicture::grow.
 void growPicture(LivePicture& picture, const Document& document, const ViewState& state);
 
-// Updates the picture so that it matches document and state. Turns off a method or comparison that fails, with a
-// message. `restOfFrame`: see PictureRequest. `exporting`: the exposure must not change.
+// Updates the picture so that it matches document and state. If a method or comparison fails, turns it off and shows a
+// message. `restOfFrame`: see PictureRequest. `exporting`: whether an export is running; if so, the exposure is not
+// metered again.
 void updatePicture(LivePicture& picture, Document& document, ViewState& state, bool software, double restOfFrame,
                    bool exporting);
 

@@ -319,8 +319,8 @@ void ViewPicture::present(const PictureRequest& request) {
     }
     displayTimer_.reset();
     displayTimer_.begin();
-    // Draw frames of a moving view at their reduced resolution, because the display pass is slow on a CPU. The window
-    // enlarges the result.
+    // While the view moves, draw at the reduced resolution of the rendered image, because the display pass is slow on a
+    // CPU. The window scales the result up.
     const TextureInfo& image = inputs.first->info();
     const bool fullSize = growing_ || display.wireframe;
     display_.draw(inputs, display, fullSize ? request.view.width : image.width,

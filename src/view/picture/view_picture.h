@@ -5,8 +5,8 @@
 //
 // After the first batch of samples of a view at rest, the images of its lens samples are also drawn and kept as lens
 // images (kept_images.h). If only the focus distance or the f-number changes, the picture is computed from these images
-// until the accumulated image has as many samples. If OpenGL runs on the CPU and adding all images takes longer than
-// the budget, fewer images are added until the view rests.
+// until the accumulated image has as many samples. If OpenGL runs on the CPU and summing all these images takes longer
+// than the budget, only some of them are used until the view rests.
 
 #include <chrono>
 #include <memory>
@@ -36,12 +36,12 @@ struct PictureRequest {
     View view;                       // view at the window's resolution
     RenderSettings settings;         // settings; level thresholds, if set, replace the defaults
     std::string settingsKey;         // text that identifies the settings; when it changes, the image is restarted
-    std::uint64_t poseVersion = 0;   // value of Document::poseVersion
+    std::uint64_t poseVersion = 0;   // Document::poseVersion of the pose to draw
     std::vector<PictureSide> sides;  // one element, or the left and the right side of a comparison
     DisplaySettings display;
     std::uint32_t maxSamples = 4096;
     std::optional<double> targetError;         // estimated error below which accumulation stops
-    std::optional<FrameQuality> fixedQuality;  // replaces the quality chosen by the budget; disables accumulation
+    std::optional<FrameQuality> fixedQuality;  // replaces the quality that fits the budget; disables accumulation
     double restOfFrame = 0;                    // time that the interface takes from the frame's budget, ms
     std::uint64_t imageBytes = 0;              // max size of the kept lens images in bytes; 0: none are kept
 };
@@ -54,8 +54,8 @@ public:
     // Adds samples to the image of a view at rest for about the budget's time, at least 60 ms if OpenGL runs on the
     // CPU. Call this before fetching the events of a frame, so that the frame reacts to events that arrive meanwhile.
     void grow(const FrameBudget& budget);
-    // Updates the picture to match the request. While the view changes, draws a frame in about the budget's time. Then
-    // chooses the quality of the next frame and stores it in `budget`.
+    // Updates the picture to match the request. While the view changes, draws a frame that takes about as long as the
+    // budget allows. Then chooses the quality of the next frame and stores it in `budget`.
     void update(const PictureRequest& request, FrameBudget& budget);
 
     [[nodiscard]] const GlTexture& texture() const { return display_.texture(); }
@@ -83,7 +83,8 @@ public:
     // Returns the right side of a comparison; null without a comparison.
     [[nodiscard]] const PictureSide* secondSide() const { return sides_.size() > 1 ? &sides_[1]->shows : nullptr; }
     [[nodiscard]] const PictureSide& firstSide() const { return sides_[0]->shows; }
-    [[nodiscard]] std::optional<double> psnr() const { return psnr_; }  // PSNR in dB between the two sides
+    // Returns the PSNR in dB between the two sides of a comparison.
+    [[nodiscard]] std::optional<double> psnr() const { return psnr_; }
     [[nodiscard]] std::uint32_t workSamples() const { return work_ ? work_->samples() : 0; }
     [[nodiscard]] std::uint32_t wave() const { return sides_.empty() ? 0 : first().stats().wave; }
     // Returns the times of the latest frame. The GPU passes are timed with timer queries, the set-up by wall clock.

@@ -23,7 +23,7 @@ struct ViewCamera {
 // perpendicular to the view. The elevation is clamped short of straight up and straight down.
 ViewCamera orbited(const ViewCamera& camera, double right, double up);
 
-// Rotates the camera about its own position; the angles are those of orbited().
+// Rotates the camera about its own position. `right` and `up`: see orbited().
 ViewCamera turned(const ViewCamera& camera, double right, double up);
 
 // Moves the camera and its pivot parallel to the image, in metres along the camera's right and up axes.

@@ -17,8 +17,8 @@ struct FrameQuality {
 };
 
 // Returns the qualities from the cheapest to the best. None has less than half the window's resolution or more than
-// four times the usual level-of-detail thresholds, because outlines would look jagged and broken. The cheapest quality
-// is a pinhole image with sharp outlines.
+// four times the usual level-of-detail thresholds, because outlines would then look jagged and broken. The cheapest
+// quality is a pinhole image with sharp outlines.
 inline std::span<const FrameQuality> frameQualities() {
     static constexpr FrameQuality qualities[] = {
         {0.5, 1, 4}, {0.5, 2, 4}, {0.5, 4, 4}, {0.5, 8, 4}, {0.5, 16, 4}, {1, 8, 4}, {1, 16, 2}, {1, 32, 1}, {1, 64, 1},
@@ -37,9 +37,9 @@ inline FrameBudget windowBudget(bool software) {
     return software ? FrameBudget{50, 2} : FrameBudget{};
 }
 
-// Chooses the quality of the next frame after a frame that took `measured` ms. Goes down as many rungs of
-// frameQualities() as needed to meet the budget, or up one rung if twice the time would fit. Otherwise keeps the rung,
-// so that the quality doesn't flicker.
+// Chooses the quality of the next frame after a frame that took `measured` ms. Lowers the quality by as many rungs of
+// frameQualities() as needed to meet the budget. Raises it by one rung if about twice the time fits into the budget.
+// Otherwise keeps the rung, so that the quality doesn't flicker.
 inline FrameBudget adapted(FrameBudget budget, double measured) {
     constexpr double tooSlow = 1.15;  // a frame that takes more than this multiple of the budget is too slow
     constexpr double roomToClimb = 0.42;

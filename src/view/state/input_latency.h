@@ -17,8 +17,9 @@ class InputLatency {
 public:
     using Time = std::chrono::steady_clock::time_point;
 
-    // Records that events were fetched that arrived after `since`. The effect of these events may appear some frames
-    // later; the measured time begins with the earliest events whose effect has not appeared yet.
+    // Records that events were fetched. `since`: earliest time at which they may have arrived. The effect of these
+    // events may appear some frames later; the measured time begins with the earliest events whose effect has not
+    // appeared yet.
     void arrived(Time since) {
         if (!waiting_) waiting_ = since;
     }
@@ -29,7 +30,7 @@ public:
         if (answers_.size() > maxAnswers) answers_.pop_front();
         waiting_.reset();
     }
-    // Drops the events whose effect is awaited, because they don't change the picture.
+    // Drops the recorded events, because they did not change the picture.
     void forget() { waiting_.reset(); }
 
     struct Summary {  // latencies in ms of the latest events whose effect was shown

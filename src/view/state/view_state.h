@@ -40,19 +40,19 @@ std::optional<PickedSurface> pickedSurface(const PreparedFrame& frame, const Vie
 
 enum class Navigation { orbit, fly };
 
-// Image that is shown on the right side of the divider and compared with the current settings on the left.
+// Image that is shown to the right of the divider, for comparison with the image of the current settings on the left.
 enum class Comparison {
     none,
     fullDetail,  // image at full detail, with the same lens samples as the image on the left
     nearest,     // image with one level per object (LodMode::nearest)
-    reference,   // image at full detail, with different lens samples from the image on the left
+    reference,   // image at full detail; its lens samples differ from those of the image on the left
     method,      // image drawn with the method ViewState::comparedMethod
 };
 
 struct Message {
     std::string text;
     bool fault = false;
-    double until = 0;  // time at which the message disappears, in s on the clock of ViewState::now
+    double until = 0;  // time at which the message disappears, in s since the window was opened
 };
 
 // Marker of the point that was last clicked to focus; it fades out.
@@ -60,7 +60,7 @@ struct FocusMarker {
     bool shown = false;
     std::uint64_t number = 0;  // number of the click, counted from 1
     glm::dvec3 point{0.0};     // position in world space
-    double since = 0;          // time of the click, in s on the clock of ViewState::now
+    double since = 0;          // time of the click, in s since the window was opened
     std::string name;          // name of the object; empty: no surface was hit
     double distance = 0;       // focus distance, m
 };
@@ -75,7 +75,7 @@ struct SavedView {
     std::string name;
     ViewCamera camera;
     double nearPlane = 0.01;  // m
-    Lens lens;                // lens without aperture image, which saved views don't contain
+    Lens lens;                // lens; its aperture image is neither stored in the file of saved views nor restored
 };
 
 struct ShotKey {
@@ -102,7 +102,8 @@ struct SceneState {
     std::optional<FocusPull> pull;
     FocusMarker marker;
     std::vector<glm::dvec3> focusPoints;  // points in world space; three points determine the plane of focus
-    std::optional<double> poppingSince;   // start of the popping test, in s on the clock of `now`; nullopt: not running
+    // Start of the popping test, in s since the window was opened; nullopt: not running.
+    std::optional<double> poppingSince;
     std::vector<ShotKey> shotKeys;
     std::vector<SavedView> savedViews;
 };
@@ -117,15 +118,15 @@ struct ViewState : ViewEdit, SceneState {
     Navigation navigation = Navigation::orbit;
     double animationSpeed = 1;
 
-    // State of the picture.
-    DisplaySettings display;  // exposure and tone map are ignored: `exposure` and `options` determine them
+    // Settings of the picture.
+    DisplaySettings display;  // exposure and tone map are ignored; ViewEdit's `exposure` and `options` replace them
     Comparison comparison = Comparison::none;
     std::string comparedMethod = "circular";
     FrameBudget budget;
     std::uint32_t maxSamples = 4096;        // max lens samples of a view at rest
     std::uint64_t imageBytes = 1ull << 30;  // max size of the kept lens images in bytes; 0: none are kept
 
-    // State of the window.
+    // Appearance of the window, recent files and messages.
     bool panel = true;
     bool help = false;
     bool dark = true;
@@ -177,7 +178,7 @@ WriteOptions writeOptions(const ViewState& state);
 void say(ViewState& state, std::string text);
 void sayFault(ViewState& state, std::string text);
 
-// Chooses the image on the right side of the divider, and moves the divider into the picture.
+// Chooses the image to the right of the divider. Centres the divider if it is at the picture's right edge.
 void compare(ViewState& state, Comparison comparison);
 
 // Starts a focus pull to `distance` m that takes `seconds`.

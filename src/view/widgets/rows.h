@@ -10,8 +10,9 @@
 namespace defocus::engine {
 
 // Draws the row of the setting `name`. Returns whether the request changed. Values that the setting rejects are
-// ignored. `first`: the value that a checkbox turns on; empty: no checkbox, since the setting always has a value. The
-// overload without `first` uses Setting::example, which is given for every setting that may be unset.
+// ignored. `first`: value that the setting gets when its checkbox is turned on; empty: no checkbox, since the setting
+// always has a value. The overload without `first` uses Setting::example, which is given for every setting that may be
+// unset.
 bool settingRow(Request& request, const std::string& name);
 bool settingRow(Request& request, const std::string& name, const std::string& first);
 

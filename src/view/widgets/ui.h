@@ -9,9 +9,9 @@
 namespace defocus::engine {
 
 struct FrameTimes {
-    double frame = 0;           // time of the latest frame, ms
+    double frame = 0;           // duration of the latest frame, ms
     double interface = 0;       // time for drawing widgets and swapping buffers, ms
-    std::vector<float> recent;  // times of the latest frames, ms
+    std::vector<float> recent;  // durations of the latest frames, ms
     InputLatency latency;
 };
 

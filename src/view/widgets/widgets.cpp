@@ -12,7 +12,7 @@ namespace defocus::engine {
 namespace {
 
 Places& places() {
-    static Places noted;  // a global variable, like ImGui's own state
+    static Places noted;  // recorded widget positions; global, like ImGui's own state
     return noted;
 }
 

@@ -28,7 +28,7 @@ struct Taken {
 
 bool mustWait(const WindowEvent& event, const Taken& taken) {
     using Type = WindowEvent::Type;
-    if (taken.button) return true;  // a click changes the keyboard focus only in the next frame
+    if (taken.button) return true;  // a click changes the keyboard focus only in the next frame, so later events wait
     if (event.type == Type::text) return taken.editingKey;
     if (event.type != Type::key || !event.pressed || event.repeated || isModifier(event.key)) return false;
     const bool otherControl = taken.control && *taken.control != event.control;

@@ -134,7 +134,7 @@ void ViewInput::drag(const WindowEvent& event, ViewState& state) {
         state.camera = panned(state.camera, -step.x * metres, step.y * metres);
         return;
     }
-    // A drag across the picture's shorter side orbits by half a turn.
+    // A drag over the length of the picture's shorter side orbits by half a turn.
     const glm::dvec2 angle = step / std::min(size.x, size.y) * std::numbers::pi;
     state.camera = state.navigation == Navigation::orbit ? orbited(state.camera, -angle.x, -angle.y)
                                                          : turned(state.camera, -0.5 * angle.x, -0.5 * angle.y);

@@ -60,7 +60,8 @@ void ViewInterface::beginFrame(bool dark, double scale, const std::vector<Window
 void ViewInterface::feed(const std::vector<WindowEvent>& events) {
     ImGuiIO& io = ImGui::GetIO();
     GLFWwindow* const window = window_->native();
-    const auto tell = [&](const WindowEvent& event) {  // lets ImGui's GLFW backend map the key by keyboard layout
+    // Passes a key event to ImGui's GLFW backend, which maps the key according to the keyboard layout.
+    const auto tell = [&](const WindowEvent& event) {
         ImGui_ImplGlfw_KeyCallback(window, event.key, 0, event.pressed ? 1 : 0, 0);
     };
     if (const bool focused = window_->focused(); focused != std::exchange(focused_, focused) && !focused)

@@ -87,9 +87,10 @@ void updateFrame(Session& session, const std::vector<WindowEvent>& events, doubl
 
 void drawPicture(const Session& session) {
     if (!session.picture.image) return;
-    // The image is flipped, because row 0 of the texture is the bottom row. ImGui identifies textures by pointers.
+    // ImGui identifies textures by pointers.
     const auto texture = static_cast<std::uintptr_t>(session.picture.image->texture().name());
     const ImVec2 end(static_cast<float>(session.state.area.size.x), static_cast<float>(session.state.area.size.y));
+    // Flip the image vertically, because row 0 of the texture is the bottom row.
     ImGui::GetBackgroundDrawList()->AddImage(reinterpret_cast<ImTextureID>(texture), {0, 0}, end, {0, 1}, {1, 0});
 }
 
@@ -132,11 +133,12 @@ void act(Session& session) {
     }
 }
 
-// Ends the latency measurement of input events if the frame shows their effect, or drops it if they have none.
+// Ends the latency measurement if the frame shows the effect of input events. Drops the measurement if the events have
+// no effect.
 void noteLatency(Session& session, bool pictureChanged) {
     if (pictureChanged)
         session.times.latency.shown(Clock::now());
-    else if (!session.state.pull)  // a focus pull that the events have started shows its first step in the next frame
+    else if (!session.state.pull)  // keep measuring during a focus pull, whose first step shows in the next frame
         session.times.latency.forget();
 }
 

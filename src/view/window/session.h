@@ -15,9 +15,9 @@
 namespace defocus::engine {
 
 struct SessionOptions {
-    Request request;                     // all settings; Request::size is the size of the picture
-    std::filesystem::path screenshot;    // file for a screenshot of the last frame; empty: none
-    int frames = 0;                      // number of frames of the complete scene before the window closes; 0: no limit
+    Request request;                   // all settings; Request::size is the size of the picture
+    std::filesystem::path screenshot;  // file for a screenshot of the last frame; empty: none
+    int frames = 0;  // number of frames drawn with the complete scene before the window closes; 0: no limit
     std::filesystem::path shaderFolder;  // replacement shaders; empty: the embedded shaders
     bool quiet = false;                  // true: print no warnings on stderr
     std::filesystem::path stats;         // JSON file to which the window's state is written continuously; empty: none
@@ -44,7 +44,7 @@ struct Session {
     OpenDialog openDialog;
     FrameTimes times;
 
-    std::deque<WindowEvent> events;                // fetched events that no frame has taken yet
+    std::deque<WindowEvent> events;                // events that were fetched, but not yet handled by a frame
     Clock::time_point queuedSince = Clock::now();  // time at which the earliest of `events` arrived
     Clock::time_point fetchedAt = Clock::now();
     double growthTime = 0;  // time spent in this frame on adding samples to the image of a view at rest, ms
@@ -65,11 +65,11 @@ InputContext inputContext(const Session& session);
 // Sets ViewState::area and pictureSize from the size of the window.
 void layOut(Session& session);
 
-// Returns the events of the next frame. First adds samples to the picture if the view is at rest; waits if nothing else
-// is to be done.
+// Returns the events of the next frame. First adds samples to the picture if the view is at rest, and waits if there is
+// nothing else to do.
 std::vector<WindowEvent> fetchEvents(Session& session);
 
-// Writes the state to the file SessionOptions::stats several times a second. `now`: whether to write immediately.
+// Writes the state to the file SessionOptions::stats, at most five times a second unless `now` is true.
 void writeStats(Session& session, bool now = false);
 
 }  // namespace defocus::engine

@@ -79,7 +79,8 @@ ordered_json windowJson(const Session& session) {
     const InputLatency::Summary latency = session.times.latency.summary();
     return {
         {"fault", state.fault},
-        // Number of frames drawn. The effect of an input event may appear in these values only two frames later.
+        // Number of frames drawn. Scripts can wait for it: an input event may affect the values in this file only two
+        // frames later.
         {"frames", session.framesDrawn},
         {"typing", inputContext(session).typing},
         {"openPath", state.openPath},
