@@ -28,7 +28,7 @@ inline double edgeTowards(const Lens& lens, const glm::dvec2& p) {
 inline double lightDensity(const Lens& lens, glm::dvec2 p) {
     p.x *= std::max(lens.anamorphicRatio, 1.0);
     p.y /= std::min(lens.anamorphicRatio, 1.0);
-    // Fraction of the aperture's area inside its outline when the outline is scaled to pass through p.
+    // Fraction of the aperture's area that lies inside a copy of its outline, scaled to pass through p.
     const double area = glm::dot(p, p) / std::pow(edgeTowards(lens, p), 2);
     const double hidden = lens.obstruction * lens.obstruction;
     if (area > 1 || area < hidden) return 0;

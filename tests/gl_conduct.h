@@ -19,7 +19,7 @@ bool onSecondDriver();
 
 }  // namespace defocus::engine
 
-// Skips a long test on the second OpenGL driver. In SetUp(), it skips all tests of the fixture.
+// Skips a long test on the second OpenGL driver. If used in SetUp(), skips all tests of the fixture.
 #define SKIP_ON_SECOND_DRIVER()              \
     if (::defocus::engine::onSecondDriver()) \
     GTEST_SKIP() << "takes hundreds of samples; shorter tests use the same driver features"

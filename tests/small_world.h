@@ -118,8 +118,8 @@ inline Environment speckledMap() {
     return {EnvironmentType::map, {}, {}, {}, map, 1};
 }
 
-// Returns five rippled spheres from 1.2 to 9 m, one mirrored and one far outside the frame, lit by a sun and a gradient
-// sky. The lens is f/1, focused at 3 m, and the image has 160 × 120 px.
+// Returns five rippled spheres at depths from 1.2 to 9 m, lit by a sun and a gradient sky. One has a mirrored transform
+// and one is far outside the frame. The lens is f/1, focused at 3 m, and the image has 160 × 120 px.
 inline std::unique_ptr<SmallWorld> fiveSpheres() {
     auto small = std::make_unique<SmallWorld>();
     const Material glossy{.metallicFactor = 0, .roughnessFactor = 0.4f};

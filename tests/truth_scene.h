@@ -31,8 +31,8 @@ struct TruthScene {
 
 namespace truth_detail {
 
-// Focuses at a third of the scene's depth range, and sets the f-number with which the nearest or farthest point is
-// blurred by `blur` px. Lens values of the scene's camera take precedence.
+// Focuses at a third of the scene's depth range, and sets the f-number so that the larger of the blurs of the nearest
+// and the farthest point is `blur` px. Lens values of the scene's camera take precedence.
 inline void setLens(TruthScene& baked, const Camera& camera, double blur) {
     View& view = baked.view;
     const double tanHalf = std::tan(camera.yfov / 2) * view.width / view.height;
@@ -79,9 +79,9 @@ inline RenderSettings fullDetailSettings(std::uint32_t samples, std::uint32_t se
 
 // Signed difference b − a of two images a and b, averaged over blocks of 32 × 32 px and three channels.
 struct BlockDifference {
-    double mean = 0;     // mean difference over the whole image
-    double rms = 0;      // RMS of the blocks' mean differences
-    double largest = 0;  // largest absolute value of the blocks' mean differences
+    double mean = 0;     // mean of the signed differences of all blocks
+    double rms = 0;      // RMS of the signed differences of all blocks
+    double largest = 0;  // largest absolute difference of a block
 };
 
 inline BlockDifference blockDifference(const Image& a, const Image& b) {
@@ -107,8 +107,8 @@ inline BlockDifference blockDifference(const Image& a, const Image& b) {
     return result;
 }
 
-// Displacement of an image `b` against `a`: a shift in px (right, down) and a relative growth about the centre. Both
-// are the least-squares fit of the first-order change b − a ≈ −∇a·(shift + growth·(p − centre)) (Lucas and Kanade
+// Displacement of an image `b` relative to `a`: a shift in px (right, down) and a relative growth about the centre.
+// Both are the least-squares fit of the first-order change b − a ≈ −∇a·(shift + growth·(p − centre)) (Lucas and Kanade
 // 1981).
 struct Misplacement {
     double right = 0;

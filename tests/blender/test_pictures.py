@@ -284,7 +284,8 @@ class Features(unittest.TestCase):
         scene.render.use_motion_blur = False
         still = pictures.rendered("DEFOCUS", scene)[..., 0].sum(axis=0)
         width = math.sqrt(12 * (light @ (x - mean) ** 2 / light.sum() - still @ (x - 48) ** 2 / still.sum()))
-        expected = 0.05 * 96 * 50 / 36  # a path of 0.05 m at a distance of 1 m, in px
+        # length in px of a path of 0.05 m at a distance of 1 m: 50 mm lens, sensor and image 36 mm and 96 px wide
+        expected = 0.05 * 96 * 50 / 36
         pictures.say(f"motion blur: {width:.2f} px, expected {expected:.2f} px")
         self.assertAlmostEqual(mean, 48, delta=0.1)
         self.assertAlmostEqual(width / expected, 1, delta=0.02)
@@ -322,7 +323,7 @@ class Features(unittest.TestCase):
             export.export_gltf = function
         for frame, across in ((0, -0.1), (2, 0.1)):
             (x, y), _ = pictures.disk(first[frame])
-            pixels = 50 / 36 * 48  # pixels per metre at a distance of 1 m
+            pixels = 50 / 36 * 48  # pixels per metre at a distance of 1 m: focal length / sensor width · image width
             self.assertAlmostEqual(x, 23.5 - across * pixels, delta=0.1)
             self.assertAlmostEqual(y, 17.5 + 0.5 * across * pixels, delta=0.1)
         self.assertAlmostEqual(second[0].max(), 0.25, places=3)

@@ -88,8 +88,8 @@ TEST(ShotJson, exposureIsANumberOrAuto) {
     EXPECT_THROW(parseShot(R"({"exposure": "bright"})", "x.json"), Error);
 }
 
-// Positions and distances in a shot are in metres unless the shot names another unit. If a shot has no lengths, the
-// scene's unit is guessed.
+// Positions and distances in a shot are in metres unless the shot names another unit. If it has neither positions nor
+// distances, the scene's unit is guessed.
 TEST(ShotJson, lengthsInAShotAreMetres) {
     const auto unitsOf = [](const char* text) {
         Shot shot = parseShot(text, "x.json");

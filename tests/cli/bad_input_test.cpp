@@ -367,8 +367,8 @@ TEST_F(BadInput, shaderFolderThatIsNone) {
     expectFault(2, "--shader-dir", {"--shader-dir", "missing"});
 }
 
-// The exit code is correct even if stderr is closed or its device is full. If standard output is closed or its device
-// is full, the program fails.
+// An error message that cannot be written, because stderr is closed or its device is full, does not change the exit
+// code. The program fails if stdout is closed or its device is full.
 TEST_F(BadInput, outputsThatCannotBeWrittenTo) {
     const auto exitCode = [&](const std::string& words) {
         const std::string command = fmt::format("cd '{}' && '{}' {}", folder().string(), DEFOCUS_PROGRAM, words);

@@ -17,7 +17,7 @@ using Folder = std::filesystem::path;
 struct Results {
     std::string pixels;   // values of the linear image; empty for commands that render no image
     std::string display;  // content of the PNG file
-    std::string other;    // printed text, rows or statistics, without times
+    std::string other;    // other output (text, rows or statistics) without times, which differ between runs
     bool operator==(const Results&) const = default;
 };
 
@@ -36,8 +36,8 @@ Results printedPyramids(const Folder&, const Outcome& outcome) {
     return {{}, {}, withoutTimes(json::parse(outcome.out)).dump()};
 }
 
-// Returns "limited " for the memory limit that option_cases.h sets, else "". The default limit depends on the free
-// memory, so its number would differ from run to run.
+// Returns "limited " for the memory limit that option_cases.h sets, else "". Omits the number, because the default
+// limit depends on the free memory and differs between runs.
 std::string seenOfLimit(const json& limit) {
     return limit == std::uint64_t{3} << 30 ? "limited " : "";
 }
@@ -148,9 +148,9 @@ private:
     std::map<Words, Results> results_;
 };
 
-// Returns what the setting must change in its test case. The table of settings says that `preset` and `timeLimit` only
-// affect the run. Here both change pixels: a preset sets other settings, and a time limit reduces the number of
-// samples.
+// Returns what the setting must change in its test case. The table of settings declares that `preset` and `timeLimit`
+// do not change pixels themselves. In their test cases they do: a preset sets other settings, and a time limit reduces
+// the number of samples.
 SettingEffect effectOf(const Setting& setting) {
     const bool drawsOtherwise = setting.name == "preset" || setting.name == "timeLimit";
     return drawsOtherwise ? SettingEffect::pixels : setting.effect;

@@ -135,8 +135,8 @@ TEST_F(OwnOption, shaderFolderIsReadOrRefused) {
     }
 }
 
-// A program built from changed sources refuses to write results of `defocus bench` without --allow-changed. The test
-// works for builds from changed and from unchanged sources.
+// A program built from uncommitted sources refuses to write results of `defocus bench` without --allow-changed. The
+// test works for builds from committed and uncommitted sources.
 TEST_F(OwnOption, changedSourcesAreRefusedUnlessAllowed) {
     EXPECT_THROW(refuseChangedSources("out", false, "0123-changed"), Error);
     EXPECT_NO_THROW(refuseChangedSources("out", true, "0123-changed"));
@@ -150,9 +150,9 @@ TEST_F(OwnOption, changedSourcesAreRefusedUnlessAllowed) {
     }
 }
 
-// `bench scaling` varies the scene property that --axes names. The test runs "blur", which takes seconds. --large adds
-// larger scenes to the axis "triangles", which takes minutes. The test therefore checks only the list of scenes on this
-// axis, and that --large without this axis is an error.
+// `bench scaling` varies the scene property that --axes names. The test runs only the axis "blur", which takes seconds.
+// --large adds larger scenes to the axis "triangles", which take minutes and are not run. The test checks that they are
+// listed, and that --large without this axis is an error.
 TEST_F(OwnOption, scalingGoesAlongItsAxis) {
     const Words line = {"bench", "scaling", "--axes", "blur", "--allow-changed"};
     // --runs defaults to three, so 1 proves that the option has an effect.

@@ -18,7 +18,8 @@
 namespace defocus::engine {
 namespace {
 
-// Runs in a child process, because other tests of this process compare the table of settings with its documentation.
+// Adds an undocumented setting to the table of settings. Runs in a child process, because other tests of this process
+// require all settings to be documented.
 void checkNewSetting() {
     addSetting(newSetting());
 

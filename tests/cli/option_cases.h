@@ -34,14 +34,14 @@ struct OptionCase {
     Words with;
     bool still = false;  // whether the scene is a still fish instead of the moving ball
     Words against = {};
-    bool needsDriver = false;  // whether some drivers ignore the option; only the image is then checked
+    bool needsDriver = false;  // some drivers ignore the option, so only its effect on pixels is checked
 };
 
 namespace option_cases {
 
 // Returns a glTF file: in front of a board, a ball of 700 triangles recedes for 2 s and, in the second half, also moves
-// to the right. In a second clip, the ball stands still. A second camera is closer and has its own focus distance. With
-// `lamp`, a lamp above lights the scene; with `pane`, the board is a glass pane.
+// to the right. In a second clip, the ball stands still. A second camera is closer and has its own focus distance. If
+// `lamp` is set, a lamp illuminates the scene from above. If `pane` is set, the board is a glass pane.
 inline std::string movingBall(bool lamp, bool pane = false) {
     const Mesh ball = bumpySphere(24, 16, 0);
     GltfBuilder builder;
@@ -307,7 +307,7 @@ inline const CLI::App& commandNamed(const std::string& names) {
     return *found;
 }
 
-// Returns the name of an option in --help: "--fstop", "SCENE", "-o".
+// Returns an option's name as --help shows it: "--fstop", "SCENE", "-o".
 inline std::string nameOf(const CLI::Option& option) {
     if (!option.get_lnames().empty()) return "--" + option.get_lnames().front();
     return option.get_single_name();

@@ -25,7 +25,8 @@ inline nlohmann::json withoutTimes(const nlohmann::json& value) {
     return rest;
 }
 
-// Returns the pixels of an image as bytes, or "no picture" for a file of partial samples, which only `merge` reads.
+// Returns the pixels of an image as bytes, or "no picture" for a file with only part of the samples, which only `merge`
+// reads.
 inline std::string pixelsIn(const std::filesystem::path& path) try {
     const Image image = readImage(path);
     std::string text = std::to_string(image.width) + " ";

@@ -8,13 +8,13 @@ namespace defocus::engine {
 
 struct OwnOptionCase {
     Words words;                     // the option with its value
-    Words more = {};                 // further options that are on the command lines with and without the option
-    Words without = {};              // options of usualLines() that are on neither of the two command lines
+    Words more = {};                 // further options of both command lines
+    Words without = {};              // options of usualLines() that both command lines omit
     std::vector<Words> before = {};  // command lines to run before the case
 };
 
 // Returns, for each command, arguments with which it runs quickly. If the `words` or `more` of a test case begin with
-// one of these options, they replace it.
+// an option that is also listed here, the value from the test case replaces the listed one.
 inline const std::map<std::string, Words>& usualLines() {
     static const Words ball = {"ball.glb", "--size", "16x12", "--fstop", "0.5"};
     static const Words written = {"-o", "result", "--allow-changed"};

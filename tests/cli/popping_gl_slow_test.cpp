@@ -50,8 +50,8 @@ protected:
         PreparedFrame frame = prepareFrame(options_);
         popping.sampleCounts = {samples};
         popping.plan = frame.settings;
-        // Fixing the thresholds makes the levels independent of the sample count. The thresholds for 32 samples select
-        // levels that are coarse enough for visible changes.
+        // Fixed thresholds make the levels independent of the sample count. The thresholds for 32 samples select levels
+        // that are coarse enough for visible changes.
         popping.plan.metric = metric_;
         fixThresholds(popping.plan, 32);
         double nearest = 0;
@@ -88,7 +88,7 @@ protected:
         options_.lens.blurScale = 4;  // gives this small image as many px of blur as a large one
     }
 
-    // Sets up a fox of 576 triangles, 100 m long. With few pixels and strong blur, coarse levels are drawn.
+    // Selects a fox of 576 triangles, 100 m long, and a strong blur, so that coarse levels are drawn.
     void fox(const std::filesystem::path& path) {
         options_.scene = path;
         options_.units = 1;
@@ -99,7 +99,7 @@ protected:
 
     Request options_;
     LodMetric metric_ = LodMetric::size;
-    double minLevelPop_ = 0.003;  // min RMSE if all samples switch; with a smaller one, the test would prove nothing
+    double minLevelPop_ = 0.003;  // required RMSE if all samples switch levels; below it, the test would prove nothing
 };
 std::unique_ptr<GlContext> NoPopping::context_;
 

@@ -33,7 +33,7 @@ struct ProgramRun {
 
 class ProgramCopies : public testing::Environment {
 public:
-    // Returns the status of waitpid(2), or −1 if the process that makes the forks does not exist.
+    // Returns the status of waitpid(2), or −1 if the process that forks the copies does not exist.
     static int run(const ProgramRun& program) {
         std::string words;  // all strings of the request, each followed by a NUL byte
         const auto add = [&words](const std::string& word) { words += word + '\0'; };
@@ -66,7 +66,7 @@ public:
         process_ = process;
     }
     void TearDown() override {
-        ::close(socket_);  // closing the socket ends the process that makes the forks
+        ::close(socket_);  // closing the socket ends the process that forks the copies
         ::waitpid(process_, nullptr, 0);
         socket_ = -1;
     }

@@ -1,6 +1,6 @@
 #pragma once
-// Writes a shot file with a few small frames of the two squares in two_quads.h: the focus moves from one square to the
-// other while the camera orbits a square.
+// Writes a shot file with a few small frames of the two squares in two_quads.h: the focus moves from the near square to
+// the far one while the camera orbits the near square.
 
 #include <filesystem>
 #include <fstream>

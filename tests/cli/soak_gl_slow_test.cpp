@@ -34,7 +34,8 @@ protected:
 
 // Memory and open file descriptors do not grow during a long video. The test measures both at each write and compares
 // frames 90 … 109 with the last 20 frames: the median memory, and the min number of descriptors. It allows four more
-// descriptors, because other files may be open during a write; a leak in every twentieth frame would add ten.
+// descriptors, because other files may be open during a write. A descriptor leaked in every twentieth frame would add
+// nine.
 TEST_F(Soak, aLongFilmTakesNoMoreMemoryAndLeavesNoHandleOpen) {
     const int frames = roundsOr("DEFOCUS_SOAK_FRAMES", 300);
     nlohmann::json document = shot();

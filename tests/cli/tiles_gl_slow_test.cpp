@@ -66,7 +66,8 @@ TEST_F(ShortOfMemory, aHeavySceneInOnePieceKeepsToIt) {
     EXPECT_LE(stats.at("peakBytes").get<double>(), 1.1 * (500 << 20));
 }
 
-// Tiles at the top of the image show few of the objects. The memory of all other objects also counts towards the limit.
+// Tiles at the top of the image show few of the objects. The objects that a tile does not show also count towards the
+// limit, because they occupy memory.
 TEST_F(ShortOfMemory, aFineSceneInTilesKeepsToIt) {
     const Outcome outcome = run({"render", "--quiet", "--fish", "6", "--size", "1024x768", "--samples", "16", "--lod",
                                  "off", "--memory", "400MiB", "-o", "a.exr", "--stats", "stats.json"});

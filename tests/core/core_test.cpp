@@ -116,8 +116,8 @@ TEST_F(Files, aLinkStaysAndWhatItNamesIsReplaced) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "far"), fs::directory_iterator()), 2) << "nothing is left";
 }
 
-// If the path of a file that the program itself names is a link or a pipe, the program replaces the link or the pipe
-// and never writes through it.
+// If a link or a pipe has the file name that the program itself chooses, the program replaces the link or the pipe and
+// never writes through it.
 TEST_F(Files, ownFilesReplaceLinksAndPipes) {
     fs::create_directory(folder_ / "far");
     const fs::path victim = folder_ / "far" / "victim.txt";

@@ -1,4 +1,4 @@
-// Tests the hash of cache keys and checksums: regular changes in several words do not cancel out.
+// Tests the hash of cache keys and checksums: similar changes in several words do not cancel out.
 
 #include "core/hash.h"
 
@@ -28,8 +28,8 @@ TEST(Hash, mixersKeepTheirValues) {
     EXPECT_EQ(lowbias32(0xffffffffu), 0x6768824au);
 }
 
-// All combinations of flipped signs have different hashes. Among 10^5 random 64-bit values, a collision would have a
-// probability below 3e-10.
+// All combinations of flipped signs have different hashes. A chance collision is unlikely: among 10^5 random 64-bit
+// values, its probability is below 3e-10.
 TEST(Hash, flippedSignsOfFloatsNeverCancel) {
     constexpr std::size_t floats = 16;
     std::vector<float> values(floats, 1.5f);

@@ -134,7 +134,7 @@ TEST(Layering, publicHeadersIncludeOnlyEachOtherAndTheStandardLibrary) {
 
 struct Place {
     const char* pattern;
-    const char* files;  // regular expression for the files that may contain the text
+    const char* files;  // regular expression for the files in which text that matches `pattern` is allowed
 };
 
 TEST(Layering, foreignLibrariesStayInTheirPlace) {

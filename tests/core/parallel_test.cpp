@@ -42,8 +42,8 @@ TEST(Tasks, anExceptionReachesTheOneWhoWaits) {
     }
 }
 
-// Tasks that nobody waits for are dropped, which destroys the last copy of their data. The only worker is busy until
-// the data are destroyed. It gives up after a minute, so that a bug fails the test instead of blocking it.
+// Tasks that nobody waits for are dropped, which destroys the last copy of their data. The only worker waits until the
+// data are destroyed, but at most a minute, so that a bug fails the test instead of blocking it.
 TEST(Tasks, whatNobodyWaitsForIsDropped) {
     if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one core: the thread that adds work does it";
     std::atomic<int> done = 0;

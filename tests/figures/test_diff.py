@@ -19,11 +19,11 @@ def row(samples, median, low, high, flip=0.01, mse=1e-4, ssim=0.99, runs=3):
 
 
 OLD = [row(8, 100, 90, 110), row(16, 200, 190, 210), row(32, 400, 390, 410), row(64, 800, 800, 800), row(256, 10, 9, 11)]
-NEW = [row(32, 500, 411, 510),  # slower than in OLD: all times are above the range there
-       row(16, 150, 130, 190, flip=0.015),  # equally fast: the times in OLD and NEW both include 190 ms
-       row(8, 50, 40, 80),  # faster than in OLD: all times are below the range there
+NEW = [row(32, 500, 411, 510),  # slower: all times (411 … 510 ms) are above the range of OLD (390 … 410 ms)
+       row(16, 150, 130, 190, flip=0.015),  # equally fast: the ranges of times in OLD and NEW overlap at 190 ms
+       row(8, 50, 40, 80),  # faster: all times (40 … 80 ms) are below the range of OLD (90 … 110 ms)
        row(128, 1, 1, 1),
-       row(256, 20, 11, 30)]  # equally fast: the times in OLD and NEW both include 11 ms
+       row(256, 20, 11, 30)]  # equally fast: the ranges of times in OLD and NEW overlap at 11 ms
 
 
 def csv_of(rows):

@@ -61,8 +61,8 @@ TEST(Presets, comeBeforeWhatTheySet) {
 
 // For each object, the plan draws the level whose edge length is nearest, on a logarithmic scale, to a target. The
 // target is the edge length of level 0 times 0.25 (the preset's blur threshold) times the object's score. The score is
-// the blur over the projected edge length of level 0 (Tzeng et al. 2012). The test computes it from the plan's bounding
-// boxes and blur.
+// the blur divided by the projected edge length of level 0 (Tzeng et al. 2012). The test computes the score from the
+// plan's bounding boxes and blur.
 TEST(TzengPlan, drawsTheLevelNearestToTheScore) {
     Request request;
     request.fishCount = 5;
@@ -79,7 +79,7 @@ TEST(TzengPlan, drawsTheLevelNearestToTheScore) {
         const double depth = -0.5 * (object.viewBox.minimum.z + object.viewBox.maximum.z);
         const double edge = pyramid.levels[0].meanEdge * largestScale(object.pose) * plan.view.width /
                             (2 * plan.tanHalfHorizontal * depth);
-        // The blur threshold times the object's score; blur and edge length are in px.
+        // Target edge length relative to level 0: the blur threshold times the object's score.
         const double growth = 0.25 * object.coc.smallest / edge;
         std::size_t expected = 0;
         for (std::size_t l = 1; l < 3; ++l) {

@@ -1,5 +1,5 @@
-// Tests that a target error or a time limit ends a frame before its max number of samples. Requests that do not allow
-// this are rejected.
+// Tests that a target error or a time limit ends a frame before its max number of samples. Both are rejected if they
+// are invalid or if the request's method or motion blur cannot end early.
 
 #include <gtest/gtest.h>
 

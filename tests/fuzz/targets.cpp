@@ -194,7 +194,7 @@ const Mesh& cachedMesh() {
     return mesh;
 }
 
-// Reads the bytes as a cache file after correcting its key and checksum, which mutations would never match.
+// Corrects the key and the checksum, which would be wrong after any mutation, and reads the bytes as a cache file.
 void runCache(std::span<const std::byte> bytes) {
     const PyramidKey key = pyramidKey(cachedMesh(), {});
     Bytes file(bytes.begin(), bytes.end());

@@ -163,7 +163,7 @@ TEST_F(GlTexelBuffer, beyondTheDriversLimitNamesWhatItHolds) {
     GLint max = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max);
     const std::size_t count = static_cast<std::size_t>(max) + 1;
-    // calloc() reserves `count` floats that are never accessed, so they take no physical memory.
+    // Deleter for memory from calloc(), which takes no physical memory until it is accessed.
     struct Freed {
         void operator()(void* memory) const { std::free(memory); }
     };

@@ -72,8 +72,8 @@ TEST_F(GlProgram, includesStandWhereTheyAreNamedEachTime) {
 
 TEST_F(GlProgram, theFoldersShaderReplacesTheEmbeddedOne) {
     writeShader("replaced.frag", "out vec4 value;\nvoid main() { value = vec4(1); }\n");
-    // The test's shader replaces the embedded full-screen shader. Its position is outside the clip volume, so nothing
-    // is drawn.
+    // The test's shader replaces the embedded full-screen shader. It places all vertices outside the clip volume, so
+    // nothing is drawn.
     writeShader(fullscreenShader, "void main() { gl_Position = vec4(2, 2, 0, 1); }\n");
     const Program nothing = program({fullscreenShader, "replaced.frag"});
     const GlTexture texture({.width = 1, .height = 1});

@@ -42,7 +42,7 @@ TEST_F(Timer, sumsItsSpansUntilItIsReset) {
     EXPECT_EQ(timer.milliseconds(), 0);
 }
 
-// A timer excludes the time between its spans. A timer that runs without a break includes that time.
+// A timer excludes the time between its spans. The timer `all`, which runs without a break, includes that time.
 TEST_F(Timer, leavesOutWhatLiesBetween) {
     GpuTimer all, two, between;
     all.begin();

@@ -47,7 +47,7 @@ Bytes rowsOf(std::initializer_list<std::size_t> lengths, std::uint8_t filter = 0
     return rows;
 }
 
-// Returns the pixels of a valid image of 4 × 4 px with rows of `length` bytes and this filter.
+// Returns the image data of a PNG of 4 × 4 px whose rows have `length` bytes and the filter type `filter`.
 Bytes streamOf(std::size_t length, std::uint8_t filter) {
     return storedZlib(rowsOf({length, length, length, length}, filter));
 }

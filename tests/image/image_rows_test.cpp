@@ -123,13 +123,13 @@ TEST_F(ImageRows, aFullDiskIsAnErrorThatNamesTheFile) {
     EXPECT_TRUE(fs::is_empty(folder()));
 }
 
-// Attributes with damaged sizes are rejected. OpenEXR itself would trust the size and allocate memory for it.
+// Attributes with invalid sizes are rejected. OpenEXR itself would allocate as much memory as the size says.
 TEST_F(ImageRows, sizesThatAreNoAttributesAreRefused) {
     const fs::path path = folder() / "image.exr";
     writeImage(path, pattern(4, 3), {{"owner", std::string("nobody")}});
     const std::vector<std::byte> full = readFile(path);
-    // Replaces the size of an attribute; with `offset`, replaces the 32-bit number `offset` bytes after the start of
-    // the size.
+    // Overwrites the size field of an attribute with `number`; with `offset`, overwrites the 32-bit number `offset`
+    // bytes after the start of this field.
     const auto withNumber = [&](const std::string& attribute, const std::string& type, std::uint32_t number,
                                 std::size_t offset = 0) {
         std::string bytes(reinterpret_cast<const char*>(full.data()), full.size());
@@ -155,7 +155,8 @@ TEST_F(ImageRows, sizesThatAreNoAttributesAreRefused) {
     expectRefused("'owner'");
     withNumber("dataWindow", "box2i", 12);
     expectRefused("'dataWindow'");
-    withNumber("dataWindow", "box2i", 9'999'999, 4 + 8);  // index of the last column of the data window
+    // Last column of the data window; it follows the size (4 bytes) and the window's first column and row (8 bytes).
+    withNumber("dataWindow", "box2i", 9'999'999, 4 + 8);
     expectRefused("its rows have 10000000 pixels");
     withNumber("channels", "chlist", 54);
     expectRefused("'channels'");

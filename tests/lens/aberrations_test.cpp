@@ -42,9 +42,9 @@ TEST(Aberrations, areTheGradientOfTheWavefront) {
     }
 }
 
-// At the right edge of an image 36 mm wide, astigmatism turns a point into a line and coma into a comet, each as long
-// as the lens setting in mm. Coma maps a circle on the lens to a circle that is traversed twice, and all of these
-// circles lie within an angle of 60°.
+// At the right edge of an image 36 mm wide, astigmatism turns a point into a line and coma into a comet. Each is as
+// long as Lens::astigmatism or Lens::coma states in mm. Coma maps a circle on the lens to a circle that is traversed
+// twice. All of these circles lie in a wedge of 60° whose apex is the point's image without coma.
 TEST(Aberrations, areAsLongOnTheSensorAsTheySay) {
     const ClipCircleOfConfusion line = aberratedLens(0.9, 0);
     const double length = aberration(line, {1, 0}, {1, 0}).x - aberration(line, {1, 0}, {-1, 0}).x;

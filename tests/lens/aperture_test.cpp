@@ -182,8 +182,8 @@ TEST(ApertureImage, turnsWithTheBladesAndNarrowsWithTheRatio) {
 }
 
 TEST(ApertureImage, goodPointsStayWellSpread) {
-    // A white aperture image preserves the spread of an even 16 × 16 grid: half of the points lie on either side of the
-    // centre.
+    // With a white aperture image, the points of an even 16 × 16 grid stay evenly spread: half of them lie right of the
+    // centre and half of them above it.
     Image white(64, 64, 1);
     std::fill(white.pixels.begin(), white.pixels.end(), 1.0f);
     const Aperture aperture = makeAperture(lensWith(white));
@@ -223,7 +223,7 @@ TEST(ApertureImage, thoseThatPassNoLightAreNamed) {
     EXPECT_EQ(message(image), "");
 }
 
-// At every lens point, the light density equals the density of the aperture's definition in aperture_shapes.h.
+// At every lens point, the light density equals the one that aperture_shapes.h defines.
 TEST(Aperture, givesTheLightDensityOfAPoint) {
     for (const ApertureShape& shape : apertureShapes) {
         const Lens lens = shape.lens();

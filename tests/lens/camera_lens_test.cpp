@@ -1,5 +1,5 @@
-// Tests lenses that are created from a file's camera. They keep the camera's field of view and take its sensor and
-// focal length.
+// Tests lenses that are created from a file's camera. They have the camera's field of view and, if the file states
+// them, its sensor and focal length.
 #include "lens/camera_lens.h"
 
 #include <gtest/gtest.h>

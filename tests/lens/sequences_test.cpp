@@ -67,8 +67,8 @@ std::vector<Region> boxes() {
     return regions;
 }
 
-// Returns the largest value of n/log²n times the error of the fraction of points in a region. The max is over all
-// regions and all prefixes of n ≥ 16 points.
+// Compares the fraction of the first n ≥ 16 points in a region with the region's area. Returns the largest error times
+// n/log²n, over all regions and all n.
 double worstPrefix(const std::vector<glm::dvec2>& points, const std::vector<Region>& regions) {
     double worst = 0;
     for (const Region& region : regions) {
@@ -97,8 +97,8 @@ std::vector<glm::dvec2> pointsOf(Sequence sequence, std::uint32_t count, std::ui
     return points;
 }
 
-// Bound c on the error of low-discrepancy sequences, which is at most c·log²n/n for n points (Niederreiter 1992).
-// Independent points err by about n^(−1/2), which exceeds any such bound.
+// Coefficient c of the error bound c·log²n/n for n points of a low-discrepancy sequence (Niederreiter 1992).
+// Independent points have an error of about n^(−1/2), which exceeds the bound for large n.
 constexpr double maxError = 0.5;
 
 TEST(Sequences, everyPrefixAndSuffixCoversLensAndPixel) {

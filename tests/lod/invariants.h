@@ -48,8 +48,8 @@ inline void expectClustersHold(const Pyramid& pyramid) {
 
 // Expects the selected real-valued level λ to increase without jumps, from 0 to the coarsest level, as the target (an
 // edge length or an error in px) increases. In every pyramid, edges grow by at least 5 % and errors by at least 25 %
-// from one level to the next. This growth bounds the slope of λ over log(target). Between two levels, the slope for
-// errors is largest at the coarser level.
+// from one level to the next. This growth bounds the slope of λ over log(target). For errors, the slope between two
+// levels is largest at the coarser level, so the bound is computed there.
 inline void expectContinuousLevels(const Pyramid& pyramid) {
     if (pyramid.levels.size() < 2) return;
     constexpr double step = 1.0005;
@@ -118,8 +118,8 @@ inline void expectPyramidInvariants(const Mesh& mesh, const Pyramid& pyramid) {
     expectContinuousLevels(pyramid);
 }
 
-// Expects the connected part with the largest area to keep its shape in every level in which another part has more
-// triangles than this part.
+// Expects the connected part with the largest area to keep its shape, except in levels in which it has the most
+// triangles of all parts.
 inline void expectMainPartLasts(const Mesh& mesh, const Pyramid& pyramid) {
     const std::vector<std::uint32_t> parts = partsByPosition(mesh);
     const auto partIndices = [&](std::size_t level) {

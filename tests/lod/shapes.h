@@ -39,7 +39,8 @@ Mesh parametricSurface(std::uint32_t columns, std::uint32_t rows, const Place& p
     Vertices vertices;
     for (std::uint32_t j = 0; j <= rows; ++j)
         for (std::uint32_t i = 0; i <= columns; ++i) {
-            // If a direction is closed, the vertices at its two ends have bit-identical positions.
+            // If the surface is closed, `place` returns bit-identical positions for the first and the last column or
+            // row.
             vertices.positions.push_back(glm::vec3(place(i, j)));
             vertices.uv0.push_back({static_cast<float>(i) / static_cast<float>(columns),
                                     static_cast<float>(j) / static_cast<float>(rows)});

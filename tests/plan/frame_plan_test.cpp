@@ -37,8 +37,8 @@ TEST(FramePlan, everyObjectDrawsEverySampleOnce) {
         }
 }
 
-// In LodMode::continuous, each lens sample draws one of an object's two levels of detail. At most one sample draws both
-// levels, each in some of the pixels.
+// In LodMode::continuous, each lens sample draws one of an object's two levels of detail, except for at most one
+// sample. This sample draws both levels, each in some of the pixels.
 TEST(FramePlan, continuousLevelsOverlapByTheBoundarySample) {
     const auto small = fiveSpheres();
     int shared = 0;
@@ -182,12 +182,12 @@ std::vector<DollyStep> dolly(const RenderSettings& settings, double ratio) {
     return steps;
 }
 
-// The level of detail λ has no jumps while a sphere moves away: the change in each step from distance n to n' stays
-// below a bound. An edge at distance n projects to a length proportional to 1/n. At λ, an object's edge length is
-// interpolated logarithmically between levels and projects to τ = max(kBlur·c, kSize), with the blur c in px and the
-// thresholds kBlur and kSize. Edges grow at least by the factor `growth` per level, so |Δλ| ≤ |Δ ln(n·τ)| / ln growth.
-// Between n and n', τ changes only by the blur c = K·|1/s − 1/n|, with the focus distance s and a constant K of the
-// lens. The change of τ is at most kBlur·K·(1/n − 1/n'), and τ is at least kSize.
+// The level of detail λ has no jumps while a sphere moves away from distance n to n'. An edge at distance n projects to
+// a length proportional to 1/n. At λ, an object's edge length is interpolated logarithmically between levels and
+// projects to τ = max(kBlur·c, kSize), with the blur c in px and the thresholds kBlur and kSize. Edges grow at least by
+// the factor `growth` per level, so |Δλ| ≤ |Δ ln(n·τ)| / ln growth. Between n and n', τ changes only by the blur c =
+// K·|1/s − 1/n|, with the focus distance s and a constant K of the lens. The change of τ is at most kBlur·K·(1/n −
+// 1/n'), and τ is at least kSize. Hence |Δλ| ≤ (ln(n'/n) + kBlur·K·(1/n − 1/n')/kSize) / ln growth.
 TEST(FramePlan, lambdaIsContinuousAlongADolly) {
     const RenderSettings settings = settingsFor(64);
     const auto small = fiveSpheres();
@@ -196,7 +196,7 @@ TEST(FramePlan, lambdaIsContinuousAlongADolly) {
     for (std::size_t l = 1; l < levels.size(); ++l)
         growth = std::min(growth, levels[l].meanEdge / levels[l - 1].meanEdge);
     const Lens& lens = small->view.lens;
-    // K in the formula for the blur in px, c = K·|1/s − 1/n|, with the focus distance s and the distance n in m.
+    // The factor K in the blur c = K·|1/s − 1/n| px of a point at distance n m, with the focus distance s in m.
     const double blur =
         lens.focalLength / (1000 * lens.fStop) * small->view.width * lens.focalLength / lens.horizontalAperture;
     const double reach = 1.03 * dollyRadius;  // radius of the sphere including its ripples, m

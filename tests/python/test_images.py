@@ -20,7 +20,7 @@ def test_equal_images_have_no_difference(gradient):
     assert difference.pixel_count == 24 * 32 and difference.non_finite == 0
 
 
-# Between black and white, every error is 1, and PSNR with peak 1 is 0 dB.
+# Between a black and a white image, every error metric is 1, and the PSNR with peak 1 is 0 dB.
 def test_black_and_white_differ_by_one():
     black = numpy.zeros((16, 20, 4), numpy.float32)
     white = numpy.ones((16, 20), numpy.float32)

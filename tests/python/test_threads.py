@@ -41,9 +41,9 @@ def test_what_progress_raises_ends_the_work_and_reaches_the_caller(small):
         assert numpy.array_equal(renderer.render(), defocus.render(**small))
 
 
-# Rendering releases the GIL. With an endless switch interval, a thread runs only if another thread releases the GIL.
-# The progress function does not release the GIL, so the counter advances between two of its calls only if C++ renders
-# without the GIL.
+# Rendering releases the GIL. With an endless switch interval, a thread runs only if another thread releases the GIL. A
+# second thread increments a counter. The progress function does not release the GIL, so the counter grows between two
+# of its calls only if C++ renders without the GIL.
 def test_python_goes_on_while_c_plus_plus_renders(small):
     count = 0
     finished = threading.Event()
@@ -133,7 +133,7 @@ def test_a_renderer_is_not_used_from_its_own_progress_function(small):
 
 
 # Ctrl-C ends a render without a progress function. The signal comes soon after the start of a frame that would take
-# minutes. The test checks that the frame stays unfinished, not when the signal arrives.
+# minutes. The test checks only that the frame was not finished, not how soon the signal takes effect.
 def test_ctrl_c_ends_a_render(small):
     script = textwrap.dedent(f"""
         import signal

@@ -11,9 +11,9 @@ namespace {
 class RefocusedError : public LightFieldTest {
 protected:
     // Compares the errors of refocused images and of direct renders with the same number of samples. The reference is a
-    // converged image at full detail. `distances` begin with the nearest and end with the farthest focus of the range,
-    // in m. The loss is the PSNR of the direct render minus that of the refocused image, in dB. It is averaged over
-    // three seeds, because it varies by 1 dB with the sample points.
+    // converged image at full detail. `distances`: focus distances in m, from the nearest to the farthest that the
+    // light field supports. The loss is the PSNR of the direct render minus that of the refocused image, in dB. It is
+    // averaged over three seeds, because it varies by 1 dB with the sample points.
     void expectSmallLoss(const Request& request, const std::vector<double>& distances) const {
         std::vector<double> losses(distances.size());
         std::vector<Image> truths;
@@ -53,7 +53,8 @@ TEST_F(RefocusedError, isSmallForTheSchool) {
     expectSmallLoss(smallSchool(), {1.3, 1.6, 2.5, 4});
 }
 
-// The chess board has lamps of high radiance and reaches from far in front of the focal plane to far behind it.
+// The chess board is a hard case: it has lamps of high radiance and reaches from far in front of the focal plane to far
+// behind it.
 TEST_F(RefocusedError, isSmallForTheChessBoard) {
     Request request = smallSchool();
     request.scene = std::filesystem::path(DEFOCUS_SOURCE_DIR) / "meshes/chess.glb";

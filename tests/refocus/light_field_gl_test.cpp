@@ -13,8 +13,8 @@
 namespace defocus::engine {
 namespace {
 
-// The accumulation method stores the image of each sample in half floats. With a transparent background, these images
-// are not composited over a background, so a file of lens images (views from lens points) stores them without loss.
+// The accumulation method stores the image of each sample in half floats. With a transparent background, nothing is
+// added to these values afterwards, so a file of lens images (views from lens points) stores them without loss.
 TEST_F(LightFieldTest, atTheRenderedFocusHasTheBitsOfAccumulation) {
     Request request = smallSchool();
     request.background = TransparentBackground{};

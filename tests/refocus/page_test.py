@@ -24,8 +24,8 @@ SIZE = (320, 240)
 FISH = ((180, 112), (25, 215))  # positions in px of two fish at different distances
 
 # Performs `action` once the page has loaded the lens images (views from lens points), and requests /drawn after the
-# next frame. Chromium takes the screenshot after the page's load event, which the hidden image /wait delays until then.
-# The bar that shows the page's loading is hidden, because it may not have faded out yet.
+# next frame. Chromium takes the screenshot after the page's load event. The hidden image /wait delays this event until
+# /drawn has been requested. The loading bar is hidden, because it may not have faded out yet.
 SCRIPT = """<style>#wait { display: none }</style>
 <img src="http://127.0.0.1:%(port)d/wait" style="display: none">
 <script>

@@ -167,8 +167,8 @@ TEST(LensImages, needALensThatOnlyMovesThem) {
               std::string::npos);
 }
 
-// The margin is at least the largest shift of a lens image (view from a lens point) over the focus range, rounded to
-// whole pixels.
+// The margin is at least the largest shift of a lens image (view from a lens point) over the focus range. Images are
+// shifted by whole pixels.
 TEST(LensImages, haveAMarginForTheFocusRange) {
     View view;
     view.lens.focusDistance = 2;

@@ -14,8 +14,8 @@ namespace {
 
 constexpr PartSize small{12, 8, 4};
 
-// Returns an image with a margin whose pixels have the values of `value(x, y)`, where (x, y) is the position in px
-// right of and above the image's centre.
+// Returns an image with a margin. Each pixel has the value `value(x, y)`, where (x, y) is its position in px right of
+// and above the image's centre.
 template <typename Value>
 HalfImage pattern(const Value& value) {
     Image image(small.fullWidth(), small.fullHeight(), 4);

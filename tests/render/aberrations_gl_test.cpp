@@ -30,7 +30,7 @@ View viewOf(double astigmatism, double coma) {
 }
 
 RenderSettings fullDetail(std::uint32_t samples) {
-    // keepAll, because a frame without blur would otherwise use at most 16 samples
+    // keepAll: use the lens even if nothing is blurred, since a pinhole image has at most 16 samples
     return {.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
 }
 
@@ -73,14 +73,14 @@ constexpr double inFocus = 2;        // distance of the point, equal to the focu
 // jitter inside a pixel.
 constexpr double ownVariance = 5.0 / 12;
 
-// Astigmatism A turns a point at the image position m into a line towards the image's centre. m is relative to the
-// centre, in units of half the image's width. Lens points l = (u, v) cover the unit disk with u along m. Over the disk
-// E[u²] = 1/4, so the variance is (A·|m|²)²/4 along the line and 0 across it. Seen through l, the area of the point's
-// image is multiplied by 1 + 3·A·(m·l). The line's outer half is therefore brighter, which moves the mean by
-// ¾·A²·|m|²·m.
+// Astigmatism with the coefficient A turns a point at the image position m into a line towards the image's centre. m is
+// relative to the centre, in units of half the image's width. Lens points l = (u, v) cover the unit disk with u along
+// m. Over the disk E[u²] = 1/4, so the variance is (A·|m|²)²/4 along the line and 0 across it. Astigmatism also
+// enlarges the area of a small spot's image through l by the factor 1 + 3·A·(m·l). The line's outer half is therefore
+// brighter, which moves the mean by ¾·A²·|m|²·m.
 TEST_F(Aberrations, astigmatismMakesLinesToTheCentre) {
     SKIP_ON_SECOND_DRIVER();
-    constexpr double share = 0.05;  // astigmatism A: length of the line at the left and right edges / image width
+    constexpr double share = 0.05;  // coefficient A: length of the line at the left and right edges / image width
     for (const glm::dvec2& place : {glm::dvec2(138, 71), glm::dvec2(124, 93), glm::dvec2(40, 100)}) {
         const Spot sharp = spotAt(viewOf(0, 0), place, inFocus);
         const Spot line = spotAt(viewOf(share * 36, 0), place, inFocus);
@@ -97,13 +97,14 @@ TEST_F(Aberrations, astigmatismMakesLinesToTheCentre) {
     }
 }
 
-// Coma B turns a point at the distance m from the image's centre into a comet. Distances are in units of half the
-// image's width. Lens points l = (u, v) cover the unit disk with u along the line to the centre. A ray deviates by
-// B·m·(3u² + v²) along this line and by 2·B·m·u·v across it. Over the disk, the mean deviation is B·m, and the
-// variances are B²·m²/2 and B²·m²/6. Seen through l, the area of the point's image is multiplied by 1 + 4·B·|l|². With
-// these factors as weights, the mean deviation is B·m·(1 + ⅔·B).
+// Coma with the coefficient B turns a point at the distance m from the image's centre into a comet. Distances are in
+// units of half the image's width. Lens points l = (u, v) cover the unit disk with u along the line to the centre. A
+// ray deviates by B·m·(3u² + v²) along this line and by 2·B·m·u·v across it. Over the disk, the mean deviation is B·m,
+// and the variances are B²·m²/2 and B²·m²/6. Coma also enlarges the area of a small spot's image through l by the
+// factor 1 + 4·B·|l|². With these factors as weights, the mean deviation is B·m·(1 + ⅔·B).
 TEST_F(Aberrations, comaMakesComets) {
-    // Coma B. At the left and right edges, the comet's tail is 1.5·B times as long as the image is wide.
+    // `share` is the coefficient B. At the left and right edges, the comet's tail is 1.5·B times as long as the image
+    // is wide.
     for (const double share : {0.03, -0.03}) {
         const glm::dvec2 place(134, 60);
         const Spot sharp = spotAt(viewOf(0, 0), place, inFocus);
@@ -118,10 +119,10 @@ TEST_F(Aberrations, comaMakesComets) {
     }
 }
 
-// Astigmatism widens the blur along one axis only. A blur of c px and a line of L px add up to the variance (c + L)²/16
-// along the line and c²/16 across it. The blur c is negative in front of the focal plane. An astigmatic lens has two
-// focal distances: at c = 0, a point becomes a line towards the image's centre; at c = −L, it becomes a line
-// perpendicular to the line at c = 0.
+// Astigmatism lengthens the blur along one axis, here by L px. The image of a point with the circle of confusion c px
+// has the variance (c + L)²/16 along this axis and c²/16 across it. c is negative in front of the focal plane. An
+// astigmatic lens has two focal distances: at c = 0, a point becomes a line towards the image's centre; at c = −L, it
+// becomes a line perpendicular to the line at c = 0.
 TEST_F(Aberrations, astigmatismAddsToTheBlurAlongOneAxis) {
     const glm::dvec2 place(134, 60);
     const View plain = viewOf(0, 0);
@@ -138,8 +139,8 @@ TEST_F(Aberrations, astigmatismAddsToTheBlurAlongOneAxis) {
     }
 }
 
-// Through an aberrated lens focused at infinity, each pixel shows the mean radiance of a gradient sky, averaged over
-// the rays of the lens samples.
+// Through an aberrated lens focused at infinity, each pixel shows the radiance of a gradient sky, averaged over the
+// rays of the lens samples.
 TEST_F(Aberrations, skyIsSeenThroughThem) {
     View view = viewOf(20, 20);
     view.lens.focusDistance = std::numeric_limits<double>::infinity();

@@ -24,7 +24,7 @@ using CocControls = GlContextTest;
 
 Image rendered(const SmallWorld& small, std::uint32_t samples, double tolerance = 0.5,
                const char* method = "accumulation") {
-    // keepAll, because a frame without blur would otherwise use at most 16 samples
+    // keepAll: use the lens even if nothing is blurred, since a pinhole image has at most 16 samples
     const RenderSettings settings{
         .sampleCount = samples, .lod = LodMode::off, .cocTolerance = tolerance, .keepAll = true};
     return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
@@ -105,8 +105,8 @@ std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end
 }
 
 // Triangles in which the circle of confusion is not linear are subdivided. A geometry shader also cuts triangles in
-// which the slope of the circle of confusion jumps. Objects without such a jump are drawn without this shader. With the
-// shader, their image is the same.
+// which the slope of the circle of confusion jumps. Objects without such a jump skip this shader, which would not
+// change their image.
 TEST_F(CocControls, dividedTrianglesNeedNoCuts) {
     const auto floor = checkeredFloor(3, 2, 12);
     floor->view.lens.fieldCurvature = 0.5;
@@ -156,7 +156,8 @@ TEST_P(LargeTriangles, lookLikeSmallOnes) {
     const Image reference = rendered(*fine, 16, 1e6);
     const Image divided = rendered(*large, 16, 0.1);
     const double error = rootMeanSquare(divided, reference);
-    if (GetParam().begin < 0) {  // triangles of a surface that reaches the camera are divided at any tolerance
+    // If the surface reaches the camera, its triangles are divided at any tolerance, so there is no undivided image.
+    if (GetParam().begin < 0) {
         // GPUs clip and round differently from the software rasterizer llvmpipe: the error on an NVIDIA H100 is 0.0022.
         EXPECT_LT(error, currentIsSoftware() ? 0.002 : 0.003);
         return;
@@ -285,8 +286,8 @@ TEST_F(CocControls, focusRangePreservesNearAndFarBlur) {
 TEST_F(CocControls, focusRangeIsSharpAsAPinhole) {
     const auto small = threePatches();
     const Image blurred = rendered(*small, 64);
-    small->view.lens.focusRangeFront = 1.6;  // near end of the focus range at 0.9 m
-    small->view.lens.focusRangeBehind = 2;   // far end of the focus range at 4.5 m
+    small->view.lens.focusRangeFront = 1.6;  // the focus range begins at 2.5 − 1.6 = 0.9 m
+    small->view.lens.focusRangeBehind = 2;   // the focus range ends at 2.5 + 2 = 4.5 m
     const Image range = rendered(*small, 64);
     small->view.lens.dofEnabled = false;
     const Image pinhole = rendered(*small, 64);

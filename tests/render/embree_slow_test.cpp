@@ -15,9 +15,9 @@
 namespace defocus::engine {
 namespace {
 
-// Lens points are chosen by rejection sampling for all apertures except disks and polygons with straight blades. The
-// bokeh shows the aperture's distribution of light. The tolerance covers the noise of the 18,000 rays that hit the
-// bright square.
+// The bokeh of a bright square has the shape and the brightness of the aperture. These apertures, all but disks and
+// polygons with straight blades, are sampled by rejection. The tolerance covers the noise of the 18,000 rays that hit
+// the square.
 TEST(EmbreeBokehShape, MaskedAperturesShowTheirDefinition) {
     View view = bokehView(36, 36);
     view.lens.fStop = 0.03;  // with its blur of 28 px, the square just fits into the image

@@ -159,9 +159,9 @@ TEST(EmbreeBokehShape, TriangleStandsUprightBehindFocusAndUpsideDownInFront) {
     for (const double depth : {1.2, 6.0}) {
         const Image image = traced(rectangleScene(view, {quadAt(view, depth)}, glm::vec3(100)), view, 1024);
         const double radius = blurDiameter(view, depth) / 2;
-        // distance in px from the bokeh's centre towards its corner, to a pixel inside the bokeh
+        // distance in px from the bokeh's centre to a pixel inside the bokeh, in the direction of a corner
         const int lit = static_cast<int>(0.8 * radius);
-        // distance in px from the bokeh's centre towards its flat side, to a pixel outside the bokeh
+        // distance in px from the bokeh's centre to a pixel just beyond the flat side
         const int dark = static_cast<int>(0.5 * radius + 1.5) + 1;
         const bool upright = depth > view.lens.focusDistance;
         EXPECT_GT(*image.at(32, upright ? 31 - lit : 32 + lit), 0.5f * *image.at(32, 32));

@@ -37,7 +37,7 @@ Material furnaceMaterial(float base, float metallic, float roughness) {
 
 constexpr double rounding = 1e-5;
 constexpr float roughnesses[] = {0, 0.1f, 0.3f, 0.5f, 0.7f, 0.9f, 1};
-// cosines of the angle between normal and view axis; pixels deviate from the view axis by up to 20°
+// cosines of the angle between normal and view axis; the pixels' view directions deviate by up to 20° from the axis
 constexpr double cosines[] = {1, 0.8, 0.5, 0.2, 0.05};
 
 // A white dielectric reflects all light: its diffuse base reflects the light that the specular layer transmits.

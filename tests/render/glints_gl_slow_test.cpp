@@ -32,9 +32,9 @@ std::unique_ptr<SmallWorld> rippledBall(float roughness, float metallic) {
     return small;
 }
 
-// Returns suns in all directions, evenly on a spiral from pole to pole (Vogel 1979). Each value of `set` moves all suns
-// by different offsets in height and azimuth. With a single sun, the result would depend on the positions of the
-// ripples' caustics.
+// Returns suns in all directions, evenly on a spiral from pole to pole (Vogel 1979). With a single sun, the result
+// would depend on the positions of the ripples' caustics. `set` selects the offsets in height and azimuth, which are
+// the same for all suns.
 std::vector<PlacedLight> sunsAllAround(std::uint32_t set) {
     constexpr int count = 60;
     std::vector<PlacedLight> suns;
@@ -81,8 +81,8 @@ double worstPixel(const Image& image, const Image& converged) {
     return worst;
 }
 
-// The error is measured against a converged image. This image has white pixels, too: glints are smaller than a pixel,
-// but so bright that they make entire pixels white.
+// The error is measured against a converged image, because white pixels alone are no error: a glint smaller than a
+// pixel can be bright enough to make the entire pixel white.
 TEST_F(Glints, convergeWithinTheFirstSamples) {
     for (const float metallic : {0.0f, 1.0f})
         for (const float roughness : {0.05f, 0.2f})

@@ -98,7 +98,7 @@ TEST_F(LayerTextures, alphaOfSpecularScalesTheReflectance) {
 
 TEST_F(LayerTextures, specularColourIsDecodedAndScaled) {
     Material glossy = glossyMaterial();
-    // with a black base, the dimming of the base by the strongest channel of the reflectance has no effect
+    // a black base, because the base is dimmed by the largest channel of the reflectance
     glossy.baseColorFactor = {0, 0, 0, 1};
     glossy.specularColorFactor = {1, 0.5f, 2};
     expectSurface(

@@ -144,8 +144,9 @@ TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
             across += weight * std::pow(away.x * outward.y - away.y * outward.x, 2);
         }
 
-    // Expected second moments. A lens point counts if it lies inside the aperture and inside the rim of the lens
-    // barrel, a circle of the same size. The position of the rim depends on the pixel that the lens point lights.
+    // Expected second moments of the bokeh. A lens point counts if it lies inside the aperture and inside the rim of
+    // the lens barrel, a circle of the same size. The position of the rim depends on the pixel that the ray through the
+    // lens point hits.
     const double diameter = 0.05 / 0.35 * (1 / 2.0 - 1 / depth) * 128 / 0.72;
     const double corner = std::sqrt(1 + 0.75 * 0.75);
     double expectedAlong = 0;

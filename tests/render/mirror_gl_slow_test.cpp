@@ -5,8 +5,8 @@
 namespace defocus::engine {
 namespace {
 
-// A mirror ball of radius r under a sun of illuminance E sends the intensity E·r²/4 in every direction. Its highlight
-// is far smaller than a pixel, so few samples or none hit the highlight.
+// A mirror ball of radius r under a sun of illuminance E has the radiant intensity E·r²/4 in every direction. The image
+// must show it although the sun's highlight is far smaller than a pixel and few or no samples hit it.
 TEST_F(Mirror, aBallSendsTheSunsLightToAllSidesAlike) {
     for (const float roughness : {0.0f, 0.05f, 0.2f})
         for (const glm::dvec3& way : {glm::dvec3(-0.3, -0.8, -1), {1, -0.3, -0.2}, {0.6, 0.7, -0.5}}) {

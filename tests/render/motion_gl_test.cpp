@@ -142,7 +142,7 @@ TEST_F(Motion, segmentsFollowARotation) {
     EXPECT_GT(compareImages(exact, sixteen).psnr, 35);
     EXPECT_LT(compareImages(exact, one).psnr, 20);
     // Over a single motion segment, a rotation by 180° moves the corners along straight lines through the centre. The
-    // square shrinks to a point on the way, so the sum of pixels is smaller.
+    // square shrinks to a point halfway, so the sum of pixels is smaller than with exact motion.
     EXPECT_LT(sumOf(one), 0.5 * sumOf(exact));
     EXPECT_NEAR(sumOf(exact), 32 * 32, 10);
 }
@@ -168,8 +168,8 @@ Image meanOfMoments(const World& world, const View& view, std::uint32_t samples)
 }
 
 // Expects motion blur to equal the mean of images without motion at the samples' times. The scene has a skinned figure,
-// a rotating camera, defocus, and a lamp at the camera's position that does not move. `fStop` and `candela` suit the
-// size of the figure.
+// a camera that rotates in place, defocus, and a fixed lamp at the camera's position. Choose `fStop` and `candela` to
+// suit the size of the figure.
 void expectMeanOfMoments(const std::filesystem::path& path, int clip, double fStop, float candela) {
     constexpr std::uint32_t samples = 16;
     const auto small = posedWorld(path, 0.3, clip);
@@ -201,7 +201,8 @@ TEST_F(Motion, aBendingReedBeforeAMovingCameraIsTheMeanOfItsMoments) {
 
 TEST_F(Motion, aRunningFoxBeforeAMovingCameraIsTheMeanOfItsMoments) {
     DEFOCUS_MODEL_OR_SKIP(path, "Fox.glb");
-    expectMeanOfMoments(path, 2, 0.02, 20'000);  // f/0.02 and 20,000 cd, since the fox is a hundred metres long
+    // a wide lens (f/0.02) and a bright lamp (20,000 cd), since the fox is 100 m long
+    expectMeanOfMoments(path, 2, 0.02, 20'000);
 }
 
 // Returns five spheres with a morph target. openShutter() moves them along straight lines and moves the camera.

@@ -50,7 +50,8 @@ double meanLight(const SmallWorld& small, LodMode lod) {
 }
 
 // A flat level of detail is as bright as the relief that it replaces. In an oblique view, hillsides that face the eye
-// cover more of the image. With only a mean normal, the flat level would be too dark by 0.06 at 55°.
+// cover more of the image. Tilted by 55°, a flat level with only a mean normal would be too dark by 0.06, relative to a
+// white surface that faces the sun.
 TEST_F(RoughLevels, areAsBrightAsTheirRelief) {
     SmallWorld small;
     const Material matt{.metallicFactor = 0, .roughnessFactor = 1};

@@ -25,7 +25,7 @@ protected:
 
     static Material matt() { return {.metallicFactor = 0, .doubleSided = true, .specularFactor = 0}; }
 
-    // Returns a white wall without lights that fills the image of a pinhole camera at the origin.
+    // Returns a scene without lights, in which a white wall fills the image of a pinhole camera at the origin.
     static std::unique_ptr<SmallWorld> wall() {
         auto small = std::make_unique<SmallWorld>();
         small->scene.materials.push_back(matt());

@@ -24,8 +24,8 @@ TEST_F(Shadowed, penumbraOfADiskBehindAnEdge) {
             finish(*small);
             const RenderSettings settings = settingsFor(256, Shadows::on);
             const std::vector<double> shares = litShares(*small, settings);
-            // A depth bias of up to a texel moves the shadow-map lookup towards the light. For light at 45°, this moves
-            // the shadow's edge by the same distance.
+            // The tolerance is one texel: a depth bias of up to a texel moves the shadow-map lookup towards the light,
+            // and under light at 45° the shadow's edge by the same distance.
             const FramePlan plan = planFrame(small->world, small->view, settings);
             const double bias = shadowProjections(small->world, plan, {}).front().texel;
             double width = 0;  // number of columns in the penumbra
@@ -83,7 +83,7 @@ TEST_F(Shadowed, noLightLeaksAtAContact) {
         const double place = wallX(small->view, x);
         if (place > -2 * texel || place < -0.9)
             // Skip the pixels next to the board, where the depth bias leaves up to two shadow-map texels lit. Also skip
-            // the far edge of the shadow, which is 1 m wide.
+            // the shadow's far edge at x = −1.
             continue;
         EXPECT_EQ(shares[static_cast<std::size_t>(x)], 0) << place;
         ++dark;
@@ -115,8 +115,8 @@ TEST_F(Shadowed, surfacesDoNotShadowThemselves) {
     EXPECT_LT(max, 0.02);
 }
 
-// The floor in front of a wall casts no shadow on the wall, although light grazes the wall and a texel of the shadow
-// map covers both. From the sun, at an elevation of about 70°, the wall is seen at a steep angle.
+// The floor in front of a wall casts no shadow on the wall, although a texel of the shadow map covers both. The sun is
+// at an elevation of about 70° and grazes the wall at an angle of 12°.
 TEST_F(Shadowed, floorDoesNotShadowTheFootOfAWall) {
     const auto small = wall();
     small->world.pose.objects.clear();
@@ -169,7 +169,8 @@ TEST_F(Shadowed, glassShadesByItsTexturesAndThickness) {
     int seen = 0;
     for (int x = 0; x < small->view.width; ++x) {
         const double place = wallX(small->view, x);
-        if (place < 0.1 || place > 0.9) continue;  // skip the shadow's edge; on the right, the pane hides the wall
+        // skip the shadow's edge (left) and the part of the wall behind the pane (right)
+        if (place < 0.1 || place > 0.9) continue;
         sum += shares[static_cast<std::size_t>(x)];
         ++seen;
     }
@@ -208,7 +209,8 @@ TEST_F(Shadowed, colouredGlassTintsTheLight) {
         int seen = 0;
         for (int x = 0; x < small->view.width; ++x) {
             const double place = wallX(small->view, x);
-            if (place < 0.1 || place > 0.65) continue;  // skip the shadow's edge; on the right, the pane hides the wall
+            // skip the shadow's edge (left) and the part of the wall behind the pane (right)
+            if (place < 0.1 || place > 0.65) continue;
             for (int c = 0; c < 3; ++c) mean[c] += double{image.at(x, 36)[c]} / double{lit.at(x, 36)[c]};
             ++seen;
         }
@@ -243,7 +245,8 @@ TEST_F(Shadowed, blendedLayersShadeByTheirProduct) {
     int seen = 0;
     for (int x = 0; x < small->view.width; ++x) {
         const double place = wallX(small->view, x);
-        if (place < 0.15 || place > 0.65) continue;  // skip the shadow's edge; on the right, the layers hide the wall
+        // skip the shadow's edge (left) and the part behind the blended layers (right)
+        if (place < 0.15 || place > 0.65) continue;
         sum += shares[static_cast<std::size_t>(x)];
         ++seen;
     }

@@ -145,8 +145,8 @@ TEST_F(StochasticAlpha, layersOfOnePrimitiveAreIndependent) {
     EXPECT_LT(found.rms, 0.03);
 }
 
-// Layers of a primitive that do not cross are sorted, even if the file lists the nearer layer first. A single lens
-// sample then already gives the exact colour.
+// If the layers of a primitive do not cross, they are sorted, even if the file lists the nearer layer first. A single
+// lens sample then already gives the exact colour.
 TEST_F(StochasticAlpha, layersOfOnePrimitiveAreSorted) {
     const auto small = twoLayers();
     for (const char* method : {"accumulation", "layered"}) {

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double limit = 5;  // max diameter of the circle of confusion in front of the focus plane, px
 
-// Returns a small school of fish. Without a foreground limit, its nearest fish have more than three times the blur
-// `limit`.
+// Returns a small school of fish. Without a foreground limit, the blur of its nearest fish is more than three times as
+// large as `limit`.
 std::unique_ptr<TruthScene> nearSchool() {
     FishSchoolOptions school;
     school.fishCount = 8;

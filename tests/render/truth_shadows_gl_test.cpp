@@ -1,4 +1,4 @@
-// Tests soft shadows of the sun on the GPU against the ray tracer.
+// Compares soft sun shadows drawn by the GPU with those of the ray tracer.
 
 #include "render/ball_shadows.h"
 

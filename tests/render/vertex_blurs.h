@@ -57,9 +57,10 @@ protected:
     // Variance along an axis, in px², of the unblurred square, whose edges lie on pixel borders.
     static constexpr double sharpVariance = (blurredSide * blurredSide - 1) / 12;
 
-    // Expects the energy, centre and variance of the blurred square's image. Valid for methods that sample the lens at
-    // points or lines, not for post-process methods. Method stochastic gets four times as many samples, because each
-    // pixel has different sample points and errors of neighbouring pixels do not cancel.
+    // Expects the blurred image of the square to have the square's energy and centre, and the variance `expected` in
+    // px². Valid for methods that sample the lens at points or lines, not for post-process methods. Method stochastic
+    // gets four times as many samples, because each pixel has different sample points and errors of neighbouring pixels
+    // do not cancel.
     static void expectVariance(const SmallWorld& small, double expected, const std::string& method,
                                double relative = 0.02) {
         const std::uint32_t count = method == "stochastic" ? 4 * blurSamples : blurSamples;

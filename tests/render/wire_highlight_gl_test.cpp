@@ -12,7 +12,7 @@ namespace {
 
 using WireHighlight = GlContextTest;
 
-// Returns a torus around the z axis, of radius 1 and with a wire of radius 0.04.
+// Returns a torus around the z axis with a radius of 1 and a tube radius of 0.04, like a ring of wire.
 Mesh ringMesh() {
     constexpr int around = 120;
     constexpr int across = 16;

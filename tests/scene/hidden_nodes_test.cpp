@@ -51,7 +51,7 @@ TEST(HiddenNodes, boundsAreOfWhatIsLeft) {
     EXPECT_DOUBLE_EQ(pose.bounds.maximum.x, 41);
     hideNodes(scene, std::vector<std::string>{"3"}, pose);
     EXPECT_DOUBLE_EQ(pose.bounds.minimum.x, 10);
-    EXPECT_DOUBLE_EQ(pose.bounds.maximum.x, 31);  // the bounds of the cup and the first lamp are [30, 31] m
+    EXPECT_DOUBLE_EQ(pose.bounds.maximum.x, 31);  // the cup and the first lamp extend from x = 30 to 31 m
 }
 
 TEST(HiddenNodes, callingsAreReadBackAsTheirNodes) {

@@ -108,8 +108,8 @@ TEST(Tangents, ofATorusFollowItsFirstCoordinate) {
     ASSERT_EQ(made.vertices.tangents.size(), made.vertices.count());
     for (std::size_t i = 0; i < indices.size(); ++i) {
         const glm::vec4& tangent = made.vertices.tangents[indices[i]];
-        // A chord between neighbouring vertices of a circle deviates from the tangent by π/64. At a seam, a vertex has
-        // a chord on one side only, so the deviations of two chords do not cancel.
+        // A chord between neighbouring vertices of a circle deviates from the tangent by π/around. At a seam, a vertex
+        // has a chord on one side only, so the deviations of two chords do not cancel. Twice this deviation is allowed.
         ASSERT_GT(glm::dot(glm::vec3(tangent), along[original[i]]), std::cos(2 * std::numbers::pi / around)) << i;
         ASSERT_EQ(tangent.w, 1) << i;
     }

@@ -128,7 +128,8 @@ TEST(Pick, agreesWithTheBoxItself) {
     }
 }
 
-// Many rays are tested against triangles sorted in space; a single ray is tested against all triangles.
+// Many rays, tested against triangles sorted in space, have the same hits as each ray alone, tested against all
+// triangles.
 TEST(Pick, manyRaysHitWhatEachHitsAlone) {
     const Scene scene =
         cubes({glm::translate(glm::dmat4(1), glm::dvec3(0.5, 0, -6)),

@@ -76,7 +76,7 @@ TEST(Pose, isInMetres) {
     EXPECT_EQ(pose.cameras[0].lens.at("fStop"), 2);
     expectNear(pose.lights[0].position, {0.10, 0.02, 0});
     EXPECT_NEAR(pose.lights[0].light.range, 3, 1e-6);
-    // Illuminance at a distance of 7 units, for a scene in centimetres and in metres.
+    // A light gives the same illuminance at a distance of 7 units whether the unit is 1 cm or 1 m.
     EXPECT_NEAR(pose.lights[0].light.intensity / (0.07 * 0.07), 5.0 / (7 * 7), 1e-6);
 }
 

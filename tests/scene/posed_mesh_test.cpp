@@ -1,4 +1,4 @@
-// Compares vertices posed by morph targets and skins on the CPU with products of matrices computed by hand.
+// Compares vertices posed by morph targets and skins on the CPU with matrix products that the tests write out.
 
 #include "scene/posed_mesh.h"
 

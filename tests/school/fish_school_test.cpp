@@ -1,5 +1,6 @@
-// Tests that the built-in school of fish is a fair benchmark, and that its fish are valid input for a simplifier. The
-// tests have their own implementation of the lens formulas.
+// Tests that the built-in school of fish is a fair benchmark: different fish, sharp and blurred, cover enough of the
+// image. Also tests that the fish are valid input for a simplifier. The tests have their own implementation of the lens
+// formulas.
 
 #include "school/fish_school.h"
 

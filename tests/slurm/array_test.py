@@ -191,7 +191,8 @@ def share_film(cluster, program, batch, folder, samples):
 
     def ran_again():
         now = facts()
-        # Slurm delays a requeued task by two minutes; setting its start time may fail while the task is ending
+        # Slurm delays a requeued task by two minutes. Setting its start time avoids this, but may fail while the task
+        # is ending.
         if "Reason=BeginTime" in now:
             cluster.ask("scontrol", "update", f"JobId={job}_1", "StartTime=now")
         return "Restarts=1" in now and "JobState=COMPLETED" in now

@@ -40,8 +40,8 @@ TEST(LensHonesty, theAccumulationFollowsTheLens) {
     EXPECT_GT(count, 10);
 }
 
-// All methods that honestyMethods() lists can be created. The list contains each method with each of its settings,
-// together with any other settings that this setting requires.
+// All methods that honestyMethods() lists can be created. An entry of the list changes one setting of a method,
+// together with any other setting that it requires.
 TEST(LensHonesty, everyMethodThatItNamesCanBeMade) {
     const auto context = createHeadlessContext();
     World world;

@@ -80,7 +80,8 @@ private:
     }
 
     // Waits up to `seconds` for a message from the target window. Returns whether the message accepts the drop, that
-    // is, whether its second value is not 0. Meanwhile, answers the target's requests for the list of files.
+    // is, whether the second 32-bit value of its data is not 0. Meanwhile, answers the target's requests for the list
+    // of files.
     bool answered(const char* message, double seconds) {
         const xcb_atom_t expected = atom(message);
         for (double waited = 0; waited < seconds; waited += 0.01) {

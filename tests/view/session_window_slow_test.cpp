@@ -21,7 +21,8 @@ using View = SessionWindow;
 // depth w lies on the plane if w + tan(swing)·X + tan(tilt)·Y = focus distance.
 TEST_F(View, threePointsTiltTheFocusPlane) {
     openTwoQuads({"--focus-distance", "4"});
-    const std::array<std::array<int, 3>, 3> clicks = {{{180, 60, 2}, {190, 90, 2}, {360, 150, 8}}};  // x, y, depth
+    // x, y (px), depth (m)
+    const std::array<std::array<int, 3>, 3> clicks = {{{180, 60, 2}, {190, 90, 2}, {360, 150, 8}}};
     for (const auto& [x, y, depth] : clicks)
         inTurn({fmt::format("mousemove {} {}", x, y), "keydown ctrl", "click 1", "keyup ctrl"});
     ASSERT_TRUE(reaches([](const json& s) { return s.at("focusTilt") != 0.0 && s.at("focusSwing") != 0.0; }))
@@ -62,7 +63,7 @@ TEST_F(View, dividerMovesUnderTheHandAndPsnrIsShown) {
     EXPECT_TRUE(reaches([](const json& s) { return std::abs(s.at("divider").get<double>() - 0.75) < 0.01; }))
         << state();
     key("x");  // switches to a comparison with level mode `nearest`
-    key("x");  // switches to a comparison with the reference image, which has other lens samples than the view
+    key("x");  // switches to a comparison with the reference image, whose lens samples differ from the view's
     EXPECT_TRUE(reaches([](const json& s) {
         return s.at("comparison") == 3 && s.at("psnr").is_number() && s.at("psnr") > 20;
     })) << state();

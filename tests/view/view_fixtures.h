@@ -19,7 +19,8 @@ namespace defocus::engine {
 // Fixture of a window with the rendered image at the left and the panel at the right, from x = 400 px.
 class SessionWindow : public ViewProgram {
 protected:
-    // Opens an image of 400 × 300 px with two squares: "Near" at 2 m around (200, 67), "Far" at 8 m around (360, 150).
+    // Opens an image of 400 × 300 px with two squares: "Near", 2 m from the camera, centred on pixel (200, 67), and
+    // "Far", 8 m from the camera, centred on pixel (360, 150).
     void openTwoQuads(std::vector<std::string> more = {}) {
         writeTwoQuads(folder() / "quads.gltf");
         more.insert(more.begin(), {"quads.gltf", "--size", "400x300"});
@@ -32,8 +33,8 @@ protected:
         });
     }
     double number(const char* name) const { return state().at(name).get<double>(); }
-    // Presses a key that changes the state, which proves that earlier input has been processed. Returns true once the
-    // image no longer changes.
+    // Switches between the dark and the light theme. Once the state shows the switch, earlier input has been processed.
+    // Returns true once the image no longer changes.
     bool comesToRest() const {
         const bool dark = state().at("dark").get<bool>();
         key("t");
@@ -66,7 +67,8 @@ protected:
 // Fixture of a viewer whose PATH contains no desktop programs, such as file dialogs.
 class ViewTools : public ViewProgram {
 protected:
-    // Opens an image of 400 × 300 px with two squares: "Near" at 2 m around (200, 67), "Far" at 8 m around (360, 150).
+    // Opens an image of 400 × 300 px with two squares: "Near", 2 m from the camera, centred on pixel (200, 67), and
+    // "Far", 8 m from the camera, centred on pixel (360, 150).
     void openTwoQuads(std::vector<std::string> more = {}) { openScene("400x300", std::move(more)); }
     // Opens the scene of two squares in a window that is tall enough for most of the panel.
     void openTall(std::vector<std::string> more = {}) { openScene("400x700", std::move(more)); }
@@ -97,7 +99,7 @@ protected:
         };
         return insists(hand, condition);
     }
-    // Opens a section of the panel. `inside` names a widget in this section.
+    // Opens a section of the panel. Returns whether the widget `inside` of this section then appears.
     [[nodiscard]] bool unfolds(const std::string& section, const std::string& inside) const {
         return clicks(section, [&](const nlohmann::json& s) { return s.at("places").contains(inside); });
     }

@@ -31,7 +31,7 @@ protected:
     static void SetUpTestSuite() { beginServer({"-screen", "0", "1280x800x24"}); }
     static void TearDownTestSuite() { endServer(); }
 
-    // Starts Xvfb with the command-line arguments `words` for the screen.
+    // Starts Xvfb; `words` are its command-line arguments that describe the screen.
     static void beginServer(std::vector<std::string> words) {
         if (std::system("command -v Xvfb xdotool >/dev/null 2>&1") != 0) return;
         int ends[2];
@@ -175,9 +175,8 @@ protected:
         const std::string line = "DISPLAY=" + display_ + " xdotool " + commands + " >/dev/null 2>&1";
         EXPECT_EQ(std::system(line.c_str()), 0) << line;
     }
-    // Runs an xdotool command line and returns once the program has drawn the effect of the events. The first new state
-    // may belong to a frame that began before the events. The next frame handles the events, and the interface may
-    // respond two frames later.
+    // Runs an xdotool command line and waits for four frames: one that may have begun before the events, one that
+    // handles them, and two in which the interface may respond.
     void act(const std::string& commands) const {
         send(commands);
         for (const std::uint64_t more : {1u, 3u}) {
@@ -189,7 +188,8 @@ protected:
     void inTurn(const std::vector<std::string>& movements) const {
         for (const std::string& commands : movements) act(commands);
     }
-    // Clicks at a pixel of the window. Without a window manager, the window begins at the screen's corner.
+    // Clicks at a pixel of the window. Without a window manager, the window is at the top-left corner of the screen, so
+    // screen and window coordinates are equal.
     void click(int x, int y) const { inTurn({"mousemove " + std::to_string(x) + " " + std::to_string(y), "click 1"}); }
     void key(const std::string& name) const { act("key " + name); }
 

@@ -9,7 +9,7 @@ namespace {
 
 class Visuals : public ViewProgram {
 protected:
-    static void SetUpTestSuite() {}  // starts no screen, since each test starts its own
+    static void SetUpTestSuite() {}  // starts no virtual display, since each test starts its own
     void SetUp() override {
         beginServer(screen());
         ViewProgram::SetUp();
@@ -32,7 +32,7 @@ TEST_P(Depth, picturesAreShown) {
     EXPECT_TRUE(reaches([](const nlohmann::json& s) { return s.at("samples") > 0; })) << textOf("stderr");
 }
 
-INSTANTIATE_TEST_SUITE_P(Visuals, Depth, testing::Values(16, 30));  // a depth of 30 has ten bits for each channel
+INSTANTIATE_TEST_SUITE_P(Visuals, Depth, testing::Values(16, 30));  // a colour depth of 30 has ten bits per channel
 
 class WithoutGlx : public Visuals {
     [[nodiscard]] std::vector<std::string> screen() const override {

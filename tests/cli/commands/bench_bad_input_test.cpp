@@ -67,7 +67,8 @@ TEST(BenchResults, areNotWrittenFromChangedSources) {
         EXPECT_NE(std::string(error.what()).find("--allow-changed"), std::string::npos) << error.what();
     }
     EXPECT_NO_THROW(refuseChangedSources("out", true, "0123456789ab-changed"));
-    // Without an output folder, changed sources are accepted, because the table is only printed to the terminal.
+    // Without an output folder, a build from uncommitted sources is accepted: the table is only printed to the
+    // terminal.
     EXPECT_NO_THROW(refuseChangedSources("", false, "0123456789ab-changed"));
     EXPECT_NO_THROW(refuseChangedSources("out", false, "0123456789ab"));
     // an empty commit hash: the program was not built from a Git checkout

@@ -84,10 +84,10 @@ TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
     expectRefused("has 12 frames of an earlier run; continue with --resume, or start over with --overwrite", {});
     expectRefused("contains results for another scene", {"--focus-distance", "3"});
     expectRefused("contains results for another scene", {"--resume", "--focus-distance", "3"});
-    // another seed is refused with --resume, although the seed does not change the reference image
+    // --resume also refuses another seed, although it gives the same reference image: the measured images differ
     expectRefused("contains results for another scene", {"--resume", "--seed", "7"});
 
-    // The folder contains a reference image but no measured runs, as after a program that was killed before its first
+    // The folder contains a reference image but no measured runs, as if the program had been killed before its first
     // run.
     fs::remove(folder() / "out/runs.csv");
     const std::string reference = textOf(folder() / "out/reference.exr");

@@ -382,7 +382,8 @@ TEST_F(Capture, targetErrorTakesAsManySamplesAsItNeeds) {
               0);
     Metadata metadata;
     readImage(folder() / "free/0005.exr", metadata);
-    EXPECT_GT(std::get<int>(metadata.at("defocus:samples")), 64);  // the default of shots without a target error
+    // 64: default number of samples without a target error
+    EXPECT_GT(std::get<int>(metadata.at("defocus:samples")), 64);
     EXPECT_LE(std::get<double>(metadata.at("defocus:estimatedError")), 0.01);
 }
 

@@ -91,13 +91,13 @@ TEST_F(CaptureRefocus, smallAperturesHaveAsManySamples) {
     document["lens"]["fStop"]["keys"][1]["value"] = 5.6;
     writeShot(document);
     const std::string plan = filmed("far", {"--refocus", "--dry-run"}).out;
-    // Several small sets of lens images (views from lens points), each for some of the frames, have fewer images in all
-    // than one set of 1024 images for all frames.
+    // The plan uses several small sets of lens images (views from lens points), one per run of frames: they have fewer
+    // images in total than one set of 1024 for all frames.
     EXPECT_NE(plan.find("0000.exr (refocused)"), std::string::npos) << plan;
 }
 
-// A frame with a hexagonal aperture is computed from images of a hexagon. If another frame of its run has another
-// shape, it is computed from images of a disk instead, so --resume does not keep the earlier one.
+// Frames with the same hexagonal aperture are computed from images of a hexagon. If one of them has another shape, all
+// are computed from images of a disk. --resume then rejects the earlier frames, since their settings differ.
 TEST_F(CaptureRefocus, resumingNoticesOtherLensImages) {
     json document = focusPull();
     document["lens"]["bladeCount"] = 6;

@@ -1,5 +1,5 @@
 // Tests that a capture that is killed at any time leaves only complete frames under their final names, and that
-// resuming gives frames that are bit-identical to those of an undisturbed run.
+// resuming gives frames that are bit-identical to those of an uninterrupted run.
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -86,9 +86,8 @@ TEST_F(Survival, killedFiftyTimesAndResumed) {
     std::mt19937 random(7);
     int before = 0;
     for (int i = 0; i < 50; ++i) {
-        // Each run starts with more than half of the frames missing, so it makes at least about half as many system
-        // calls as an undisturbed run. A kill within the first third of an undisturbed run's calls thus always
-        // interrupts it.
+        // Each run is killed within the first third of the calls of an uninterrupted run. It starts with more than half
+        // of the frames missing, so it cannot finish before the kill.
         TracedChild child = startTraced();
         EXPECT_EQ(child.end(std::uniform_int_distribution(1, calls / 3)(random), SIGKILL), 128 + SIGKILL) << i;
         for (int number = 0; number < frames; ++number) {
@@ -109,8 +108,8 @@ TEST_F(Survival, killedFiftyTimesAndResumed) {
 }
 
 // Several captures can render the same frames at once. Each has its own temporary files, ignores those of the other
-// captures, and renames its complete frames, which are bit-identical. The captures start together, or each starts after
-// the previous one has finished some frames.
+// captures, and renames complete frames to their final names. The frames of all captures are bit-identical. The
+// captures start together, or each starts after the previous one has finished some frames.
 TEST_F(Survival, severalAtOnceOnTheSameFrames) {
     ASSERT_EQ(capture({"--range", "0:23", "-o", "whole/####.exr"}).exitCode, 0);
     for (int round = 0; round < 3; ++round) {

@@ -108,7 +108,7 @@ TEST_F(SceneOptionsTest, focusOnAPixelTakesTheDepthAndNotTheDistance) {
 
 TEST_F(SceneOptionsTest, focusOnAPixelWithFocusBreathingHitsWhatThePictureShows) {
     // Focus breathing scales tan(θx/2) by 1 − f/s, with the focal length f = 50 mm and the focus distance s = 2 m.
-    // Without breathing, the left edge of the quad "Near" is 142.2 px left of the image's centre at column 512. With
+    // Without breathing, the left edge of the quad "Near" is 142.2 px left of the image's centre (column 512). With
     // breathing, it is at column 512 − 142.2/(1 − 0.025) = 366.1.
     EXPECT_NEAR(lens("focusDistance", {"--focus-breathing", "--focus-pixel", "370,170"}), 2, 1e-6);
 }

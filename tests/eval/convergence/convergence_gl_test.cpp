@@ -100,7 +100,7 @@ protected:
 
 TEST_F(Convergence, moreLensSamplesComeCloser) {
     options_.lods = {LodMode::off};
-    // otherwise culled clusters, and thus triangle counts, would depend on the sample count
+    // without keepAll, the sample count would determine which clusters are culled, and thus the triangle counts
     options_.plan.keepAll = true;
     const std::vector<ConvergenceRun> runs = measure();
     ASSERT_EQ(runs.size(), 3u);
@@ -138,7 +138,7 @@ TEST_F(Convergence, biasAndSamplingErrorObeyTheTriangleInequality) {
     EXPECT_LT(runs[1].triangles, runs[0].triangles);
     EXPECT_EQ(runs[1].pyramidMilliseconds, 12);
 
-    // With level-of-detail thresholds of zero, the image equals the image at full detail in every pixel.
+    // Run 2 has level-of-detail thresholds of zero, so its image equals the image at full detail in every pixel.
     ASSERT_TRUE(runs[2].bias);
     EXPECT_EQ(runs[2].bias->mse, 0);
     EXPECT_EQ(runs[2].imageHash, runs[0].imageHash);

@@ -48,8 +48,9 @@ TEST_F(ConvergenceReference, isTheMeanOfAllItsSamplesAtFullDetail) {
         ASSERT_NEAR(mean.image.pixels[i], direct.pixels[i], 1e-6 * std::max(1.0f, direct.pixels[i]));
 }
 
-// The reference's error estimate is half the difference between the means of its two halves, which is right for
-// independent errors. Sample points of one half fill gaps between those of the other, so the true error may be smaller.
+// The reference's error estimate is half the difference between the means of its two halves. This is correct if the
+// errors of the halves are independent. Sample points of one half fill gaps between those of the other, so the true
+// error may be smaller.
 TEST_F(ConvergenceReference, knowsTheOrderOfItsOwnError) {
     const ReferenceImage coarse = reference(16);
     const ReferenceImage fine = reference(512);

@@ -135,7 +135,7 @@ TEST(ConvergenceRows, markFrontsAndLeaveFaultsOff) {
     runs[1].error.flip = 0.01;  // FLIP may rank images differently than the mean squared error
     const std::vector<ConvergenceRow> rows = convergenceRows(runs);
     EXPECT_TRUE(rows[0].front);
-    // b with 8 samples is faster and more accurate, so this row is not on the Pareto front
+    // row 1 is not on the Pareto front, because method b with 8 samples is faster and more accurate
     EXPECT_FALSE(rows[1].front);
     EXPECT_TRUE(rows[1].frontOfMethod);
     EXPECT_TRUE(rows[1].frontByFlip);
@@ -167,8 +167,8 @@ TEST(ConvergenceRows, sayWhichErrorsAreBelowTheReferencesOwn) {
     }
 }
 
-// With two alternating seeds, a row's error is the mean over the seeds, and each seed counts once. Only runs with the
-// same seed must give the same image.
+// With two alternating seeds, a row's error is the mean over the seeds, and each seed counts once. Images of runs with
+// the same seed must be equal; images of different seeds may differ.
 TEST(ConvergenceRows, errorsAreMeansOverSeeds) {
     const std::vector<ConvergenceRun> runs = {runOf("a", "x", 8, 0, 1, 0.25), runOf("a", "x", 8, 1, 1, 0.75),
                                               runOf("a", "x", 8, 2, 1, 0.25)};

@@ -123,10 +123,10 @@ TEST(PoppingPaths, theBusiestStretchHasTheMostChangesOfLevel) {
     EXPECT_THROW(busiestStretch(frames, small->world, settings, 41), Error);
 }
 
-// ---- pixels of the objects -----------------------------------------------------------------------------------------
+// ---- mask of the objects' pixels ------------------------------------------------------------------------------------
 
-// All pixels within 3 px of an object's pixel with a blur of 6 px count as pixels of objects. Background pixels do not
-// affect their surroundings.
+// If an object's pixel has a blur of 6 px, all pixels within 3 px of it count as pixels of objects. Background pixels
+// do not affect their surroundings.
 TEST(PoppingPixels, growByHalfTheBlur) {
     Image level(16, 12, 1);
     Image coc(16, 12, 1);

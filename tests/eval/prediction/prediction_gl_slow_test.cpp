@@ -12,8 +12,8 @@
 namespace defocus::engine {
 namespace {
 
-// Returns the predicted and the rendered errors of the levels of a ball with bumps and stripes. The ball is of plaster,
-// because the error model of pyramids covers all properties of this material.
+// Returns the predicted and the rendered errors of the levels of a ball with bumps and stripes. The ball is made of
+// plaster (diffuse), because the error model of pyramids covers all properties of this material.
 std::vector<PredictionRow> rowsOfABall() {
     Mesh mesh = sphere(64, 32, 0.03);
     for (const glm::vec3& p : mesh.vertices.positions)

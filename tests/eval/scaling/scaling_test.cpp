@@ -88,15 +88,15 @@ TEST(ScalingParts, spreadAsTheirRunsDo) {
 }
 
 TEST(ScalingParts, areAlikeWhereNoneIsLargerBeyondDoubt) {
-    // A single run gives no estimate of its noise: vertices (23.5 ms of 60 ms) and fill (24.1 ms) are too close to call
-    // one of them the larger part.
+    // A single run gives no estimate of the noise, so times that differ by less than 5 % of the frame time count as
+    // equal. Of 60 ms, vertices take 23.5 ms and fill takes 24.1 ms.
     EXPECT_EQ(rowOf(1, 60, 12.4, 23.5).largestParts(), (Parts{ScalingPart::vertices, ScalingPart::fill}));
     EXPECT_EQ(rowOf(1, 60, 12.4, 21).largestParts(), Parts{ScalingPart::fill});
     EXPECT_EQ(rowOf(1, 60, 20, 20).largestParts(),
               (Parts{ScalingPart::layers, ScalingPart::vertices, ScalingPart::fill}));
 
-    // The part `fill` takes about 40 ms of the frame, the part `layers` 30 ms. In the first measurement, `fill` is
-    // larger in all runs; in the second, the ranges of both parts overlap.
+    // `fill` takes about 40 ms of the frame time and `layers` 30 ms. In the first measurement, `fill` is larger in all
+    // runs; in the second, the ranges of the two overlap.
     ScalingRow row;
     setTimes(row, {{72, 71, 73}, {30, 29, 31}, {2, 2, 2}});
     EXPECT_EQ(row.largestParts(), Parts{ScalingPart::fill});

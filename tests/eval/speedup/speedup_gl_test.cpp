@@ -43,7 +43,7 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
         EXPECT_GT(row.setupMilliseconds, 0);
         EXPECT_EQ(row.pyramidMilliseconds, row.mode == LodMode::off ? 0 : 12);
         // Each row is compared with a reference image of the same lens. The reference has eight times as many samples
-        // as the measured image with the most samples for this lens: 8 · 9 = 72 and 8 · 5 = 40.
+        // as the measured image with the most samples: 8 · 9 = 72 for the first lens and 8 · 5 = 40 for the second.
         ASSERT_TRUE(row.fromReference);
         EXPECT_GT(row.fromReference->rmse, 0);
         EXPECT_EQ(row.referenceSamples, i < 6 ? 72u : 40u);
@@ -108,7 +108,7 @@ TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     options.sampleCounts = {8};
     options.runs = 1;
     options.referenceSamples = 0;
-    // Spheres in focus are simplified by size, and the other spheres by blur.
+    // The blur threshold (2 px) coarsens the blurred spheres, and the size threshold (3 px) the spheres in focus.
     const RenderSettings plan{.thresholds = {2, 3}};
     const std::vector<SpeedupForm> forms = {{"", &small->world, plan, 0}};
     std::vector<SpeedupRow> rows;

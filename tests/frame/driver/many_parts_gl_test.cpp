@@ -1,5 +1,5 @@
-// Tests that the time of a render grows in proportion to the number of roots, nodes, materials and meshes of its file.
-// Extreme lens values in a file must not multiply the time.
+// Tests that the time of a render grows in proportion to the number of roots, nodes, materials and meshes of its file,
+// and that extreme lens values in a file do not make a render much slower.
 
 #include <ctime>
 #include <functional>
@@ -73,8 +73,8 @@ protected:
     }
 };
 
-// If the cost grows by a factor of 2.6 for twice the count, it grows by 17.6 for eight times the count. A cost that is
-// quadratic in the count would grow by 64.
+// Eight times the count may take 17.6 times as long: a factor of 2.6 for each doubling. A quadratic cost would grow by
+// a factor of 64.
 TEST_P(ManyParts, costInProportion) {
     static_cast<void>(cost(100));  // compiles the shaders
     const double few = std::min(cost(1'000), cost(1'000));

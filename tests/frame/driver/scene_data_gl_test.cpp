@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(, SceneOfFile,
                          [](const auto& model) { return testNameOf(model.param); });
 
 TEST_F(SceneDataImage, aSquareCoversItsPixels) {
-    // At distance 2, the image is 2 units high, so that each of its 64 pixels is 1/32 wide.
+    // At distance 2, the image of 64 × 64 px is 2 units high and wide, so a pixel is 1/32 wide.
     const std::array<float, 3> corners[] = {
         {-0.5f, -0.25f, -2}, {0.25f, -0.25f, -2}, {0.25f, 0.5f, -2}, {-0.5f, 0.5f, -2}};
     const std::uint32_t triangles[] = {0, 1, 2, 0, 2, 3};

@@ -67,8 +67,7 @@ TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
     requests[6].layerFormat = LayerFormat::rgba32f;
     requests[7] = movedRequest();
     requests[7].lod = LodMode::off;
-    // Request 8 needs pyramids with LevelVertices::surviving. Request 9 needs those with LevelVertices::fitted (the
-    // default) again, as do the requests before 8.
+    // Requests 8 and 10 need pyramids with LevelVertices::surviving. The default is LevelVertices::fitted.
     requests[8].levelVertices = LevelVertices::surviving;
     requests[10] = requests[8];
     SceneRenderer renderer(requests[0]);
@@ -79,7 +78,7 @@ TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
     EXPECT_NE(render(requests[0]).pixels, render(requests[8]).pixels);
 }
 
-// Levels of the preset jeong2011 differ from full detail. With a blur threshold of 0, they equal full detail.
+// By default, levels of the preset jeong2011 change the image. With a blur threshold of 0, it equals full detail.
 TEST_F(SceneRendererTest, publishedLevelsEndInFullDetail) {
     Request published = smallRequest();
     setSetting(published, "preset", "jeong2011");
@@ -132,7 +131,7 @@ TEST_F(SceneRendererTest, aProgressThatThrowsCancelsAndTheRendererGoesOn) {
     EXPECT_EQ(renderer.render().pixels, full.pixels);
     EXPECT_THROW(SceneRenderer(smallRequest(), [](auto...) { throw Cancelled(); }), Cancelled);
 
-    // Cancelling the first build of levels also leaves the renderer usable.
+    // The renderer remains usable after its first build of pyramids was cancelled.
     Request sharp = smallRequest();
     sharp.lod = LodMode::off;
     SceneRenderer late(sharp);
@@ -167,7 +166,7 @@ TEST_F(SceneRendererTest, faultsLeaveTheFrameBeforeAsItIs) {
     const Image full = renderer.render();
 
     std::vector<Request> bad(5, smallRequest());
-    bad[0].fishCount = 3;  // the renderer belongs to another scene
+    bad[0].fishCount = 3;  // another number of fish is another scene, which this renderer cannot draw
     bad[1].camera = NamedCamera{"none such"};
     bad[2].samples = 65'537;
     bad[3].environment = folder_ / "missing.hdr";
@@ -208,7 +207,7 @@ TEST_F(SceneRendererTest, aovsPlanAndFilesAreOfTheFrame) {
     const Aovs aovs = renderer.aovs();
     EXPECT_EQ(aovs.depth.width, 64);
     EXPECT_EQ(aovs.depth.channels, 1);
-    // The square "Near" covers the middle column above the axis: 0.3 m at a depth of 2 m is 13 px above the centre row.
+    // The centre of the square "Near", 0.3 m above the axis at a depth of 2 m, is 13 px above the centre row.
     EXPECT_NEAR(*aovs.depth.at(32, 11), 2, 1e-4);
     EXPECT_EQ(*aovs.depth.at(2, 45), std::numeric_limits<float>::infinity());
     EXPECT_EQ(*aovs.level.at(2, 45), -1);
@@ -233,7 +232,7 @@ TEST_F(SceneRendererTest, theCallersContextIsCurrentAfterEachCall) {
     ASSERT_NE(own, EGL_NO_CONTEXT);
     const auto check = [&](const char* call) { EXPECT_EQ(eglGetCurrentContext(), own) << call; };
     {
-        // A worker thread without an OpenGL context may report progress.
+        // Worker threads, which have no OpenGL context, also report progress; only the caller's reports are checked.
         const std::thread::id caller = std::this_thread::get_id();
         SceneRenderer renderer(smallRequest(), [&](auto...) {
             if (std::this_thread::get_id() == caller) check("progress of the constructor");

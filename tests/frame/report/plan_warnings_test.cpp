@@ -78,7 +78,7 @@ TEST(PlanWarnings, anOpenLensThatBlursNothingIsNamedWithAScaleThatHelps) {
     small->view.lens.blurScale = numberAfter(lines[0], "--blur-scale ");
     RenderSettings settings;
     const double blur = planFrame(small->world, small->view, settings).largestBlur;
-    // the warning rounds its suggestion to 1, 2 or 5 times a power of ten
+    // The warning rounds its suggestion to 1, 2 or 5 times a power of ten, here by a factor below 1.7.
     EXPECT_GT(blur, 0.02 * small->view.width / 1.7);
     EXPECT_LT(blur, 0.02 * small->view.width * 1.7);
     EXPECT_TRUE(warningsOf(*small).empty());

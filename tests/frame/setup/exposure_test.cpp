@@ -22,11 +22,11 @@ Image stripes(const std::vector<float>& greys, std::size_t empty = 0) {
 }
 
 TEST(Meter, aSceneOfManyGreysAveragesToMiddleGrey) {
-    // The log average is 2 · 0.18, so the exposure is −1 EV. At this exposure, the brightest value lies between 40 %
-    // and white.
+    // The log average is 2 · 0.18, so the exposure is −1 EV. The brightest value is then 0.72. This is within its
+    // limits, 40 % and 100 % of white, so the exposure is not adjusted.
     const Image image = stripes({0.09f, 0.36f, 1.44f});
     EXPECT_NEAR(meteredExposure(image), -1, 1e-6);
-    // Scaling the radiance by a power of two shifts the exposure by the same number of stops.
+    // Multiplying the radiance by 2^10 lowers the exposure by 10 stops.
     EXPECT_NEAR(meteredExposure(stripes({0.09f * 1024, 0.36f * 1024, 1.44f * 1024})), -11, 1e-6);
 }
 

@@ -69,7 +69,7 @@ TEST(ChosenLevels, followTheRequest) {
     EXPECT_EQ(chosenFor(request), LodMode::fractional);
 }
 
-// The blur of content in front of the near plane has no bound.
+// If the scene reaches the near plane, its blur has no bound, so levels are drawn.
 TEST(ChosenLevels, areDrawnWhereTheSceneReachesTheCamera) {
     Request request = smallSchool(16);
     PreparedFrame frame = placeFrame(request);

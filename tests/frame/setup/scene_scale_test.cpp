@@ -112,7 +112,7 @@ TEST_F(SceneScale, lengthsThatAreGivenAreInMetresOfTheFile) {
     EXPECT_EQ(scaleOf(request()), 1);
 }
 
-// An object has the same blur whether its file is in metres or in centimetres. A wrong unit changes the blur.
+// An object has the same blur whether its file is in metres or in centimetres. With a wrong unit, the blur differs.
 TEST_F(SceneScale, blurIsThatOfTheThing) {
     save(squareOf(2));
     const double inMetres = blurOf(request());

@@ -44,8 +44,8 @@ double sideOf(const Pyramid& pyramid, int number) {
 
 // Under blur, errors are averaged over square image patches as wide as the blur. If a level is 1 + ε times as bright as
 // level 0, its error in a patch is ε times the patch's mean radiance. The contrast is the standard deviation of the
-// radiance around this mean; it is the error of one lens sample. The squared mean and the squared standard deviation
-// add up to the mean squared radiance, which does not depend on the patch size.
+// radiance around this mean; it is the error if one lens sample stands for the patch. The squared mean and the squared
+// standard deviation add up to the mean squared radiance, which does not depend on the patch size.
 TEST(BlurredError, aBrighterLevelAndTheSamplesShareTheLight) {
     constexpr double more = 0.125;
     const Pyramid pyramid = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1 + more); });
@@ -117,11 +117,12 @@ std::vector<glm::vec3> rectangle(const glm::vec2& low, const glm::vec2& high) {
     return {a, b, c, a, c, d};
 }
 
-// A level lacks strips of width w and length l beside a plate. Without blur, the squared error is the fraction of the
-// area that the strips cover. Under blur, errors are averaged over square patches of side s > w. A patch on a strip
-// averages the strip's radiance with black, so its error is w/s. The patches along a strip have the area l · s, so the
-// sum of their squared errors is (w/s)² · l · s. Foreshortening in each view direction changes w and l. The strips are
-// thinner than a pixel of the images from which errors are measured.
+// The full mesh is a plate beside strips of width w and length l; the level lacks the strips. Without blur, the squared
+// error is the fraction of the area that the strips cover. Under blur, errors are averaged over square patches of side
+// s > w. A patch on a strip averages the strip's radiance with black, so its error is w/s. The patches along a strip
+// have the area l · s, so the sum of their squared errors is (w/s)² · l · s. Foreshortening in each view direction
+// changes w and l. The strips count although they are thinner than a pixel of the images from which errors are
+// measured.
 TEST(BlurredError, lostWiresCountByTheirWidthUnderThePixel) {
     constexpr double width = 0.004, plate = 0.5;
     constexpr int count = 12;
@@ -193,8 +194,8 @@ TEST(BlurredError, anOutlineCountsByTheAreaThatItLoses) {
     };
     const double lost = shrunk(0.96f);
     EXPECT_NEAR(lost / shrunk(0.98f), 2, 0.3);
-    // The removed rim has the relative area 2 · 0.04. Its radiance and the mean radiance lie between 0.2 and 1, so
-    // their ratio lies between 0.2 and 5.
+    // The removed rim has 2 · 0.04 of the ball's projected area. Its radiance and the mean radiance lie between 0.2 and
+    // 1, so the relative squared error in the rim lies between 0.2² and 5².
     EXPECT_GT(lost, 0.2 * 0.2 * 2 * 0.04);
     EXPECT_LT(lost, 5 * 5 * 2 * 0.04);
 }
@@ -275,8 +276,8 @@ TEST(BlurredError, theLevelMeetsItsLimit) {
     EXPECT_EQ(levelOfBlurredError(pyramid, sides, 100, 0), 0);
 }
 
-// A level's error limit is inversely proportional to its edge length, but at most 0.3 of the lens samples' expected
-// error.
+// A level's error limit is inversely proportional to its edge length, but at most 0.3 times the error that is expected
+// from the number of lens samples.
 TEST(BlurredError, theLimitFollowsEdgesAndSamples) {
     for (const std::uint32_t samples : {16u, 64u, 1024u}) {
         const double light = defaultThresholds(LodMetric::measured, samples).light;
@@ -286,9 +287,9 @@ TEST(BlurredError, theLimitFollowsEdgesAndSamples) {
 }
 
 // The selected fractional level λ has no jumps as the blur grows. λ follows from the ratio E/V of error to contrast.
-// Errors grow by at least a tenth per level, so λ changes by at most 11 times the relative change of E/V. If the blur
-// widens by 1/1000, E² changes by at most 4/1000 of its value and V² by at most 2/1000. E/V then changes by at most
-// half of the sum, 3/1000.
+// Errors grow by a factor of at least 1.1 per level, so λ changes by at most 1/(1 − 1/1.1) = 11 times the relative
+// change of E/V. E² changes at most with the fourth power of the blur width, and V² at most with the second. If the
+// blur widens by 1/1000, E/V thus changes by at most (4 + 2)/2 thousandths of its value.
 TEST(BlurredError, theLevelIsContinuousInTheBlur) {
     Mesh mesh = sphere(64, 32, 0.05);
     for (const glm::vec3& p : mesh.vertices.positions) mesh.vertices.colors.push_back(striped(p));

@@ -455,7 +455,7 @@ TEST(PyramidCache, otherOptionsHaveTheirOwnFiles) {
     }
 }
 
-// A cache file is valid only for the LevelVertices option with which it was built. It is rejected for the other option,
+// A cache file is valid only for the value of LevelVertices with which it was built. It is rejected for other values,
 // even if the file is renamed.
 TEST(PyramidCache, aFileIsOfItsOwnVertices) {
     const Mesh mesh = sphere(24, 16);

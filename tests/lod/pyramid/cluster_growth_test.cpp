@@ -109,7 +109,6 @@ TEST(ClusterGrowth, clustersAreCompactAndDontGoRoundACrease) {
     const Soup sheet = foldedSheet(80);
     const GrownClusters grown = grow(sheet);
     expectPartition(sheet, grown);
-    // A cluster has at most 64 triangles, which fill 32 unit squares. A disk of that area has a radius of 3.2.
     const double fewest = static_cast<double>(grown.triangles.size()) / max;
     EXPECT_LT(static_cast<double>(grown.sizes.size()), 1.1 * fewest);
     std::size_t begin = 0;
@@ -127,6 +126,7 @@ TEST(ClusterGrowth, clustersAreCompactAndDontGoRoundACrease) {
         radii += 0.5 * glm::distance(min, largest);
         creased += min.x < 39.5f && largest.z > 0.5f ? 1 : 0;
     }
+    // A disk with the area of 64 triangles, the max of a cluster, has a radius of 3.2.
     EXPECT_LT(radii / static_cast<double>(grown.sizes.size()), 2 * 3.2);
     EXPECT_LT(creased, 0.1 * fewest);
 }

@@ -1,5 +1,5 @@
-// Tests that the length of a coarse level's normals equals their mean cosine to the normals of the fine surface that
-// they replace.
+// Tests that the length of a coarse level's normals equals the mean cosine of the angle between the level's normals and
+// those of the fine surface.
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 namespace defocus::engine {
 namespace {
 
-// Means over every fifth vertex of a ball. The ray from the centre through the vertex hits the level's surface at a
-// point. `cosine` is the cosine of the angle between the vertex normal and the level's normal at that point; `length`
-// is the length of the level's normal.
+// Means over every fifth vertex of a ball. The ray from the centre through the vertex hits the level's surface, where
+// the level's normal is interpolated. `cosine` is the cosine of the angle between the vertex normal and this normal;
+// `length` is the length of this normal.
 struct Agreement {
     double cosine = 0;
     double length = 0;

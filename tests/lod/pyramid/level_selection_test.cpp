@@ -55,8 +55,8 @@ TEST(LevelOfDetail, isProportionalToTheBlurAndToTheReciprocalOfTheBox) {
     EXPECT_EQ(lambda({1, 75, 40}, 10), 0);
 }
 
-// With the metric `score`, λ is the fractional level whose edges are threshold · c/d times as long as the edges of
-// level 0. The blur is c px wide, and edges of level 0 project to d px.
+// If the blur is c px wide and edges of level 0 project to d px, the metric `score` selects the λ whose edges are
+// threshold · c/d times as long as those of level 0.
 TEST(LevelOfDetail, ByScoreFollowsTheBlurOverTheEdge) {
     const Pyramid pyramid = uniformPyramid();
     for (double coc = 0; coc < 90; coc += 1.3) {
@@ -72,7 +72,7 @@ TEST(LevelOfDetail, ByScoreFollowsTheBlurOverTheEdge) {
 TEST(LevelOfDetail, OfErrorsIsLinearBetweenThem) {
     const Pyramid pyramid = uniformPyramid();
     const auto lambda = [&](double target) {
-        // errors project to 0, 1, 2, 4 and 8 px
+        // at 100 px per unit, the errors of levels 0 … 4 project to 0, 1, 2, 4 and 8 px
         return levelOfDetail(pyramid, {100, 0, 0}, LodMetric::error, {0, target});
     };
     EXPECT_DOUBLE_EQ(lambda(0.25), 0.25);
@@ -93,11 +93,11 @@ TEST(LevelOfDetail, IsContinuousAndGrowsWithTheTargetOnPlateaus) {
     expectContinuousLevels(pyramid);
 }
 
-// The selected real-valued level λ is a function of the target, the allowed edge length or error in object units. Let
-// levels l and l + 1 have the edge lengths or errors e[l] and e[l+1]. For edges, λ is linear in ln(target) between
-// these levels, with the slope 1/ln(e[l+1]/e[l]). For errors, λ is linear in the target, and the slope there is
-// 1/(e[l+1] − e[l]). Blur, threshold and distance affect λ only through the target. A step in any of them therefore
-// changes λ by the integral of the slope.
+// The selected real-valued level λ depends only on the target: the allowed edge length or the allowed error, in object
+// units. Let levels l and l + 1 have the edge lengths or errors e[l] and e[l+1]. For edges, λ is linear in ln(target)
+// between these levels, with the slope 1/ln(e[l+1]/e[l]). For errors, λ is linear in the target, with the slope
+// 1/(e[l+1] − e[l]). If the blur, the threshold or the distance changes the target, λ changes by the integral of the
+// slope from the old to the new target.
 TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
     Pyramid pyramid = uniformPyramid();
     pyramid.levels[2].meanEdge = pyramid.levels[1].meanEdge * 1.05;

@@ -72,8 +72,8 @@ TEST(RealModels, AllBecomePyramids) {
     }
 }
 
-// Compares the stored error of each level with a far denser measurement. Each stored error is at least 0.9 of the
-// measured one, and the median ratio is below 1.3.
+// Compares the stored error of each level with a far denser measurement. The ratio of the stored to the measured error
+// is at least 0.9, and its median is below 1.3.
 TEST(RealModels, StoredErrorsAreThoseOfTheFittedSurfaces) {
     constexpr std::size_t points = 8'192;
     const std::vector<fs::path> models = publicModels();

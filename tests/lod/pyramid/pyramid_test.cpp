@@ -408,7 +408,7 @@ TEST(Pyramid, UnsharedVerticesAreJoinedAndUnusedOnesDropped) {
 }
 
 // A mesh with duplicate vertices gets the same levels as the mesh without them. If there are many duplicates, a copy of
-// the mesh without them is simplified. Few duplicates stay in the vertex list, but no triangle uses them.
+// the mesh without them is simplified. If there are few, they stay in the vertex list, but no triangle uses them.
 TEST(Pyramid, CopiesOfVerticesChangeNothing) {
     const Mesh mesh = sphere(48, 24, 0.1);
     const Pyramid without = buildPyramid(mesh);

@@ -69,8 +69,8 @@ TEST(SurfaceDistance, CylinderAgainstItsInscribedPrism) {
     for (const Distances& way : {d.forward, d.backward}) {
         EXPECT_NEAR(way.maximum, sagitta, 1e-3 * sagitta + ownSagitta);
         EXPECT_NEAR(way.mean, 2 * sagitta / 3, 0.01 * sagitta + ownSagitta);
-        // At 99 of 100 points, the distance from the midpoint of the polygon's side exceeds 1 % of half the side. The
-        // distance from these points to the circle is at most sagitta·(1 − 0.01²).
+        // For 99 % of points spread evenly over a side of the polygon, the distance from the side's midpoint exceeds 1
+        // % of half the side. Their distance to the circumscribed circle is at most sagitta·(1 − 0.01²).
         EXPECT_NEAR(way.percentile99, sagitta, 0.005 * sagitta + ownSagitta);
     }
 }
@@ -127,8 +127,8 @@ TEST(SurfaceDistance, ShiftedTriangle) {
     // The forward distance is −x on the strip x < 0. Its mean is ∫₀¹ t·(3 + t) dt, divided by the triangle's area of 8.
     EXPECT_NEAR(d.forward.mean, (1.5 + 1.0 / 3) / 8, 0.01);
     EXPECT_NEAR(d.forward.maximum, 1, 0.03);
-    // The corner (4, 0) has the max backward distance: 1, to the corner (3, 0). The closest point of the line x + y = 3
-    // would be nearer but lies beyond the end of the edge.
+    // The corner (4, 0) has the max backward distance: 1, to the corner (3, 0). Its closest point on the line x + y = 3
+    // is nearer but lies beyond the end of the edge on this line.
     EXPECT_LE(d.backward.maximum, 1);
     EXPECT_NEAR(d.backward.maximum, 1, 0.06);
 }

@@ -114,8 +114,8 @@ TEST(Quarters, areThreeLevelsOfAllThreeQuartersAndHalfOfTheVertices) {
     }
 }
 
-// Each level has half the triangles of the previous level, to within 1.5 triangles, since a collapse inside a surface
-// removes two triangles.
+// Each level has half the triangles of the previous level, to within 1.5 triangles: half is rounded down, and the last
+// collapse, which removes two triangles, may remove one too many.
 TEST(SurvivingVertices, makeLevelsOfHalfTheTriangles) {
     const Pyramid pyramid = buildPyramid(sphere(96, 48), asPublished);
     ASSERT_GT(pyramid.levels.size(), 5u);

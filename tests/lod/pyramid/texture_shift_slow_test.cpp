@@ -55,10 +55,10 @@ struct Shift {
     double elsewhere = 0;
 };
 
-// Returns how far a level's texture is shifted against level 0's texture. Compares the pixels that show both levels, in
-// the views that are used to measure errors under blur. On one part of the surface, the texture shifts by at most the
-// longest edge of the level. Pixels with a larger shift show different parts of the surface, for example beside a strap
-// that became thinner. These pixels count as `elsewhere`.
+// Returns how far a level's texture is shifted relative to level 0's texture. Compares the pixels that both levels
+// cover, in the views that are used to measure errors under blur. If a pixel shows the same part of the surface in both
+// levels, the shift is at most the level's longest edge. Pixels with a larger shift show different parts, for example
+// beside a strap that became thinner. These pixels count as `elsewhere`.
 Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
     constexpr int resolution = 512;
     const std::vector<Finish> finishes(pyramid.levels.front().primitives.size(), showingCoordinates());

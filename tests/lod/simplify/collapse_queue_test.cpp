@@ -62,7 +62,7 @@ TEST(CollapseQueue, aVertexWaitsOnceWithItsLastCost) {
     queue.put(vertex(2), 3, false);
     queue.put(vertex(2), 0.5f, false);  // vertex 2 is now the cheapest instead of the most expensive
     EXPECT_EQ(queue.best(), vertex(2));
-    queue.put(vertex(2), 1.5f, false);  // vertex 2 is now between vertices 0 and 1
+    queue.put(vertex(2), 1.5f, false);  // vertex 2 is now more expensive than vertex 0 and cheaper than vertex 1
     queue.put(vertex(0), 1, true);      // vertex 0 is the cheapest, but its collapse is marked as bad
     EXPECT_EQ(emptied(queue), (std::vector<int>{2, 1, 0}));
 }

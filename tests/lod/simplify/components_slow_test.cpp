@@ -17,8 +17,8 @@ Mesh ballAndSlabs(std::uint32_t count, std::uint32_t holes, float size) {
     return mesh;
 }
 
-// Small slabs with many handles need many triangles, but the ball keeps its shape in every level in which another part
-// has more triangles than the ball.
+// Small slabs with many holes need many triangles. The ball must nevertheless keep its shape in every level in which a
+// slab has more triangles than the ball.
 TEST(Components, ABallOutlastsSmallPartsOfManyHandles) {
     struct Scene {
         std::uint32_t count, holes;

@@ -1,4 +1,5 @@
-// Tests the simplification of meshes of many separate parts, which continues after each part has reached its min size.
+// Tests the simplification of meshes of many separate parts: once all parts have their min size, whole parts are
+// removed.
 
 #include <gtest/gtest.h>
 
@@ -91,7 +92,8 @@ TEST(Components, StoredErrorBoundsTheDistanceAndTheSizeOfWhatIsGone) {
 }
 
 TEST(Components, SmallerOnesGoFirstAndTheLargestStays) {
-    // Part 777 is the largest. The others have nine sizes in mixed order, each 1.3 times the next smaller size.
+    // Part 777 is the largest. The other parts have nine sizes in mixed order; each size is 1.3 times the next smaller
+    // one.
     const auto sizeOf = [](std::uint32_t i) {
         return i == 777 ? 0.05f : 0.002f * std::pow(1.3f, static_cast<float>(i * 7 % 9));
     };

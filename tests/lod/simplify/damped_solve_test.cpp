@@ -7,8 +7,8 @@
 namespace defocus::engine {
 namespace {
 
-// The solver reads only the lower half of the matrix and adds the damping times the mean diagonal: (4 + 0.1 · 3.5) x +
-// 2 y = 1 and 2 x + (3 + 0.1 · 3.5) y = 2.
+// The solver reads only the lower half of the matrix. It adds the damping, times the mean of the diagonal, to each
+// diagonal element: (4 + 0.1 · 3.5) x + 2 y = 1 and 2 x + (3 + 0.1 · 3.5) y = 2.
 TEST(DampedSolve, ReadsTheLowerHalfAndAddsTheDamping) {
     constexpr double unread = std::numeric_limits<double>::quiet_NaN();
     const std::vector<double> x = dampedSolution(std::vector<double>{4, unread, 2, 3}, std::vector<double>{1, 2}, 0.1);

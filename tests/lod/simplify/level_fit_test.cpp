@@ -73,8 +73,8 @@ TEST(LevelFit, flatTriangleStaysWhereItIs) {
         EXPECT_NEAR(glm::distance(fitted.positions[{v}], t.vertices.positions[v]), 0, 1e-6);
 }
 
-// A fitted triangle rises to the bulge that it replaces. All vertices except its corners lie 0.3 above it, and least
-// squares raise it by almost 0.3.
+// A fitted triangle rises to the bulge that it replaces. Before the fit, all vertices except the triangle's corners lie
+// 0.3 above it. Least squares raise it by almost 0.3.
 TEST(LevelFit, triangleRisesToTheBulgeItStandsFor) {
     OneTriangle t = oneTriangle();
     for (std::size_t v = 3; v < t.vertices.positions.size(); ++v) t.vertices.positions[v].z = 0.3f;

@@ -107,7 +107,7 @@ TEST(FitLight, findsTheNormalsOfTheLight) {
     }
 }
 
-// Normals that already reflect the right amount of light are not changed, bit for bit.
+// Normals that already reflect the target amount of light stay bit-identical.
 TEST(FitLight, leavesWhatFits) {
     const Mesh grid = flatGrid(8);
     std::vector<std::uint32_t> groups(grid.vertices.count());

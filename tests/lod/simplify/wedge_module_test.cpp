@@ -24,8 +24,8 @@ Vertices grid() {
     return vertices;
 }
 
-// Returns the grid, but the right column of quads has its own vertices where both columns meet. The texture coordinate
-// u of its vertices is shifted by `jump`.
+// Returns the grid, torn between its two columns of quads: the right column has its own vertices where it meets the
+// left one. The texture coordinate u of the right column's vertices is shifted by `jump`.
 //
 //   6---7 11---8
 //   | / |  | / |
@@ -72,8 +72,8 @@ TEST(WedgeModule, leavingASeamIsPoorWhereTheTextureJumps) {
     EXPECT_EQ(far.modules().wedges.judge(far.edge(4, 5)), Fit::poor);
     DrawnSurface near(tornGrid(0.5f), {together(leftTriangles, rightTrianglesOfSeam)});
     EXPECT_EQ(near.modules().wedges.judge(near.edge(4, 5)), Fit::good);
-    // Corners to the left of the seam get vertex 5, the only vertex at the surviving position. Whether u jumps far or
-    // little across the seam makes no difference.
+    // Triangles to the left of the seam get vertex 5, the only vertex at the surviving position, although u jumps
+    // there.
     near.collapse(4, 5);
     EXPECT_EQ(drawnFaces(near.mesh()),
               (std::vector<Face>{{0, 1, 5}, {0, 5, 3}, {2, 5, 9}, {3, 5, 7}, {3, 7, 6}, {5, 8, 11}}));

@@ -49,9 +49,9 @@ TEST(EvenDivision, pointsBesideACentreBelongToIt) {
 // Lens points lie near the centre to which they are assigned: their mean squared distance from it is below 0.3 times
 // the spread, which is the points' mean squared distance from their common mean. A random assignment would give twice
 // the spread. Ideally, the unit disk, whose spread is 1/2, would be divided into sixteen squares of area π/16. The mean
-// squared distance of a square's points from its middle is (π/16)/6, or 6.5 % of the spread. The mean squared
-// distance from a random point of the square, such as a centre of this test, is twice as large. Apertures with corners
-// add a small error, because points and centres are divided in halves independently.
+// squared distance of a square's points from its middle is (π/16)/6, or 6.5 % of the spread. The centres of this test
+// are random points of the squares, so the ideal distance is twice as large: 13 % of the spread. It is somewhat larger
+// for apertures with corners, because points and centres are halved independently.
 TEST(EvenDivision, pointsLieNearTheirCentre) {
     for (const ApertureShape& shape : apertureShapes)
         for (const std::uint32_t first : {0u, 64u, 640u}) {

@@ -105,7 +105,7 @@ TEST(LensCells, middlesKeepApart) {
 }
 
 // In a frame that is drawn in blocks, the cells of all blocks together divide the lens about as finely as the cells of
-// a frame that is drawn at once. Blocks with the same cell centres would show ghost copies of lights, however many
+// a frame that is drawn as one block. Blocks with the same cell centres would show ghost copies of lights, however many
 // samples are drawn.
 TEST(LensCells, blocksHaveDifferentMiddles) {
     const auto small = muchBlurred();
@@ -117,7 +117,7 @@ TEST(LensCells, blocksHaveDifferentMiddles) {
         middles.insert(middles.end(), cells.middles.begin(), cells.middles.end());
     }
     ASSERT_EQ(middles.size(), 1024u);
-    // 1,024 random points would lie in only about 700 of the squares of side 1/20 lens radius.
+    // 1,024 random points would lie in only about 700 of the 1,257 squares with sides of 1/20 lens radius.
     std::set<std::pair<int, int>> squares;
     for (const glm::vec2& middle : middles) squares.emplace(std::lround(20 * middle.x), std::lround(20 * middle.y));
     EXPECT_GT(squares.size(), 700u);
@@ -165,8 +165,8 @@ TEST(LensCells, edgesAreBlurredAsByADisk) {
 }
 
 // A subset of a planned frame's samples has the same lens cells (regions of the lens) as the entire frame. Samples that
-// are planned separately have different cells. The blur of these cells depends on the number of the frame's samples up
-// to the last of the planned samples.
+// are planned separately have different cells. These are blurred as in a frame that ends with the last of the planned
+// samples.
 TEST(LensCells, belongToWhatIsPlannedTogether) {
     const auto small = muchBlurred();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(192));
@@ -202,8 +202,8 @@ TEST(LensCells, blurFallsWithTheSamplesUntilThereIsNone) {
         ASSERT_LT(glm::distance(none.middles[i], before.middles[i]), 1e-6f) << i;
 }
 
-// Black rows around an aperture image change nothing: the open area of the lens, and with it the blur of the cells, is
-// the same. The image has four bright dots.
+// Black rows around an aperture image, here of four bright dots, change nothing: the open area of the lens stays the
+// same, and so does the blur of the lens cells (regions of the lens).
 TEST(LensCells, blackBordersOfAnApertureImageChangeNothing) {
     const auto blurWith = [](int height) {
         Image image(16, height, 3);
@@ -218,7 +218,7 @@ TEST(LensCells, blackBordersOfAnApertureImageChangeNothing) {
     EXPECT_NEAR(blurWith(4), blurWith(16), 1e-9);
 }
 
-// While the blur grows, the resolution that a sample's image needs falls to 1/16 of full resolution, without a jump.
+// The resolution that a sample's image needs falls continuously to 1/16 of full resolution as the blur grows.
 TEST(LensCells, pixelRateIsContinuous) {
     const auto small = muchBlurred();
     const LensCells cells = lensCellsOf(*small, 64);

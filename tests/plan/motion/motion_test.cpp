@@ -81,7 +81,7 @@ TEST(Motion, samplesFindTheirMoments) {
 
 TEST(Motion, boundsBlurAndCullingCoverTheWholeExposure) {
     const auto small = fiveSpheres();
-    // One object crosses the frame from far left to far right. It is outside the frame at both ends of the exposure.
+    // All objects except one are far away. This one crosses the frame and is outside it at both ends of the exposure.
     for (Object& object : small->world.pose.objects) object.worldFromObject[3] += glm::dvec4(0, 0, -40, 0);
     Object& crossing = small->world.pose.objects[0];
     crossing.worldFromObject = glm::translate(glm::dmat4(1), glm::dvec3(30, 0, -3));

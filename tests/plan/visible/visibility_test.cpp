@@ -39,8 +39,8 @@ RenderSettings settingsFor(std::uint32_t samples) {
     return {.sampleCount = samples, .lod = LodMode::off};
 }
 
-// Returns objects of one triangle each, up to `size` m large, at random positions. Most are in front of the camera, a
-// few beside or behind it. Every third transform is a reflection, and every fourth has a non-uniform scale.
+// Returns objects of one triangle each, within balls of radius `size` m at random positions. Most are in front of the
+// camera, a few beside or behind it. Every third transform is a reflection, and every fourth has a non-uniform scale.
 std::unique_ptr<SmallWorld> looseTriangles(Random& random, int count, double size) {
     auto small = std::make_unique<SmallWorld>();
     small->view.width = 400;
@@ -92,7 +92,8 @@ double determinant(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     return glm::dot(a, glm::cross(b, c));
 }
 
-// Returns the max of the triangle's facing determinant over the lens (Munkberg et al. 2012, Eq. 5).
+// Returns the max of the triangle's determinant over the lens (Munkberg et al. 2012, Eq. 5). If it is at most 0, the
+// triangle faces away from the entire lens.
 double largestDeterminant(const ClipTriangle& t, double aspect, double sign) {
     glm::dvec3 n(0);
     for (std::size_t i = 0; i < 3; ++i) n += t.c[i] * glm::cross(t.p[(i + 1) % 3], t.p[(i + 2) % 3]);
@@ -171,8 +172,8 @@ Counts checkTriangles(const SmallWorld& small, const FramePlan& plan) {
 
 TEST(Visibility, randomTrianglesThroughAThinLens) {
     Random random(1);
-    // Triangles that are large relative to their distance are more often clipped, or reach the near plane. Culling then
-    // detects fewer of the triangles that face away.
+    // Triangle sizes in m, and the min fraction of the triangles facing away that culling must detect. Culling detects
+    // fewer large triangles, because more of them are clipped.
     const std::pair<double, double> sizesAndShares[] = {{0.02, 0.9}, {0.1, 0.7}, {0.4, 0.5}};
     for (const auto& [size, share] : sizesAndShares) {
         const auto small = looseTriangles(random, 3000, size);
@@ -182,8 +183,9 @@ TEST(Visibility, randomTrianglesThroughAThinLens) {
     }
 }
 
-// For a thin lens, the max facing determinant of a triangle equals the determinant for an eye that moves over a disk
-// with the lens's radius in metres (Munkberg et al. 2012, Eq. 6).
+// A triangle faces away from the entire lens if its determinant, maximized over the lens, is at most 0. For a thin
+// lens, this max equals the one for an eye that moves over a disk with the lens's radius in metres (Munkberg et al.
+// 2012, Eq. 6).
 TEST(Visibility, thinLensMovesTheEyeOverADisk) {
     Random random(2);
     const auto small = looseTriangles(random, 500, 0.3);
@@ -254,7 +256,7 @@ TEST(Visibility, anObjectBlurredMoreThanTheLensBlursIsSeenFromFarther) {
     small->view.height = 300;
     small->view.lens.fStop = 1;
     small->view.lens.focusDistance = 2;
-    // The square is 0.4 px wide and 10 px outside the image. The lens blurs it by 7 px.
+    // The square is 0.4 px wide and 10 px outside the image. Its blur disk of 7 px does not reach the image.
     const double pixel = 2 * tanHalfHorizontalFov(small->view.lens) * 4 / 400;
     place(*small, 0,
           glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(210 * pixel, 0, -4)), glm::dvec3(0.2 * pixel)));

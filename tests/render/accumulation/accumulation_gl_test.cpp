@@ -35,7 +35,7 @@ TEST_F(Accumulation, geometryShaderLayersGiveTheSameImage) {
     const Image expected = rendered(*small, settingsFor(16));
     const Image image = rendered(*small, settingsFor(16), options);
     EXPECT_LT(largestDifference(expected, image),
-              // a geometry shader may round vertex positions differently, but triangles must cover the same pixels
+              // tolerance for different rounding of vertex positions; no triangle may gain or lose a pixel
               1e-3);
 }
 
@@ -84,8 +84,8 @@ TEST_F(Accumulation, blurredEdgeSpreadsOverTheCircleOfConfusion) {
     const auto small = wall(1, 0.2);
     const double c = 0.05 * 0.5 * 96 / 0.72;  // diameter of the blur, px
     const Image image = rendered(*small, settingsFor(512));
-    // In the middle row, the left edge of the square lies at x = 48 − 0.2/0.36·48 px and is blurred over ± c/2. The
-    // square extends 0.2 m to each side of the centre at 48 px, and the image 0.36 m.
+    // The image extends 0.36 m and the square 0.2 m to each side of the image's centre at 48 px. In the middle row, the
+    // square's left edge thus lies at x = 48 − 0.2/0.36·48 px. It is blurred over ± c/2.
     const double edge = 48 - 0.2 / 0.36 * 48;
     for (int x = 0; x < 48; ++x) {
         const double green = image.at(x, 32)[1];
@@ -268,7 +268,7 @@ TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
         light.position = glm::dvec3(turn * glm::dvec4(light.position, 1));
         light.direction = glm::dmat3(turn) * light.direction;
     }
-    // the images differ, because objects and lights have moved, but the camera has not
+    // the images differ, because objects and lights have moved relative to the camera
     EXPECT_LT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);
     small->view.worldFromCamera = turn * small->view.worldFromCamera;
     EXPECT_GT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);

@@ -67,8 +67,8 @@ protected:
             for (std::size_t pixel = 0; pixel < pixels; ++pixel)
                 errors.push_back(sharesAt(frame, pixel)[object] - expected[object]);
             const Residual error = errorOf(errors);
-            // Standard deviation of the fraction of samples that show the object, if each sample chose its object at
-            // random.
+            // Standard deviation that the fraction of samples that show the object would have if each sample chose its
+            // object at random.
             const double noise = std::sqrt(expected[object] * (1 - expected[object]) / samples);
             EXPECT_NEAR(error.mean, 0, 4 * noise / std::sqrt(static_cast<double>(pixels))) << object;
             EXPECT_LT(error.rms, 1.1 * noise) << object;
@@ -116,8 +116,8 @@ TEST_F(BlendedLayer, surfacesOfOneObjectAreIndependent) {
     expectShares(frame, {0.75});
 }
 
-// At blurred edges, the fraction of samples that show the pane is its coverage. A choice of samples that depended on
-// their lens points would add a bias.
+// At blurred edges, the fraction of samples that show the pane equals the pane's coverage. It would be biased if the
+// choice of a sample depended on its lens point.
 TEST_F(BlendedLayer, countsAtBordersAreUnbiased) {
     const auto small = sceneOf({{0.5f, facing(0, 0, 1, 0.15)}});
     small->view.width = 96;

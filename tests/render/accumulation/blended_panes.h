@@ -38,7 +38,7 @@ inline std::unique_ptr<SmallWorld> sceneOf(const std::vector<Pane>& panes) {
     return small;
 }
 
-// Returns an opaque pane behind four blended panes. Two of these cross, and the other two are sorted.
+// Returns an opaque pane behind four blended panes. Two of these cross, and the other two are sorted by depth.
 inline std::unique_ptr<SmallWorld> overlappingPanes() {
     return sceneOf({{0.5f, facing(-0.1, 0, 1, 0.3)},
                     {0.25f, facing(0.2, 0.1, 1.5, 0.4)},
@@ -49,7 +49,7 @@ inline std::unique_ptr<SmallWorld> overlappingPanes() {
 
 class BlendedPanes : public LensLayer {
 protected:
-    // Expects coverage to equal the image's alpha if data layers such as depth are drawn together with the image.
+    // Draws data layers such as depth with the image, and expects the coverage layer to equal the image's alpha.
     static void expectCoverage(const SmallWorld& small, const std::vector<Layer>& layers) {
         const Drawn frame = drawn(small, 16, layers);
         EXPECT_EQ(frame.plan.samples.size(), 16u);

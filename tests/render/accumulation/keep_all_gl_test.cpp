@@ -1,6 +1,5 @@
 // Tests that RenderSettings::keepAll, which draws even objects that no lens sample sees, does not change the image.
-// Such objects must not affect the drawing order of blended surfaces, the visibility of glass behind glass, and
-// shadows.
+// Such objects must not affect the drawing order of blended surfaces, the visibility of glass behind glass, or shadows.
 
 #include "likeness.h"
 #include "render/accumulation/blended_panes.h"

@@ -94,7 +94,7 @@ TEST_F(LensCellImages, panelsThatTouchShowNoLineBetweenThem) {
         small.scene.materials.push_back(unlitMaterial({1, 0, 0, 1}));
         small.scene.meshes.push_back(quad(0));
         small.scene.meshes.push_back(quad(1));
-        // One panel slants away from the common edge.
+        // One of the two panels slants away from the edge along which they touch.
         const glm::dmat4 edge = glm::translate(glm::dmat4(1), glm::dvec3(across, 0, -2.2));
         const glm::dmat4 panel =
             glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(-0.4, 0, 0)), glm::dvec3(0.4, 0.3, 1));
@@ -198,8 +198,8 @@ LightDisk diskOf(const Image& image) {
 
 constexpr double farLightEnergy = 64 * 16;
 
-// Returns the RMS radius of the blurred bright square in px. Along an axis, the blur's disk of diameter c has the
-// variance c²/16, the square has 4²/12, and a pixel adds 1/12 for its sample positions and 1/12 for its area.
+// Returns the RMS radius of the blurred bright square in px. Variances along an axis add up: c²/16 for the blur disk of
+// diameter c, 4²/12 for the square of 4 px, and 1/12 each for a pixel's sample positions and for its area.
 double expectedRadius(const FarLight& light) {
     return std::sqrt(2 * (light.blur * light.blur / 16 + 16.0 / 12 + 2.0 / 12));
 }

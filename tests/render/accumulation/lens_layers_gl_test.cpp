@@ -34,8 +34,7 @@ std::unique_ptr<SmallWorld> threeSquares() {
     return small;
 }
 
-// The memory that is predicted for the sums of data layers is the memory that they take, apart from an unused
-// attachment of 4 bytes per pixel.
+// The sums of data layers take the predicted memory, plus 4 bytes per pixel for an unused attachment.
 TEST_F(LensLayer, takeTheMemoryThatIsPredicted) {
     for (const bool countsSamples : {false, true})
         for (const std::vector<Layer>& layers :
@@ -133,8 +132,8 @@ TEST_F(LensLayer, ofAWallAreItsPlaceAndBlur) {
         EXPECT_NEAR(at(Layer::coc), coc, 1e-3);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(Layer::normal, c), c == 2 ? 1 : 0, 1e-3);
         EXPECT_NEAR(at(Layer::albedo, 1), 0.25, 1e-3);
-        // The mean position of a pixel's samples deviates from the pixel's centre by up to a tenth of the blur.
         const double pixelWidth = 2 * tanX * 3 / small->view.width;
+        // The mean position of a pixel's samples deviates from the pixel's centre by up to a tenth of the blur.
         const double tolerance = (0.1 * coc + 0.1) * pixelWidth;
         EXPECT_NEAR(at(Layer::position, 0), 0.25 + (pixel.x + 0.5 - 32) * pixelWidth, tolerance);
         EXPECT_NEAR(at(Layer::position, 1), -0.5 + (24 - pixel.y - 0.5) * pixelWidth, tolerance);

@@ -1,5 +1,6 @@
 // Tests lens samples that are split: some pixels show one level of detail of an object, and the others the next level
-// (LodMode::continuous). The tests check which pixels show which level, how many, and the error.
+// (LodMode::continuous). The tests check which pixels, and how many, show the next level, and how much a split changes
+// the image.
 #include <gtest/gtest.h>
 
 #include <cmath>

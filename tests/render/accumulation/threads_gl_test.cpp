@@ -204,7 +204,8 @@ TEST_F(DrawingThreads, errorsReachTheCaller) {
     };
     EXPECT_NE(messageWith("accumulation/object.vert").find("accumulation/object.vert"), std::string::npos);
     auto map = std::make_shared<Image>(16, 8, 3);
-    small->world.environment.type = EnvironmentType::map;  // threads compile the sky's shader for their first samples
+    // with a map, each thread compiles the sky's shader for its first sample
+    small->world.environment.type = EnvironmentType::map;
     small->world.environment.map = map;
     EXPECT_NE(messageWith("accumulation/sky.frag").find("accumulation/sky.frag"), std::string::npos);
 }

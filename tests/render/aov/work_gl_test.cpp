@@ -77,7 +77,7 @@ TEST_F(Work, backsCountOnlyWhereTheyAreDrawn) {
     expectEverywhere(workOf(*facingQuads({back}, material)), samples);
 }
 
-// In each lens sample, the lens point and the jitter shift a rectangle in the image. The rectangle touches the pixels
+// In each lens sample, the lens point and the jitter shift a rectangle in the image. The rectangle covers the pixels
 // whose centres lie inside it.
 TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
     const double depth = 0.6;
@@ -98,14 +98,14 @@ TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
     }
     const Image work = renderWork(small->world, plan);
     const double sum = std::accumulate(work.pixels.begin(), work.pixels.end(), 0.0);
-    // A pixel centre within 1/256 px of an edge may count as inside or outside. The tolerance is two rows of pixels in
-    // one of the 48 samples.
+    // A pixel centre within 1/256 px of an edge may count as inside or outside. The tolerance is two rows of 2 · half.x
+    // · perMetre pixels in one of the 48 samples.
     EXPECT_NEAR(sum, expected, 2 * half.x * perMetre * 2);
     EXPECT_NEAR(sum / samples, 4 * half.x * half.y * perMetre * perMetre, 0.01 * sum / samples);
 }
 
-// The work AOV counts the triangles that cover each pixel. In the viewer, it grows by a few samples per frame, up to
-// the sum of one complete pass. The test does this for two views in turn.
+// The work AOV counts the triangles that cover each pixel. The viewer adds a few samples per frame to it, until it
+// contains all samples. The test does this for one view and then for another.
 TEST_F(Work, growsToTheSameSumForViewAfterView) {
     const auto small = facingQuads({quadAt(0.6, {0.014, -0.01}, {0.08, 0.05}), quadAt(3, {0, 0}, {0.9, 0.2})},
                                    unlitMaterial(glm::vec4(1)));

@@ -50,7 +50,8 @@ Integrals integralsOf(std::span<const CircularComponent> kernel) {
         const double inside = profileOf(kernel, t);  // inside the disk, r² = t and dA = π dt
         const double outside = profileOf(kernel, 1 + t * t);
         const double du = 2 * t / steps;
-        const double arcs = (pi - 4 * std::atan(t)) * du;  // area of the ring at r² = 1 + t², inside the square
+        // area of the part of a thin ring of radius √(1 + t²) inside the square
+        const double arcs = (pi - 4 * std::atan(t)) * du;
         sums.disk += pi / steps * inside;
         sums.kernel += pi / steps * inside + arcs * outside;
         sums.squares += pi / steps * inside * inside + arcs * outside * outside;
@@ -115,9 +116,9 @@ TEST(CircularKernel, publishedKernelIsThatOfTheSlides) {
     EXPECT_NEAR(profileOf(kernel, 1), 0.9245, 1e-4);
 }
 
-// Rescaled kernels are the published ones in units of the radius of the disk that they approximate. Kernels scaled to a
-// radius 3 % larger or smaller approximate the disk worse. The kernels that were fitted for this program approximate
-// the disk at least as well as the rescaled kernels.
+// Rescaled kernels are the published kernels with lengths in units of the radius of the disk that they approximate.
+// Kernels scaled to a radius 3 % larger or smaller approximate the disk worse. The kernels that were fitted for this
+// program approximate the disk at least as well as the rescaled kernels.
 TEST(CircularKernel, rescaledKernelsAreInRadiiOfTheirDisk) {
     EXPECT_THROW(circularKernel(0, KernelConstants::published), Error);
     EXPECT_THROW(circularKernel(publishedKernelLimit + 1, KernelConstants::rescaled), Error);
@@ -215,7 +216,7 @@ TEST(CircularKernel, rowsThenColumnsDrawTheKernelAroundEachPoint) {
         int x, y;
         double light;
     };
-    // the kernels' supports around both points overlap; the image border cuts the second one
+    // the kernel's supports around the two points overlap; the image border cuts the second support
     const Point points[] = {{45, 52, 1}, {61, 20, 2.5}};
     Field in(side * side);
     for (const Point& point : points) in[at(point.x, point.y)] = point.light;

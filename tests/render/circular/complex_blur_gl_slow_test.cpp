@@ -1,4 +1,4 @@
-// Slow tests of a blur by two separable passes of complex Gaussians.
+// Slow tests of the disk blur with complex Gaussians, in one pass along rows and one along columns.
 
 #include <utility>
 
@@ -8,7 +8,7 @@
 namespace defocus::engine {
 namespace {
 
-// Two separable passes give the same image as direct convolution with the two-dimensional kernel.
+// Blurring rows and then columns gives the same image as direct convolution with the two-dimensional kernel.
 TEST_F(ComplexBlurs, twoPassesGiveTheWholeKernel) {
     SKIP_ON_SECOND_DRIVER();
     for (const ComplexTaps taps : {ComplexTaps::exact, ComplexTaps::eight})

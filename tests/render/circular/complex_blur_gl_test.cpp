@@ -38,9 +38,9 @@ TEST_F(ComplexBlurs, aConstantStaysConstantHoweverTheRadiusVaries) {
     for (const ComplexStorage storage : {ComplexStorage::float32, ComplexStorage::half})
         for (int components = 1; components <= circularKernelLimit; ++components) {
             // Half floats store radiance and weight with 11 significant bits, rounded or truncated. The kernel
-            // amplifies the rounding error by m = Σ √(A² + B²)·(∫|F| dx)²/π, a sum over the kernel's components. F is a
-            // component's factor along an axis, and A and B are its weights (circular_kernel.h). For 1, 2, 3, … 9
-            // components, m is 1.29, 1.83, 2.30, … 4.41. For n components, it is at most 1.5·√n.
+            // amplifies the rounding error by m = Σ √(A² + B²)·(∫|F| dx)²/π, a sum over the kernel's components. F is
+            // the component's one-dimensional factor, and A and B are the component's weights (circular_kernel.h). For
+            // 1, 2, 3, … 9 components, m is 1.29, 1.83, 2.30, … 4.41. For n components, it is at most 1.5·√n.
             const double amplification = 1.5 * std::sqrt(components);
             const double tolerance = storage == ComplexStorage::half ? amplification * 2 * 0x1p-10 : 1e-4;
             for (const float value : {1.0f / 3, 1e-4f, 1e4f})
@@ -162,8 +162,9 @@ TEST(Brackets, boundTheTapsOfEveryRadius) {
         }
 }
 
-// A published bracket (storage range) stores a white field as 1. A bracket for taps at any radius spans the range of
-// the taps, and images use only its lower half. With ten bits, published brackets therefore lose less precision.
+// A bracket maps a sum of taps to [0, 1], the range in which it is stored. A published bracket maps a white field to 1.
+// If the taps depend on the radius, the bracket spans all possible sums, and a white field reaches only about 1/2. With
+// ten bits, published brackets therefore lose less precision.
 TEST_F(ComplexBlurs, publishedBracketsLoseLessThanRanges) {
     const auto lost = [&](ComplexTaps taps) {
         ComplexBlurInfo info = infoOf(2, ComplexStorage::float32);

@@ -49,7 +49,7 @@ TEST_F(Layered, apertureZeroIsThePinholeImage) {
     const auto small = fiveSpheres();
     small->view.lens.blurScale = 0;
     EXPECT_LT(largestDifference(seenBy(*small, "accumulation", 1), seenBy(*small, "layered", 1)), 2e-3);
-    // A uniform sky is the same in all lens samples. The default sky varies within a pixel.
+    // A uniform sky is the same in all lens samples; the default sky is not, because it varies within a pixel.
     small->world.environment = {EnvironmentType::uniform, glm::vec3(0.4f), {}, {}, nullptr, 1};
     EXPECT_LT(largestDifference(seenBy(*small, "accumulation", 1), seenBy(*small, "layered:pinholes=1", 32)), 2e-3);
 }

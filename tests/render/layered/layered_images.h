@@ -14,7 +14,7 @@ namespace defocus::engine {
 using Layered = GlContextTest;
 
 inline RenderSettings samplesOf(std::uint32_t samples) {
-    // keepAll keeps the lens in the plan even if nothing is blurred
+    // keepAll: draw with the lens instead of a pinhole even if nothing is visibly blurred
     return {.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
 }
 

@@ -76,7 +76,7 @@ TEST_P(LensSpace, shadesVerticesOrSurfaces) {
     const double fine = psnr(96);
     EXPECT_GE(fine, 40);
     EXPECT_GT(fine, coarse + 6);
-    EXPECT_LT(coarse, 60);  // on large triangles, shading at vertices differs visibly
+    EXPECT_LT(coarse, 60);  // on large triangles, the two differ visibly: PSNR < 60 dB
 }
 
 TEST_P(LensSpace, hasTheShapeOfTheAperture) {
@@ -134,8 +134,8 @@ TEST_P(Models, lookAsInTheAccumulation) {
 }
 INSTANTIATE_TEST_SUITE_P(Methods, Models, testing::Values("stochastic", "line"));
 
-// Visibility along lens lines, which are lines across the lens, is exact by default. With resolve=published, it uses
-// the fixed-size segment buffers of Tzeng et al. 2012. If no segment is dropped, both give the same image. Two separate
+// Visibility along lens lines (lines across the lens) is exact by default. With resolve=published, it uses the
+// fixed-size segment buffers of Tzeng et al. 2012. If no segment is dropped, both give the same image. Two separate
 // quads that do not intersect fit into any buffer.
 TEST_F(LensSpaceAlone, exactLinesAreTheBuffersWhereNothingWasDropped) {
     auto small = std::make_unique<SmallWorld>();
@@ -157,7 +157,8 @@ TEST_F(LensSpaceAlone, exactLinesAreTheBuffersWhereNothingWasDropped) {
     EXPECT_LT(largestDifference(exact, buffered), 2e-3);
 }
 
-// A buffer of two segments per lens line counts the segments that it drops or merges. Larger buffers reduce the error.
+// A buffer of two segments per lens line counts the segments that it drops or merges. With larger buffers, the image is
+// closer to the one with exact visibility.
 TEST_F(LensSpaceAlone, fullBuffersCountWhatTheyDrop) {
     const auto small = twoSpheres();
     RenderStats stats;
@@ -200,15 +201,15 @@ TEST_F(LensSpaceAlone, turnedWheelsMakeNoiseOfStrobes) {
     const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(4096)));
     const Image shared = lensSpaceImage("line:wheel=shared", *small, 8);
     const Image turned = lensSpaceImage("line", *small, 8);
-    // In single pixels, the error of the noise is no larger than that of the spokes. Averaged over 8 × 8 px, it is less
-    // than half as large.
+    // In single pixels, the noise of turned lines has at most about the error of the spokes of shared lines. Averaged
+    // over 8 × 8 px, its error is less than half as large.
     EXPECT_LT(errorOfSquares(reference, turned, 1), 1.05 * errorOfSquares(reference, shared, 1));
     EXPECT_LT(errorOfSquares(reference, turned, 8), 0.5 * errorOfSquares(reference, shared, 8));
 }
 
-// Exact visibility along lens lines, which are lines across the lens, changes from one of two intersecting quads to the
-// other where they intersect. The segment buffers of Tzeng et al. 2012 change only at the ends of segments. One of the
-// quads is seen from behind.
+// Two quads intersect. Along a lens line (line across the lens), exact visibility switches from one quad to the other
+// where they intersect. The segment buffers of Tzeng et al. 2012 switch only at the ends of segments. One of the quads
+// is double-sided and seen from behind.
 TEST_F(LensSpaceAlone, exactLinesFindIntersections) {
     auto small = std::make_unique<SmallWorld>();
     small->scene.materials = {unlitMaterial({1, 0, 0, 1}), unlitMaterial({0, 0, 1, 1})};

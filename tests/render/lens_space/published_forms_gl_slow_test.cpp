@@ -1,4 +1,4 @@
-// Tests the lens-space methods with the settings of the publications and with alternatives to these settings.
+// Tests the lens-space methods with the settings of the papers that introduced them, and with alternative settings.
 
 #include <set>
 

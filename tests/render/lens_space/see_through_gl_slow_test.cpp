@@ -33,7 +33,7 @@ std::unique_ptr<SmallWorld> panes(int count, float alpha) {
     return small;
 }
 
-// Black panes of opacity α let the fraction (1 − α)ⁿ of the background through.
+// n black panes of opacity α let the fraction (1 − α)ⁿ of the background through.
 TEST_P(SeeThroughSurfaces, panesLetTheirShareOfLightThrough) {
     for (const int count : {1, 3}) {
         const Image image = lensSpaceImage(GetParam(), *panes(count, 0.4f), 32);

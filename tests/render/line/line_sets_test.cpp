@@ -8,7 +8,7 @@ namespace defocus::engine {
 namespace {
 
 // Each spoke (line through the centre) of a polygonal aperture represents an equal fraction of the aperture's area. The
-// fraction of a spoke's area beyond a straight cut, averaged over all spokes, is therefore the fraction of the
+// part of this fraction that lies beyond a straight cut, averaged over all spokes, is therefore the fraction of the
 // aperture's area beyond the cut.
 TEST(LineSets, weighASquareByItsArea) {
     FramePlan plan;

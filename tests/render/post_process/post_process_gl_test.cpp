@@ -66,7 +66,7 @@ TEST_P(PostProcesses, aConstantSceneStaysConstant) {
                                {9, {0, 1}, {9, 2}, color}},
                               glm::vec3(color));
     const Image image = postProcessed(*small, GetParam());
-    small->view.lens.dofEnabled = false;  // the reference: the constant colour, rounded to half floats
+    small->view.lens.dofEnabled = false;  // reference without blur: the constant colour, rounded to half floats
     EXPECT_LT(largestDifferenceInColumns(image, postProcessed(*small, GetParam())),
               inTenBits(GetParam()) ? 6e-3 : 1e-3);
 }
@@ -98,7 +98,7 @@ TEST_P(PostProcesses, aPointOfLightBecomesADiskOfTheCircleOfConfusion) {
     // adds 8 px². A disk of radius R has the variance R²/4 along an axis.
     const bool preblurred = method.starts_with("scheuermann");
     const double variance = preblurred ? 12 : method.find("quarter") != std::string::npos ? 4 : 0;
-    // A square of 3 px on a black wall is at the same depth as the wall, in front of or behind the focal plane.
+    // A square of 3 px lies on a black wall, once in front of the focal plane and once behind it.
     for (const double depth : {1.5, 6.0}) {
         const double pixel = 0.72 * depth / 96;  // width of a pixel at this depth, m
         const auto small = boards(
@@ -142,8 +142,8 @@ TEST_P(PostProcesses, aSharpObjectDoesNotLeakIntoTheBlurredBackground) {
 }
 
 TEST_P(PostProcesses, whatLiesBehindABlendedSurfaceIsBlurredAsThatSurface) {
-    // A pane in focus stands in front of a blurred, striped background. Without separate blur of blended surfaces, the
-    // stripes stay sharp through the pane, because the pane's depth determines the blur.
+    // A pane in focus stands in front of a blurred, striped background. If blended surfaces are not blurred separately,
+    // the stripes stay sharp through the pane, because the pane's depth determines the blur.
     std::vector<Board> list = {{2, {-0.4, 0}, {0.4, 1}, {0.2f, 0.6f, 0.3f, 0.5f}}};
     for (int i = -8; i < 8; ++i) list.push_back({9, {0.8 * i, 0}, {0.2, 9}, {0.9f, 0.2f, 0.1f, 1}});
     const auto small = boards(list, glm::vec3(0.5f));
@@ -193,8 +193,8 @@ TEST_P(PostProcesses, aTransparentBackgroundKeepsCoverage) {
     }
     EXPECT_TRUE(partly);
     // Three features are not linear in radiance: ten-bit storage, a blend bias by luminance, and negative lobes of the
-    // kernel. Lobes may make pixels negative; such pixels are clamped to black. On top of a sky, the sum stays
-    // positive and is not clamped.
+    // kernel. Lobes may make pixels negative; such pixels are clamped to black. In the image with the sky, the same
+    // pixels stay positive and are not clamped.
     const std::string method = GetParam();
     const bool rough =
         method.find("r10g10b10a2") != std::string::npos || method.find("resolution") != std::string::npos;
@@ -206,8 +206,8 @@ TEST_P(PostProcesses, aTransparentBackgroundKeepsCoverage) {
 using CircularNearField = PostProcesses;
 
 // A bright square just in front of the focal plane keeps its narrow blur beside a strongly blurred board. By default,
-// each pixel of the near field is weighted in proportion to the pixel's own blur. With near-field=coverage it is not,
-// so that the square is spread.
+// each pixel of the near field is weighted in proportion to the pixel's own blur. Without these weights
+// (near-field=coverage), the square is spread more widely.
 TEST_P(CircularNearField, lightsThatAreHardlyBlurredKeepOutOfWideBlurs) {
     const auto small = boards(
         {{0.9, {-0.12, 0}, {0.08, 0.2}, {0, 0, 0, 1}}, {1.8, {0.1, 0}, {0.02, 0.02}, {9, 9, 9, 1}}}, glm::vec3(0));
@@ -240,14 +240,14 @@ TEST_F(PostProcessesAlone, tenBitsHoldTheWholeImage) {
     double squared = 0;  // sum of squared errors; unit: steps of 1/1023
     for (std::size_t i = 0; i < floats.pixels.size(); ++i)
         squared += std::pow(1023 * (double(tenBits.pixels[i]) - std::min(double(floats.pixels[i]), 1.0)), 2);
-    // Rounding has an RMS error of 1/√12 steps. Alpha has no error, and half floats add a little.
+    // Rounding has an RMS error of 1/√12 steps. Alpha has no error, and half floats add a small rounding error.
     const double error = std::sqrt(squared / static_cast<double>(floats.pixels.size()));
     EXPECT_GT(error, 0.7 / std::sqrt(12.0));
     EXPECT_LT(error, 1.3 / std::sqrt(12.0));
 }
 
 // A blend bias brightens blurred edges, here of a bright board over black. A constant bias of 2 doubles the coverage c.
-// A bias by luminance multiplies it by 1 + c instead.
+// With bias-by=luminance, the factor is not 2 but 1 + c.
 TEST_F(PostProcessesAlone, biasByLuminanceLeavesEdges) {
     const auto small = boards({{1, {-0.3, 0}, {0.3, 0.5}, {4, 4, 4, 1}}}, glm::vec3(0));
     small->view.lens.blurScale = 24 / (0.05 * (1.0 / 1 - 1.0 / 2) * 96 / 0.72);

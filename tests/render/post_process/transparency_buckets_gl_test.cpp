@@ -111,7 +111,7 @@ TEST_P(BlendedSurfaces, whatStandsBeforeAPaneHidesItAndLeavesNoHalo) {
     const Image image = inBuckets(*with, 1);
     const Image expected =
         laidOver(inBuckets(*boards({board}, sky), 0), glm::vec3(paneColor), [](int x) { return x < 48 ? 0 : 0.5; });
-    // method "scheuermann" leaks a little light, because it reads a low-resolution image
+    // The tolerance is larger for "scheuermann", which leaks a little light because it reads a low-resolution image.
     const bool circular = std::string(GetParam()).starts_with("circular");
     EXPECT_LT(largestDifferenceInColumns(image, expected), circular ? 2e-3 : 0.03);
 }

@@ -85,8 +85,8 @@ FramePlan detailedPlanOf(double blur) {
     return plan;
 }
 
-// With four positions per pixel, a quarter of the lens samples that one position needs is enough. The images of a
-// blurred point in neighbouring samples are then twice as far apart. They may be at most 1.25 px apart.
+// With four subpixel positions per sample, a quarter of the samples is enough. The images of a blurred point in
+// neighbouring samples are then twice as far apart; up to 1.25 px are allowed.
 TEST(FourPositions, sufficeWhereAQuarterOfTheSamplesHasNoGaps) {
     for (const std::uint32_t samples : {16u, 32u, 64u})
         for (double blur = 0.5; blur < 200; blur *= 1.1)

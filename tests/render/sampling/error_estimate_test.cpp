@@ -19,7 +19,8 @@ namespace {
 
 constexpr int lensEdgesSize = 48;
 
-// The edge that a pixel sees. It is a straight line across the lens, with white on one side.
+// An edge as one pixel sees it through the lens: a straight line across the lens, white on one side and black on the
+// other.
 struct LensEdge {
     double angle;
     double offset;  // signed distance from the lens centre in lens radii, −1 … 1
@@ -53,8 +54,8 @@ void addLensEdges(Image& sum, Sequence sequence, std::uint32_t first, std::uint3
 }
 
 TEST(ErrorEstimate, halvesDifferByTheirErrorsPower) {
-    // If the mean of n blocks of samples has the error s(n), the error of 2m blocks over the difference between the
-    // means of m and 2m blocks is expected to be s(2m)/√(s(m)² − s(2m)²).
+    // If the mean of n blocks of samples has the error s(n), the expected ratio of the error of 2m blocks to the
+    // difference between the means of m and 2m blocks is s(2m)/√(s(m)² − s(2m)²).
     EXPECT_NEAR(errorOverDifference(3, 6), 1 / std::sqrt(std::pow(2, 2 * lensSampleExponent) - 1), 1e-12);
     EXPECT_NEAR(errorOverDifference(64, 128), errorOverDifference(1, 2), 1e-12);
 }

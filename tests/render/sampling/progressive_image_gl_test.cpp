@@ -1,4 +1,4 @@
-// Tests that an image that is drawn in blocks of samples equals an image drawn at once, also in the viewer.
+// Tests that an image that is drawn in blocks of samples equals an image drawn as one block, also in the viewer.
 
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ TEST_F(Growing, firstBlockIsTheFrameOf64SamplesWithLevels) {
 }
 
 TEST_F(Growing, levelsBecomeFinerWithTheSamples) {
-    small_->view.lens.fStop = 0.5;  // strong blur, so that coarse levels are accurate enough for few samples
+    small_->view.lens.fStop = 0.5;  // strong blur, so that few samples have a larger error than coarse levels
     ProgressiveImage image = progressive();
     image.begin(small_->view, {}, 512);
     const double first = static_cast<double>(image.plan().trianglesDrawn);

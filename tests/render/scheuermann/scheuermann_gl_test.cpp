@@ -105,14 +105,14 @@ TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
     }
     const double error = std::sqrt(squared / static_cast<double>(floats.pixels.size()));
     EXPECT_LT(error, 1.0 / 255);
-    // lower bound: half the RMS error of rounding to bytes; alpha adds no error
+    // lower bound: half the RMS error of rounding to 8 bits, since alpha, which has no error, lowers the mean
     EXPECT_GT(error, 0.5 / 255 / std::sqrt(12.0));
 }
 
-// At max blur, the published method reads only the low-resolution image, at taps in a disk of 0.4 · 4 = 1.6 times the
-// blur's radius. The published factor is 0.4, and the image's pixels are 4 px wide. The variance of a blurred square is
-// then the sum of the variances of the square, the taps and the low-resolution image. The latter has three terms in
-// px²: 16/12 for the pixels' width, 16/6 for linear interpolation and 8 for the Gaussian pre-blur.
+// At max blur, the published method reads only the low-resolution image, whose pixels are 4 px wide. The taps lie in a
+// disk of 0.4 · 4 = 1.6 times the blur's radius, with the published factor 0.4. The variance of a blurred square is the
+// sum of the variances of the square, the taps and the low-resolution image. The low-resolution image adds 16/12 px²
+// for its pixels' width, 16/6 px² for linear interpolation and 8 px² for the Gaussian pre-blur.
 TEST_F(ScheuermannImage, asPublishedReadsTheSmallImageAtItsOwnRadius) {
     View view = bokehView(192, 144);
     const Image image = bokehOf(view, 6, "scheuermann:far-blur-depth=5,blurriness-cutoff=1");
@@ -142,8 +142,8 @@ TEST_F(ScheuermannImage, multisamplingSmoothsEdgesBeforeTheBlur) {
         const Image image = postProcessed(*small, method);
         for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
             const float quarters = 4 * srgbEncode(image.pixels[i]);
-            // The tolerance allows for bits=8, which cannot store a blur of zero: taps lie up to 0.02 px from the
-            // pixel's centre.
+            // The tolerance allows for bits=8: a byte cannot represent a blur of zero, and the smallest blur moves taps
+            // up to 0.02 px away from the pixel's centre.
             EXPECT_NEAR(quarters, std::round(quarters), 0.1);
             found.insert(static_cast<int>(std::round(quarters)));
         }

@@ -1,4 +1,4 @@
-// Slow tests that images drawn in tiles equal undivided images bit for bit, in each mode of levels of detail and behind
+// Slow tests: images drawn in tiles are bit-identical to undivided images, in each mode of levels of detail and behind
 // glass.
 
 #include "render/tiles/tiled_image.h"

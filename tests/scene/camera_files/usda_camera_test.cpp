@@ -64,8 +64,8 @@ TEST(UsdCamera, showsTheWholeSensor) {
     EXPECT_NEAR(tanHalf(0.75), 24.0 / 50, 1e-12) << "a narrower image keeps the width of 36 mm: 48 mm high";
 }
 
-// The file has z up. The camera looks along −z in its own axes. Rotated about x, it looks along +y; a rotation by 30°
-// about z follows. In y-up axes, USD's (x, y, z) is (x, z, −y).
+// The file has z up. The camera looks along −z in its own axes. A rotation by 90° about x turns it towards +y, and a
+// second rotation turns it by 30° about z. In y-up axes, USD's (x, y, z) is (x, z, −y).
 TEST(UsdCamera, followsTimeSamplesInZUpLayers) {
     const CameraTrack track = camera(usda_samples::animated);
     EXPECT_TRUE(track.moves);

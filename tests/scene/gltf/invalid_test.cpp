@@ -1,4 +1,4 @@
-// Tests that invalid and hostile files give a one-line error with the name of the file and the fault.
+// Tests that invalid and hostile files give a one-line error that names the file and says what is wrong.
 
 #include <gtest/gtest.h>
 

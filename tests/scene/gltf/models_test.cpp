@@ -164,8 +164,8 @@ TEST(Models, instancesBecomeObjects) {
     EXPECT_NE(pose.objects[0].worldFromObject[3], pose.objects[124].worldFromObject[3]);
 }
 
-// Each marker of the model shows where the texture's diagonal arrow must appear. Every texture transform must map the
-// marker to 45° in the texture.
+// Each marker of the model shows where the arrow on the texture's diagonal must appear. Every texture transform must
+// therefore map the marker to this diagonal (45°).
 TEST(Models, textureTransformsLandOnTheModelsMarkers) {
     DEFOCUS_MODEL_OR_SKIP(path, "TextureTransformTest/TextureTransformTest.gltf");
     const Scene scene = loadGltf(path);

@@ -1,5 +1,5 @@
 // Tests that files with very many elements of one kind load correctly and fast; quadratic time would exceed the tests'
-// time limit. The memory budget counts shared data once for each node that uses it.
+// time limit. Also tests that the memory budget counts shared data once for each node that uses it.
 
 #include <gtest/gtest.h>
 

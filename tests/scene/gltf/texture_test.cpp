@@ -24,7 +24,7 @@ GltfBuilder texturedTriangle(const nlohmann::json& texture) {
     return builder;
 }
 
-// Expects a scene with its triangle and its base colour, but without the texture.
+// Expects the scene to contain the triangle and its base colour factor, but not the texture.
 void expectOnlyFactors(const Scene& scene) {
     EXPECT_EQ(scene.meshes.at(0).triangleCount(), 1u);
     EXPECT_EQ(scene.materials.at(0).baseColorFactor, glm::vec4(0.8f, 0.5f, 0.3f, 1));
@@ -123,7 +123,7 @@ const Bytes& webp() {
     return bytes;
 }
 
-// Colours are not premultiplied by alpha; at low alpha, they are exact only up to rounding.
+// Colours have straight alpha. OpenImageIO premultiplies WebP images; dividing by alpha again leaves rounding errors.
 TEST(GltfTexture, webpWithoutFallbackIsRead) {
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
         GltfBuilder builder = texturedTriangle({{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}});

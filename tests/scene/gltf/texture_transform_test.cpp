@@ -38,7 +38,7 @@ void expectPlaced(const nlohmann::json& transform, const glm::dvec2& from, const
 TEST(GltfTextureTransform, movesTurnsAndScales) {
     expectPlaced({{"offset", {0.25, -0.5}}}, {0.5, 0.5}, {0.75, 0});
     expectPlaced({{"scale", {2, 3}}}, {0.5, 0.5}, {1, 1.5});
-    // a quarter turn, which moves a point at the right to the top
+    // a quarter turn, which moves the right edge to the top
     expectPlaced({{"rotation", std::acos(0.0)}}, {1, 0}, {0, -1});
     expectPlaced({{"rotation", std::acos(0.0)}}, {0, 1}, {1, 0});
     const double angle = 0.4;

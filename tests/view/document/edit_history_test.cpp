@@ -55,7 +55,7 @@ TEST_F(ViewHistory, dragsAfterEachOtherAreSteps) {
 
 TEST_F(ViewHistory, notchesOfAWheelAreOneStepOnceItRests) {
     for (const double stop : {3.0, 4.0, 5.0}) frame(stop, false, 0.1);
-    EXPECT_EQ(history.undoSteps(), 1u);  // all notches belong to one step until the wheel rests
+    EXPECT_EQ(history.undoSteps(), 1u);  // all notches are one undo step until the wheel stops
     frame(5, false, 0.6);
     frame(6, false, 0.6);
     frame(6, false, 0.6);

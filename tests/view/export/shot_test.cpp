@@ -1,4 +1,4 @@
-// Tests that key frames that the viewer exports are unchanged after `defocus capture` has read them.
+// Tests that `defocus capture` reads the viewer's exported keyframes unchanged.
 
 #include "view/export/shot.h"
 
@@ -80,7 +80,7 @@ TEST(ViewShot, clipTimeSpeedAndShutterAreSaid) {
     EXPECT_EQ(shot.request.shutter, options.shutter);
 }
 
-// The roll angle is continuous over key frames: a camera that rolls past 180° does not spin back.
+// The roll angle is continuous over keyframes: a camera that rolls past 180° does not spin back.
 TEST(ViewShot, rollGoesTheShortWay) {
     std::vector<ShotKey> keys(3, keyAt({0, 1, 5}, 2, 2));
     const double degrees[] = {170, 190, 350};

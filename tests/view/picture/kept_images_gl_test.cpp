@@ -131,7 +131,7 @@ TEST_F(KeptImagesOfAView, serveSmallerAperturesAndFocusDistancesInTheirRange) {
     EXPECT_EQ(serving(range.farthest * 1.01, 0.95), 0u);
     EXPECT_NEAR(serving(2, 0.95 * std::sqrt(2)), 32, 3);
     EXPECT_EQ(serving(2, 0.9), 0u);
-    EXPECT_EQ(serving(2, 4), 0u);  // only about 4 of 64 lens points lie in the aperture; at least 16 must
+    EXPECT_EQ(serving(2, 4), 0u);  // only about 4 of 64 lens points lie in the aperture; at least 16 are required
 }
 
 // Fixture whose window shows an image that no longer changes: all its lens images (views from lens points) are drawn.
