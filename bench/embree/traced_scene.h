@@ -1,6 +1,6 @@
 #pragma once
-// Builds an Embree bounding-volume hierarchy of a posed scene in camera space, from the loaded meshes instead of the
-// pyramids. Transforms are composed in double and passed to Embree relative to the camera.
+// Builds an Embree bounding-volume hierarchy of a posed scene in camera space, from the loaded meshes instead of their
+// level-of-detail pyramids. Transforms are composed in double and passed to Embree relative to the camera.
 //
 // Back faces of single-sided materials are culled; mirroring transforms reverse the winding, as glTF requires. Packets
 // are traced without a filter function; rays that hit a culled back face are traced again with the filter. All surfaces

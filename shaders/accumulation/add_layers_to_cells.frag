@@ -7,7 +7,7 @@
 layout(binding = 6) uniform sampler2DArray layerDepths;
 // Sums of blur classes 0 to drawnClasses − 1 before this pass; the new sums are written to `cellsOut`.
 layout(binding = 7) uniform sampler2DArray drawnSums;
-// Sums of the other blur classes, for which there are not enough colour attachments. Layers below drawnClasses are
+// Sums of the blur classes for which there are not enough colour attachments. Layers below drawnClasses are
 // unused.
 layout(rgba32f, binding = 0) uniform image2DArray cellSums;
 // Per tile, a bit mask of the blur classes with samples in the tile.

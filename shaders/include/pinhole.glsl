@@ -8,7 +8,8 @@
 #endif
 
 layout(binding = 1) uniform PinholeTexture pinholeDepth;
-layout(binding = 6) uniform PinholeTexture pinholeOwnBlur;   // blur factor, added blur; used only with usesOwnBlur
+// x: factor by which the surface scales its blur; y: blur that it adds. Used only with usesOwnBlur.
+layout(binding = 6) uniform PinholeTexture pinholeOwnBlur;
 
 // Returns the size of the pinhole image in px.
 ivec2 pinholeSize() {

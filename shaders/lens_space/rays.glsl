@@ -8,9 +8,9 @@ struct Ray {
     // through the lens centre), the vector along the line from the centre to the lens's rim. zw: position in px
     // relative to the pixel's centre.
     vec4 lensAndPixel;
-    // Point sample: x is the time within the current part of the exposure, [0, 1]. Line sample: the points of the line
-    // are p times the vector lensAndPixel.xy, with p from −x to 1. y is the fraction of the line's light that passes at
-    // p > 0. z tells where each visible segment is shaded, as a fraction of its light, [0, 1).
+    // Point sample: x is the time within the current part of the exposure, [0, 1]. Line sample: the line's points are
+    // p · lensAndPixel.xy, with p from −x to 1. y is the fraction of the line's light that passes through its part with
+    // p > 0. Each visible segment is shaded at one point; z, in [0, 1), is the fraction of the segment's light before it.
     vec4 values;
 };
 

@@ -46,8 +46,8 @@ struct ClipCircleOfConfusion {
     double foregroundLimit = std::numeric_limits<double>::infinity();
     double backgroundLimit = std::numeric_limits<double>::infinity();
     double aspect = 1;  // aspect ratio k: image width / height
-    // Converts the blur that vertices add, in mm on the sensor, to a fraction of the image's width. Includes
-    // Lens::blurScale; 0 for a pinhole.
+    // Factor that converts blur stored per vertex (glTF attribute _COC_OFFSET), in mm on the sensor, to a fraction of
+    // the image's width. Includes Lens::blurScale; 0 for a pinhole.
     double shareOfMillimetre = 0;
     double astigmatism = 0;  // coefficient A of astigmatism in aberrations.h
     double coma = 0;         // coefficient B of coma in aberrations.h

@@ -57,7 +57,7 @@ struct PairedFin {
     float length = 0.2f;
     float spread = 0.9f;     // angle in radians between the first and last fin ray
     float outwards = 0.5f;   // angle in radians between the fin and the side of the body
-    float downwards = 0.4f;  // angle in radians of the fin below the body's axis
+    float downwards = 0.4f;  // downward angle in radians between the fin and the body's axis
     float rootWidth = 0.05f;
     int rays = 12;
 };

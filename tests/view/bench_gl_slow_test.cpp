@@ -51,7 +51,7 @@ TEST_F(BenchView, thePictureAtRestConvergesToTheReference) {
     EXPECT_GE(row.stillPicture, 0.12);  // a view counts as still after 0.12 s without a change
     EXPECT_LE(row.stillPicture, row.converged);
     EXPECT_GE(row.samples, 16u);
-    // At convergence, the estimated error is 0.005, a PSNR of 46 dB; 40 dB leave a margin.
+    // At convergence, the estimated error is 0.005, a PSNR of 46 dB. The limit of 40 dB leaves a margin.
     EXPECT_GT(row.stillPsnr, 40);
     // Each moving frame is compared with a reference of the same camera. A reference whose camera is 1° off gives less
     // than 20 dB.

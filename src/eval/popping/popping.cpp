@@ -28,7 +28,8 @@ LodMode levelsOf(PoppingMode mode) {
     }
 }
 
-// The renderers of all level modes. Their layers are precise enough that rounding doesn't affect the results.
+// The renderers of all level-of-detail modes. Their layers (textures with the images of single samples) are precise
+// enough that rounding doesn't affect the results.
 struct Renderers {
     std::unique_ptr<Renderer> accumulation;
     std::unique_ptr<Renderer> multirate;

@@ -26,7 +26,7 @@ using LightMeans = std::array<double, lightCount>;
 // the normals and a light direction. Both match shaders/include/shading.glsl. `agreement`, in [0, 1], is the length of
 // the mean of the unit normals. `cosine` is the cosine of the angle between mean normal and light direction. `mean` is
 // the mean cosine without clamping. It is agreement · cosine if the distribution is symmetric about the mean normal;
-// meanCosine() then averages to 1/4 over all light directions.
+// in this case, the average of meanCosine() over all light directions is 1/4.
 inline float normalSpread(float agreement) {
     const float lost = 1 - agreement;
     const float root = std::sqrt(lost);

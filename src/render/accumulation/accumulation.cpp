@@ -31,9 +31,9 @@ namespace {
 constexpr std::uint32_t maxWave = 16;
 // Max samples per batch (wave) if several threads draw. Small batches divide the samples evenly between threads.
 constexpr std::uint32_t maxSharedWave = 4;
-// Max triangles per batch (wave) of more than 4 samples with a software driver. The driver keeps all triangles of a
-// batch in memory and frees this memory after each batch. The page faults of the next batch can take longer than
-// drawing it.
+// Max triangles per batch (wave) with a software driver. The driver keeps all triangles of a batch in memory and frees
+// this memory afterwards. The next batch allocates it again, and for large batches the page faults can take longer than
+// the drawing.
 constexpr std::uint64_t maxWaveTriangles = 400'000;
 // maxWaveTriangles does not reduce a batch (wave) below this number of samples: each batch takes a pass that adds it to
 // the sum, so small batches are slow.

@@ -39,8 +39,8 @@ bool isDataUri(const std::string& uri);
 // Throws Error if there is no such regular file. `what` describes the object with the URI in error messages.
 std::optional<std::filesystem::path> uriFile(const Document& document, const std::string& uri, const std::string& what);
 
-// Returns the bytes of a data URI or of the file that a URI refers to. Data URIs may have any media type, and base64
-// (also with line breaks) or percent-encoding.
+// Returns the bytes of a data URI or of the file that a URI refers to. Data URIs may have any media
+// type, and may be encoded as base64 (also with line breaks) or percent-encoded.
 std::vector<std::byte> readUri(const Document& document, const std::string& uri, const std::string& what);
 
 // Throws Error with the one-line message "FILE: message".

@@ -85,8 +85,9 @@ TEST_F(Popping, firstResultIsAQuarterOfTheFirstMovement) {
 }
 
 // A pop is the image change if all N lens samples switch to another level at once. If one sample switches, the image
-// changes by a fraction of the pop. By the triangle inequality, this fraction is at least 1/N on average. Changes of
-// different samples cancel at most like independent random changes, so the fraction is at most about 1/√N.
+// changes by a fraction of the pop. By the triangle inequality, this fraction is at least 1/N on average. In the worst
+// case, the changes of the N samples are independent of each other. The pop is then about √N times the change of one
+// sample, so the fraction is at most about 1/√N.
 TEST_F(Popping, oneSamplesStepIsASmallPartOfALevels) {
     options_.sampleCounts = {4, 16};
     options_.frames = 2;
