@@ -71,7 +71,7 @@ struct LightSums {
     vec3 sheen;           // sheen of colour 1: Σ irradiance·D·V, with the sheen's distribution D and visibility V
     // The next two sums are for iridescent surfaces, which a thin film covers.
     vec3 film;            // specular light of the thin film: Σ irradiance·D·V·F, with the film's reflectance F at v·h
-    vec3 beneathFilm;     // diffuse light beneath the film: Σ irradiance·(1 − F)/π; F is the largest channel of the reflectance
+    vec3 beneathFilm;     // diffuse light beneath the film: Σ irradiance·(1 − F)/π, F: largest colour channel
     vec3 behind;          // diffuse light from behind: Σ (irradiance of the back side)/π; set only if diffusesThrough
 };
 

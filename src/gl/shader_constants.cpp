@@ -38,10 +38,9 @@ constexpr ShaderConstant constants[] = {
     {"float", "layerLargest", "0.0"},  // colours in a layer are clamped to this value; 0: no clamping
     {"bool", "startsBlock", "false"},
     {"bool", "keepsNearest", "false"},  // true for the depth layer, which also stores the nearest depth
-    {"bool", "sumsAlpha",
-     "false"},  // true for a data layer, such as normals, that sums alpha; otherwise the depth layer does
-    {"int", "waveSamples", "1"},   // number of samples that a pass adds up; constant, so drivers unroll the loop
-    {"int", "tableEntries", "1"},  // max number of objects or materials counted separately in a pixel
+    {"bool", "sumsAlpha", "false"},     // true for a data layer that sums alpha, which usually the depth layer does
+    {"int", "waveSamples", "1"},        // number of samples that a pass adds up; constant, so drivers unroll the loop
+    {"int", "tableEntries", "1"},       // max number of objects or materials counted separately in a pixel
 
     // Constants of a surface's material and mesh
     {"bool", "lit", "false", "LIT"},

@@ -15,9 +15,10 @@
 namespace defocus::engine {
 
 struct CircularComponent {
-    double decay;      // rate a of the component's factor e^(−a·x²); x is the offset in disk radii
-    double frequency;  // rate b of the component's factor cos(b·x²) + i·sin(b·x²), in radians; x is the offset in disk
-                       // radii
+    // Rates a and b (radians) of the component's factors e^(−a·x²) and cos(b·x²) + i·sin(b·x²); x is the offset in disk
+    // radii.
+    double decay;
+    double frequency;
     double cosine;  // weight A of the component's real part, e^(−a·x²)·cos(b·x²)
     double sine;    // weight B of the component's imaginary part, e^(−a·x²)·sin(b·x²)
 };
