@@ -4,8 +4,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <map>
 #include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "lod/pyramid/pyramid.h"
@@ -119,12 +121,13 @@ inline Environment speckledMap() {
 }
 
 // Returns five rippled spheres at depths from 1.2 to 9 m, lit by a sun and a gradient sky. One has a mirrored transform
-// and one is far outside the frame. The lens is f/1, focused at 3 m, and the image has 160 × 120 px.
-inline std::unique_ptr<SmallWorld> fiveSpheres() {
+// and one is far outside the frame. Each has about 2 · slices · stacks triangles. The lens is f/1, focused at 3 m, and
+// the image has 160 × 120 px.
+inline std::unique_ptr<SmallWorld> fiveSpheres(int slices = 80, int stacks = 60) {
     auto small = std::make_unique<SmallWorld>();
     const Material glossy{.metallicFactor = 0, .roughnessFactor = 0.4f};
     small->scene.materials.push_back(glossy);
-    small->scene.meshes.push_back(bumpySphere(80, 60, 0));
+    small->scene.meshes.push_back(bumpySphere(slices, stacks, 0));
     const auto at = [](double x, double y, double z, double s) {
         return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(x, y, z)), glm::dvec3(s));
     };
@@ -140,8 +143,20 @@ inline std::unique_ptr<SmallWorld> fiveSpheres() {
     small->view.width = 160;
     small->view.height = 120;
     // Pyramids are built once for all tests of a process, since this takes longer than most tests.
-    static const std::vector<Pyramid> pyramids = buildPyramids(small->scene.meshes);
+    static std::map<std::pair<int, int>, std::vector<Pyramid>> built;
+    std::vector<Pyramid>& pyramids = built[{slices, stacks}];
+    if (pyramids.empty()) pyramids = buildPyramids(small->scene.meshes);
     small->world.pyramids = pyramids;
+    return small;
+}
+
+// Returns the spheres of fiveSpheres() with a quarter of the triangles, in an image of 80 × 60 px. The aperture has
+// twice the diameter, so the blur in pixels is the same.
+inline std::unique_ptr<SmallWorld> fiveCoarseSpheres() {
+    auto small = fiveSpheres(40, 30);
+    small->view.lens.fStop = 0.5;
+    small->view.width = 80;
+    small->view.height = 60;
     return small;
 }
 

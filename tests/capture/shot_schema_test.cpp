@@ -135,10 +135,12 @@ bool beyondSchemas(const std::string& fault) {
     return false;
 }
 
-void expectAgreement(const Schema& schema, const json& shot, const std::string& what) {
+// Expects that the schema and the parser agree on the shot. Returns whether the schema accepts the shot.
+bool expectAgreement(const Schema& schema, const json& shot, const std::string& what) {
+    const bool accepted = schema.accepts(shot);
     const std::string fault = parserFault(shot);
-    if (beyondSchemas(fault)) return;
-    EXPECT_EQ(schema.accepts(shot), fault.empty()) << what << ": the parser says: " << fault;
+    EXPECT_TRUE(accepted == fault.empty() || beyondSchemas(fault)) << what << ": the parser says: " << fault;
+    return accepted;
 }
 
 std::vector<json::json_pointer> placesIn(const json& shot) {
@@ -197,8 +199,7 @@ TEST(ShotSchema, agreesWithTheParserAboutEachChange) {
             for (const json& value : values) {
                 json changed = shot;
                 changed[place] = value;
-                expectAgreement(schema, changed, place.to_string() + " = " + value.dump());
-                refused += schema.accepts(changed) ? 0 : 1;
+                if (!expectAgreement(schema, changed, place.to_string() + " = " + value.dump())) ++refused;
             }
             json without = shot;
             json& parent = without.at(place.parent_pointer());

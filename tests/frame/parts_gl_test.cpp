@@ -42,7 +42,7 @@ protected:
 };
 
 TEST_F(Partial, mergedBlocksAreTheSingleRun) {
-    const auto small = fiveSpheres();
+    const auto small = fiveCoarseSpheres();
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous}) {
         const Image expected = drawn(*small, mode, {}).image();
 
@@ -63,7 +63,7 @@ TEST_F(Partial, mergedBlocksAreTheSingleRun) {
 // The partial sums over a range of a frame's samples are stored by block of at most 64 samples: for each block, the
 // number and the sum of its samples.
 TEST_F(Partial, blocksHoldTheSumOfTheirSamples) {
-    const auto small = fiveSpheres();
+    const auto small = fiveCoarseSpheres();
     FrameDriver driver = drawn(*small, LodMode::fractional, SampleRange{64, 150});
     const Image mean = driver.image();
     const FramePart part = driver.sums();

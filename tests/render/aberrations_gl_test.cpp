@@ -2,6 +2,7 @@
 // rays.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/mat2x2.hpp>
 
@@ -10,6 +11,7 @@
 #include "gl_conduct.h"
 #include "gl_context_test.h"
 #include "lens/aberrations.h"
+#include "plan/visible/tiles.h"
 #include "render/accumulation/accumulation.h"
 #include "render/methods.h"
 
@@ -34,8 +36,8 @@ RenderSettings fullDetail(std::uint32_t samples) {
     return {.sampleCount = samples, .lod = LodMode::off, .keepAll = true};
 }
 
-// The image of a bright point of 2 × 2 px: its energy, its centre in px, and its second moments about the centre in
-// px².
+// The image of a bright point of 2 × 2 px in a window of 64 × 64 px around the point: its energy, its centre in px, and
+// its second moments about the centre in px².
 struct Spot {
     glm::dvec2 centre{0};
     glm::dmat2 moments{0};
@@ -49,11 +51,15 @@ Spot spotAt(const View& view, const glm::dvec2& place, double depth, const char*
     world.pyramids = buildPyramids(scene.meshes);
     const RendererOptions options{.layerFormat = LayerFormat::rgba32f};
     const auto renderer = methodNamed(method).make(world, options);
-    const Image image = imageOf(*renderer, planFrame(world, view, fullDetail(4096)));
+    const int left = std::min(std::max(static_cast<int>(place.x) - 32, 0), view.width - 64);
+    const int top = std::min(std::max(static_cast<int>(place.y) - 32, 0), view.height - 64);
+    const Tile tile{{left, top, 64, 64}, {0, 0, view.width, view.height}};
+    const Image image = imageOf(*renderer, tileOf(planFrame(world, view, fullDetail(4096)), tile));
     Spot spot;
     const auto sum = [&](const auto& add) {
         for (int y = 0; y < image.height; ++y)
-            for (int x = 0; x < image.width; ++x) add(double(image.at(x, y)[1]), glm::dvec2(x + 0.5, y + 0.5));
+            for (int x = 0; x < image.width; ++x)
+                add(double(image.at(x, y)[1]), glm::dvec2(left + x + 0.5, top + y + 0.5));
     };
     sum([&](double value, const glm::dvec2& at) {
         spot.energy += value;
@@ -110,6 +116,7 @@ TEST_F(Aberrations, comaMakesComets) {
         const Spot sharp = spotAt(viewOf(0, 0), place, inFocus);
         const Spot comet = spotAt(viewOf(0, 1.5 * share * 36), place, inFocus);
         const double scale = share * (place.x - middle.x);
+        EXPECT_NEAR(comet.energy / sharp.energy, 1 + 2 * share, 3e-3);
         EXPECT_NEAR(comet.centre.x - sharp.centre.x, scale * (1 + 2 * share / 3), 0.02 * std::abs(scale))
             << "points outwards for positive coma";
         EXPECT_NEAR(comet.centre.y, sharp.centre.y, 0.02);
@@ -133,6 +140,7 @@ TEST_F(Aberrations, astigmatismAddsToTheBlurAlongOneAxis) {
         const double blur = circleOfConfusion(clipCircleOfConfusion(plain.lens, 160, 120), depth, 160);
         const Spot disk = spotAt(plain, place, depth);
         const Spot ellipse = spotAt(astigmatic, place, depth);
+        EXPECT_NEAR(ellipse.energy / disk.energy, 1, 0.01);
         EXPECT_NEAR(ellipse.moments[1][1], disk.moments[1][1], 0.02 * line * line / 16);
         EXPECT_NEAR(ellipse.moments[0][0] - disk.moments[0][0], ((blur + line) * (blur + line) - blur * blur) / 16,
                     0.02 * line * line / 16);

@@ -18,21 +18,21 @@ using nlohmann::json;
 using View = SessionWindow;
 
 TEST_F(View, clickFocusesOnWhatIsUnderTheCursor) {
-    openTwoQuads({"--focus-distance", "4"});
-    click(360, 150);
+    openSmall({"--focus-distance", "4"});
+    click(234, 98);
     EXPECT_TRUE(focusesAt(8)) << state();
     EXPECT_EQ(state().at("selected"), "Far");
-    click(200, 67);
+    click(130, 44);
     EXPECT_TRUE(focusesAt(2)) << state();
     EXPECT_EQ(state().at("selected"), "Near");
-    click(30, 280);  // empty background
+    click(20, 182);  // empty background
     ASSERT_TRUE(comesToRest()) << state();
     EXPECT_NEAR(reached().at("focusDistance").get<double>(), 2, 1e-6);
     EXPECT_EQ(reached().at("selected"), "Near");
 }
 
 TEST_F(View, stillViewGathersSamplesAndAChangeBeginsAnew) {
-    openTwoQuads({"--focus-distance", "4", "--fstop", "1.4"});
+    openSmall({"--focus-distance", "4", "--fstop", "1.4"});
     ASSERT_TRUE(reaches([](const json& s) { return s.at("samples") > 130; })) << state();
     EXPECT_EQ(state().at("moving"), false);
     const double changes = number("changes");
@@ -44,7 +44,7 @@ TEST_F(View, stillViewGathersSamplesAndAChangeBeginsAnew) {
 }
 
 TEST_F(View, workIsCountedInAllSamplesOfTheViewAndAnewAfterAChange) {
-    openTwoQuads({"--fstop", "1.4", "--focus-distance", "4"});
+    openSmall({"--fstop", "1.4", "--focus-distance", "4"});
     EXPECT_EQ(state().at("workSamples"), 0);  // the number of triangles per pixel is counted only on request
     key("n");
     ASSERT_TRUE(reaches([](const json& s) { return s.at("overlay") == 3 && s.at("workSamples") == 64; })) << state();
@@ -58,7 +58,7 @@ TEST_F(View, workIsCountedInAllSamplesOfTheViewAndAnewAfterAChange) {
 }
 
 TEST_F(View, badFileReportsAndTheOldSceneStays) {
-    openTwoQuads();
+    openSmall({"--no-dof"});
     std::ofstream(folder() / "bad.glb") << "no glTF";
     openByHand("bad.glb");
     ASSERT_TRUE(reaches([](const json& s) { return s.at("fault") != ""; })) << state();
@@ -68,7 +68,7 @@ TEST_F(View, badFileReportsAndTheOldSceneStays) {
 }
 
 TEST_F(View, openedFileReplacesTheScene) {
-    openTwoQuads();
+    openSmall({"--no-dof"});
     writeTwoQuads(folder() / "other.gltf");
     openByHand("other.gltf");
     EXPECT_TRUE(showsScene("other.gltf")) << state();
@@ -76,7 +76,7 @@ TEST_F(View, openedFileReplacesTheScene) {
 
 #ifdef DEFOCUS_XCB
 TEST_F(View, droppedFileReplacesTheScene) {
-    openTwoQuads();
+    openSmall({"--no-dof"});
     writeTwoQuads(folder() / "two words.gltf");
     DropSource hand(display());
     const std::string uri = "file://" + (folder() / "two%20words.gltf").string();
@@ -122,26 +122,26 @@ TEST_F(View, interfaceFollowsTheScreensResolution) {
 }
 
 TEST_F(View, exportedStillIsThatOfTheCommand) {
-    openTwoQuads({"--samples", "4", "--fstop", "1.4", "--focus-distance", "4"});
+    openSmall({"--samples", "4", "--fstop", "1.4", "--focus-distance", "4"});
     exportByHand();
     ASSERT_TRUE(
         reaches([&](const json& s) { return fs::exists(folder() / "still.png") && s.at("exporting") == false; }));
     const std::string command = std::string(DEFOCUS_PROGRAM) + " render '" + (folder() / "quads.gltf").string() +
                                 "' -o '" + (folder() / "render.png").string() +
-                                "' --quiet --size 400x300 --samples 4 --fstop 1.4 --focus-distance 4";
+                                "' --quiet --size 260x195 --samples 4 --fstop 1.4 --focus-distance 4";
     ASSERT_EQ(std::system(command.c_str()), 0);
     EXPECT_EQ(readImage(folder() / "still.png").pixels, readImage(folder() / "render.png").pixels);
 }
 
 TEST_F(View, recordedKeyIsCounted) {
-    openTwoQuads();
+    openSmall();
     key("k");
     ASSERT_TRUE(comesToRest()) << state();
     EXPECT_EQ(reached().at("shotKeys"), 1);
 }
 
 TEST_F(View, interfaceGrowsAndShrinksWhileItRuns) {
-    openTwoQuads();
+    openSmall({"--no-dof"});
     const auto hasScale = [&](double scale) { return reaches([&](const json& s) { return s.at("scale") == scale; }); };
     key("ctrl+equal");
     EXPECT_TRUE(hasScale(1.125)) << textOf("stderr");
@@ -155,14 +155,14 @@ TEST_F(View, interfaceGrowsAndShrinksWhileItRuns) {
 
 TEST_F(View, screenshotShowsPictureAndPanel) {
     writeTwoQuads(folder() / "quads.gltf");
-    start({"quads.gltf", "--size", "400x300", "--screenshot", "window.png", "--frames", "12"});
+    start({"quads.gltf", "--size", "260x195", "--screenshot", "window.png", "--frames", "12"});
     ASSERT_EQ(ended(), 0) << textOf("stderr");
     const Image image = readImage(folder() / "window.png");
-    ASSERT_EQ(image.width, 764);
-    ASSERT_EQ(image.height, 300);
-    const float* near = image.at(200, 67);
+    ASSERT_EQ(image.width, 624);
+    ASSERT_EQ(image.height, 195);
+    const float* near = image.at(130, 44);
     EXPECT_GT(near[0], 2 * near[2]);  // the square is red
-    const float* panel = image.at(758, 150);
+    const float* panel = image.at(618, 98);
     EXPECT_EQ(panel[0], panel[2]);  // the panel is grey
     EXPECT_LT(panel[0], 0.1f);
 }

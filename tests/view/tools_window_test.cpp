@@ -11,30 +11,30 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 TEST_F(ViewTools, movingViewsAreDrawnAtHalfSizeOrLarger) {
-    openTwoQuads({"--fstop", "1.4", "--focus-distance", "4"});
-    act("mousemove 100 200 keydown d");
+    openNarrow(300, {"--fstop", "1.4", "--focus-distance", "4"});
+    act("mousemove 50 200 keydown d");
     ASSERT_TRUE(reaches([](const json& s) { return s.at("moving") == true && s.at("changes") > 5; })) << state();
-    EXPECT_GE(reached().at("drawn").at(0), 200);
+    EXPECT_GE(reached().at("drawn").at(0), 130);
     act("keyup d");
 }
 
 TEST_F(ViewTools, whereNothingIsBlurredOneSampleOfEachPixelIsDrawn) {
-    openTwoQuads({"--fstop", "64", "--blur-scale", "0.001"});
-    act("mousemove 100 200 keydown d");
+    openNarrow(300, {"--fstop", "64", "--blur-scale", "0.001"});
+    act("mousemove 50 200 keydown d");
     ASSERT_TRUE(reaches([](const json& s) { return s.at("moving") == true && s.at("changes") > 5; })) << state();
-    EXPECT_EQ(reached().at("drawn"), (json{400, 300, 1}));
+    EXPECT_EQ(reached().at("drawn"), (json{260, 300, 1}));
     act("keyup d");
 }
 
 TEST_F(ViewTools, aPictureThatRestsSaysWhatIsOddAboutIt) {
-    openTwoQuads({"--fstop", "64", "--blur-scale", "0.001"});
+    openNarrow(300, {"--fstop", "64", "--blur-scale", "0.001"});
     const auto says = [](const json& s) { return s.at("warnings").size() == 1; };
     ASSERT_TRUE(reaches(says)) << state();
     EXPECT_EQ(reached().at("warnings").at(0).get<std::string>().find("no visible blur"), 0u) << reached();
 }
 
 TEST_F(ViewTools, aPictureThatIsAllWhiteSaysWhichExposureHelps) {
-    openTwoQuads({"--fstop", "1.4", "--focus-distance", "4", "--exposure", "12"});
+    openNarrow(300, {"--fstop", "1.4", "--focus-distance", "4", "--exposure", "12"});
     ASSERT_TRUE(reaches([](const json& s) { return s.at("warnings").size() == 1; })) << state();
     EXPECT_NE(reached().at("warnings").at(0).get<std::string>().find("is white at an exposure of 12 EV"),
               std::string::npos)
@@ -42,13 +42,13 @@ TEST_F(ViewTools, aPictureThatIsAllWhiteSaysWhichExposureHelps) {
 }
 
 TEST_F(ViewTools, aPictureAsItShouldBeSaysNothing) {
-    openTwoQuads({"--fstop", "1.4", "--focus-distance", "4"});
+    openNarrow(300, {"--fstop", "1.4", "--focus-distance", "4"});
     ASSERT_TRUE(reaches([](const json& s) { return s.at("moving") == false && s.at("samples") > 1; })) << state();
     EXPECT_TRUE(reached().at("warnings").empty()) << reached();
 }
 
 TEST_F(ViewTools, lightsGetASizeAndTheirOwnBack) {
-    openTall({"--shadows", "on"});
+    openSharp(700, {"--shadows", "on"});
     const auto isSized = [](const json& s) {
         return s.at("command").get<std::string>().find("--light-angle 5 ") != std::string::npos;
     };
@@ -63,7 +63,7 @@ TEST_F(ViewTools, lightsGetASizeAndTheirOwnBack) {
 }
 
 TEST_F(ViewTools, aPresetIsChosenAndLeftInThePanel) {
-    openTall();
+    openSharp(700);
     const auto hasPreset = [](const json& s) {
         return s.at("command").get<std::string>().find("--preset ") != std::string::npos;
     };
@@ -81,7 +81,7 @@ TEST_F(ViewTools, theDesktopsDialogIsAskedWhereThereIsOne) {
     std::ofstream(zenity) << "#!/bin/sh\n: > asked\nwhile [ ! -e answer ]; do /bin/sleep 0.05; done\necho '"
                           << (folder() / "other.gltf").string() << "'\n";
     fs::permissions(zenity, fs::perms::owner_all);
-    openTwoQuads();
+    openSharp(300);
     ASSERT_TRUE(presses("ctrl+o", [](const json& s) { return s.at("dialog") == "desktop"; })) << state();
     const double frames = state().at("frames");
     EXPECT_TRUE(reaches([&](const json& s) { return s.at("frames") > frames + 3; }));  // the window keeps drawing
@@ -94,12 +94,12 @@ TEST_F(ViewTools, aDesktopWhoseDialogFailsLeavesItToTheWindow) {
     const fs::path zenity = folder() / "bin" / "zenity";
     std::ofstream(zenity) << "#!/bin/sh\nexit 255\n";
     fs::permissions(zenity, fs::perms::owner_all);
-    openTwoQuads();
+    openSharp(300);
     EXPECT_TRUE(presses("ctrl+o", [](const json& s) { return s.at("dialog") == "open"; })) << state();
 }
 
 TEST_F(ViewTools, anExportShowsItsProgressAndCanBeCancelled) {
-    openTwoQuads({"--samples", "65536", "--fstop", "0.5", "--focus-distance", "4"});
+    openNarrow(300, {"--samples", "65536", "--fstop", "0.5", "--focus-distance", "4"});
     ASSERT_TRUE(presses("ctrl+e", [](const json& s) { return s.at("dialog") == "export"; })) << state();
     ASSERT_TRUE(presses("Return", [](const json& s) { return s.at("exporting") == true; })) << state();
     ASSERT_TRUE(reaches([](const json& s) { return s.at("exportShare") > 0; })) << state();
@@ -108,13 +108,13 @@ TEST_F(ViewTools, anExportShowsItsProgressAndCanBeCancelled) {
 }
 
 TEST_F(ViewTools, selectingInTheTreeShowsTheMaterial) {
-    openTwoQuads();
+    openSharp(300);
     ASSERT_TRUE(unfolds("Objects", "node Far")) << state();
     EXPECT_TRUE(clicks("node Far", [](const json& s) { return s.at("selected") == "Far"; })) << state();
 }
 
 TEST_F(ViewTools, f11CoversTheScreenAndGoesBack) {
-    openTwoQuads();
+    openSharp(300);
     ASSERT_TRUE(presses("F11", [](const json& s) {
         return s.at("fullscreen") == true && s.at("picture").at(3) == 800;
     })) << state();
@@ -130,14 +130,14 @@ TEST_F(ViewTools, extensionsThatAreIgnoredAreListed) {
     json document = json::parse(file);
     document["extensionsUsed"] = {"KHR_audio_emitter"};
     std::ofstream(folder() / "shiny.gltf") << document;
-    start({"shiny.gltf", "--size", "400x700"});
+    start({"shiny.gltf", "--size", "260x700"});
     ASSERT_TRUE(showsScene("shiny.gltf")) << textOf("stderr");
     EXPECT_TRUE(reaches([](const json& s) { return s.at("places").contains("ignored"); })) << state();
 }
 
 // No input is lost if it arrives faster than frames are drawn. In the test, all input arrives within a single frame.
 TEST_F(ViewTools, aHandThatIsFasterThanTheFramesLosesNothing) {
-    openTwoQuads();
+    openSharp(300);
     writeTwoQuads(folder() / "other.gltf");
     const json field = state().at("places").at("open path");
     act(fmt::format("mousemove {} {} click 1 type --delay 0 quadsss", field.at(0).get<int>(), field.at(1).get<int>()));

@@ -16,14 +16,17 @@
 
 namespace defocus::engine {
 
-// Fixture of a window with the rendered image at the left and the panel at the right, from x = 400 px.
+// Fixture of a window with the rendered image at the left and the panel at the right.
 class SessionWindow : public ViewProgram {
 protected:
     // Opens an image of 400 × 300 px with two squares: "Near", 2 m from the camera, centred on pixel (200, 67), and
     // "Far", 8 m from the camera, centred on pixel (360, 150).
-    void openTwoQuads(std::vector<std::string> more = {}) {
+    void openTwoQuads(std::vector<std::string> more = {}) { openScene("400x300", std::move(more)); }
+    // Opens the same scene in an image of 260 × 195 px: "Near" is centred on (130, 44), "Far" on (234, 98).
+    void openSmall(std::vector<std::string> more = {}) { openScene("260x195", std::move(more)); }
+    void openScene(const std::string& size, std::vector<std::string> more) {
         writeTwoQuads(folder() / "quads.gltf");
-        more.insert(more.begin(), {"quads.gltf", "--size", "400x300"});
+        more.insert(more.begin(), {"quads.gltf", "--size", size});
         start(more);
         ASSERT_TRUE(showsScene("quads.gltf")) << textOf("stderr");
     }
@@ -51,7 +54,11 @@ protected:
     }
     // Types a path into the panel's first row and confirms it.
     void openByHand(const std::string& path) const {
-        ASSERT_TRUE(insists([&] { click(500, 45); }, [](const nlohmann::json& s) { return s.at("typing") == true; }))
+        const auto isReady = [](const nlohmann::json& s) { return s.at("places").contains("open path"); };
+        ASSERT_TRUE(reaches(isReady)) << state();
+        const nlohmann::json field = reached().at("places").at("open path");
+        ASSERT_TRUE(insists([&] { click(field.at(0), field.at(1)); },
+                            [](const nlohmann::json& s) { return s.at("typing") == true; }))
             << state();
         const auto typed = [&](const nlohmann::json& s) { return s.at("openPath") == path; };
         const auto type = [&] {
@@ -70,6 +77,15 @@ protected:
     // Opens an image of 400 × 300 px with two squares: "Near", 2 m from the camera, centred on pixel (200, 67), and
     // "Far", 8 m from the camera, centred on pixel (360, 150).
     void openTwoQuads(std::vector<std::string> more = {}) { openScene("400x300", std::move(more)); }
+    // Opens the scene of two squares in an image of 260 px width, which is drawn faster.
+    void openNarrow(int height, std::vector<std::string> more = {}) {
+        openScene("260x" + std::to_string(height), std::move(more));
+    }
+    // As openNarrow(), without depth of field. The image soon comes to rest and the window then draws nothing.
+    void openSharp(int height, std::vector<std::string> more = {}) {
+        more.emplace_back("--no-dof");
+        openNarrow(height, std::move(more));
+    }
     // Opens the scene of two squares in a window that is tall enough for most of the panel.
     void openTall(std::vector<std::string> more = {}) { openScene("400x700", std::move(more)); }
     void openScene(const std::string& size, std::vector<std::string> more) {

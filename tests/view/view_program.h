@@ -138,7 +138,7 @@ protected:
     // ends, or after three minutes, since software drivers on busy machines are slow.
     bool reaches(const std::function<bool(const nlohmann::json&)>& condition) const {
         constexpr double maxSeconds = 180;
-        for (double waited = 0; waited < maxSeconds; waited += 0.05) {
+        for (double waited = 0; waited < maxSeconds; waited += 0.02) {
             // read before the state, so that the state of a program that just ended is still checked
             const bool ending = !alive();
             nlohmann::json now = state();
@@ -147,7 +147,7 @@ protected:
                 return true;
             }
             if (ending) return false;
-            pause(0.05);
+            pause(0.02);
         }
         return false;
     }

@@ -24,6 +24,7 @@ double idleTime(const Session& session) {
     const bool moves = state.playing || state.pull || state.poppingSince || !session.picture.image->idle();
     if (moves || session.still || session.options.frames > 0) return 0;
     if (loading || state.marker.shown) return 0.03;
+    if (!session.options.stats.empty()) return 0.05;  // keeps the state file up to date
     return state.messages.empty() && !session.openDialog.desktop.running() ? 0.25 : 0.1;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr double statsInterval = 0.2;  // seconds between two updates of the state file
+constexpr double statsInterval = 0.05;  // seconds between two updates of the state file
 
 std::string dialogName(const Session& session) {
     if (session.openDialog.browser.opened()) return "open";

@@ -82,8 +82,9 @@ TEST_F(Render, isWhatTheLibraryRenders) {
         ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
         EXPECT_EQ(readImage(folder() / "a.exr").pixels, defocus::render(request).pixels) << outcome.err;
     };
-    expectSame({{"scene", "quads.gltf"}});
-    expectSame({{"fishCount", "3"}, {"trianglesPerFish", "3000"}, {"size", "160x120"}});
+    expectSame({{"scene", "quads.gltf"}, {"size", "64x48"}});  // with the default number of samples
+    expectSame({{"scene", "quads.gltf"}, {"samples", "4"}});   // with the default size
+    expectSame({{"fishCount", "3"}, {"trianglesPerFish", "1000"}, {"size", "80x60"}});
     expectSame({{"scene", "quads.gltf"},
                 {"size", "128x96"},
                 {"samples", "70"},

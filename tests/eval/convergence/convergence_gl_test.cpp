@@ -54,7 +54,7 @@ protected:
     }
 
     static std::unique_ptr<SmallWorld> smallSpheres() {
-        auto small = fiveSpheres();
+        auto small = fiveSpheres(40, 30);
         small->view.width = 64;
         small->view.height = 48;
         return small;

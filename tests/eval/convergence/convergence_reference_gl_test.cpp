@@ -34,7 +34,7 @@ protected:
     }
 
     std::unique_ptr<GlContext> context_ = createHeadlessContext();
-    std::unique_ptr<SmallWorld> small_ = fiveSpheres();
+    std::unique_ptr<SmallWorld> small_ = fiveSpheres(40, 30);
     ScratchFolder folder_;
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 class Popping : public GlContextTest {
 protected:
-    Popping() : small_(fiveSpheres()) {
+    Popping() : small_(fiveCoarseSpheres()) {
         for (const Object& object : small_->world.pose.objects)
             small_->world.pose.bounds.extend(glm::dvec3(object.worldFromObject[3]));
         options_.movements = {Movement::focusPull};

@@ -65,8 +65,8 @@ protected:
     // Returns spheres in front of and behind the focal plane. With 64 samples, both sides have blur classes (groups of
     // pixels with similar blur) with σ = 1 and 2 px.
     static std::unique_ptr<SmallWorld> blurredSpheres() {
-        auto small = fiveSpheres();
-        small->view.lens.fStop = 0.25;
+        auto small = fiveCoarseSpheres();
+        small->view.lens.fStop = 0.125;
         return small;
     }
 };

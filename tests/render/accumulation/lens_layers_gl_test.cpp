@@ -201,7 +201,7 @@ TEST_F(LensLayer, motionIsTheWayDuringTheExposure) {
 
 // Data layers depend neither on the number of samples that are drawn together nor on the choice of other data layers.
 TEST_F(LensLayer, dependOnlyOnTheSamples) {
-    const auto small = fiveSpheres();
+    const auto small = fiveCoarseSpheres();
     const Drawn all = drawn(*small, 70);
     const Drawn single = drawn(*small, 70, everyLayer, 1);
     for (const auto& [layer, image] : all.layers.means)

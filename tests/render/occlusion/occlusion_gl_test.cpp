@@ -64,7 +64,7 @@ std::unique_ptr<SmallWorld> behindAWall() {
 TEST_F(OccludedSurfaces, leavingThemOutChangesNoBit) {
     const auto small = behindAWall();
     for (const LodMode lod : {LodMode::off, LodMode::fractional, LodMode::continuous}) {
-        RenderSettings settings = sharpLevels(100);
+        RenderSettings settings = sharpLevels(70);
         settings.lod = lod;
         settings.metric = LodMetric::size;
         settings.thresholds.size = 1;

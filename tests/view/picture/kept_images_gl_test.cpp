@@ -30,11 +30,11 @@ constexpr std::uint64_t muchMemory = 1ull << 30;
 Request smallSchool() {
     Request request;
     request.fishCount = 9;  // fish at depths of 1 to 2.6 m
-    request.trianglesPerFish = 2'000;
+    request.trianglesPerFish = 500;
     request.noCache = true;
-    request.size = {160, 120};
+    request.size = {80, 60};
     request.lens.fStop = 0.95;
-    request.lens.blurScale = 3;  // up to 10 px of blur
+    request.lens.blurScale = 6;  // up to 10 px of blur
     request.focus = FocusDistance{2};
     return request;
 }
