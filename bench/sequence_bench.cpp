@@ -149,12 +149,12 @@ std::vector<Region> boxes() {
     return regions;
 }
 
-// Errors of a point set that estimates the areas of regions. The area error of a region is the fraction of the points
-// inside it, minus its area.
+// Errors of region areas that are estimated from a point set: the fraction of the points inside a region, minus the
+// region's area.
 struct Discrepancy {
-    double all = 0;     // RMS of the area errors of all regions
-    double prefix = 0;  // max |area error| over all regions and all sets of the first n ≥ 16 points
-    double suffix = 0;  // max |area error| over all regions and all sets of the last n ≥ 16 points
+    double all = 0;     // RMS error over all regions
+    double prefix = 0;  // max |error| over all regions and all n ≥ 16, using only the first n points
+    double suffix = 0;  // max |error| over all regions and all n ≥ 16, using only the last n points
 };
 
 double largestOfPrefixes(const std::vector<LensSample>& samples, const Region& region) {

@@ -1,5 +1,5 @@
 #pragma once
-// Computes the rays of lens_rays.h for packets of pixels in tiles of 16 × 16 pixels.
+// Computes the same rays as lens_rays.h, but for packets of pixels in tiles of 16 × 16 px.
 
 #include <array>
 

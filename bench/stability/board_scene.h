@@ -39,8 +39,8 @@ Image rendered(const BoardScene& boards, const std::string& method = "accumulati
 Board squareAt(const View& view, double depth, double pixels, const glm::vec3& radiance,
                const glm::dvec2& offset = glm::dvec2(0));
 
-// Returns three boards: in front of the focal plane at depth `nearest`, in focus at 2 m, and behind the focal plane at
-// depth `farthest`.
+// Returns three boards: one in front of the focus plane (at depth `nearest`), one in focus (at 2 m), and one behind the
+// focus plane (at depth `farthest`).
 std::vector<Board> threeBoards(const View& view, double nearest, double farthest);
 
 // Returns the max difference of linear values over all pixels and channels; infinity if a value of either image isn't

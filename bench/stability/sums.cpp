@@ -13,7 +13,7 @@ namespace defocus::engine {
 
 namespace {
 
-constexpr double sumLimit = 1e-6;              // max error relative to the same layers summed in double
+constexpr double sumLimit = 1e-6;              // max relative error of the renderer's sum of samples
 constexpr double halfLimit = 0x1p-11 * 1.001;  // max relative rounding error of a half float
 constexpr double comparison = std::numeric_limits<double>::infinity();
 

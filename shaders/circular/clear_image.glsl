@@ -1,5 +1,5 @@
-// Reads the pinhole image for the circular method. If `bracketed` (storage r10g10b10a2), radiance is clipped to [0, 1]
-// and rounded to ten bits per channel.
+// Reads the pinhole image for the circular method. If images are stored with ten bits per channel (`bracketed`),
+// radiance is clipped to [0, 1] and rounded to ten bits.
 
 layout(binding = 0) uniform sampler2D pinholeColor;
 

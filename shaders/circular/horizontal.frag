@@ -13,7 +13,8 @@ layout(location = 15) uniform int firstComponent;
 
 // Two outputs per component: the real part and the imaginary part of the sum. If `bracketed` (sums mapped to [0, 1];
 // Bracket in src/render/circular/complex_blur.h), three outputs per component: the real part of rgb, the imaginary part
-// of rgb, and the weight's real part, imaginary part and mean. The last output is then the mean rgb.
+// of rgb, and (real part, imaginary part, mean) of the field's alpha. One more output holds the mean of rgb. Means are
+// over the taps, without the kernel.
 layout(location = 0) out vec4 sums[bracketed ? 3 * components + 1 : 2 * components];
 
 vec4 pairAt(ivec2 pixel, int i, Taps taps) {

@@ -26,9 +26,9 @@ void main() {
         for (int x = first.x; x <= last.x; ++x) {
             float diameter = pinholeCircleOfConfusion(ivec2(x, y), 0);
             vec4 color = vec4(clearColor(ivec2(x, y)), 1.0);
-            // Pixels whose blur diameter is below one pixel belong partly to the sharp image. Behind the focus plane,
-            // the weight is proportional to the blur diameter (Garcia's premultiplied far field). Nearly sharp surfaces
-            // therefore leak little into the wide disks behind them.
+            // Weights of the pixel in the far and the near field. Below a blur diameter of one pixel, the pixel belongs
+            // partly to the sharp image. In the far field, the weight is also proportional to the blur diameter
+            // (Garcia's premultiplied far field). Nearly sharp surfaces thus add little to the blur behind them.
             float behind = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
             float before = clamp(-diameter, 0.0, 1.0);
             if (nearPremultiplied) before *= min(-diameter * perNearDiameter, 1.0);

@@ -5,7 +5,7 @@ layout(std140, binding = 0) uniform FrameBlock {
     vec4 projection;      // 1/tan(θx/2), 1/tan(θy/2) for angles of view θ; near plane (m); unused
     // Coefficients of the circle of confusion (CoC) as a fraction of the image's width. It is a/depth + b₁·q in front
     // of the focus plane and a₂/depth + b₂·q behind it, where q is 1 unless the focus surface is tilted or curved
-    // (src/lens/circle_of_confusion.h). x: a; y: b₁; z: image width (px); w: b₂.
+    // (src/lens/circle_of_confusion.h). x: a; y: b₁; z: image width (px); w: b₂. For a₂, see cocOther.
     vec4 coc;
     vec4 cocField;        // xy: tilt t of the focus plane; z: field curvature κ; w: radial blur gain g
     // xy: max CoC in front of and behind the focus plane, as fractions of the image's width; z: 1/k² with the image's

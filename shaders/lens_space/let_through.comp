@@ -28,7 +28,7 @@ layout(location = 3) uniform uint recordCount;
 layout(location = 4) uniform bool first;
 
 // Owen-scrambles a number whose bits are reversed (Laine and Karras 2011, Stratified Sampling for Stochastic
-// Transparency; constants of Burley 2020, Practical Hash-based Owen Scrambling).
+// Transparency) with the constants from Burley 2020, Practical Hash-based Owen Scrambling.
 uint scrambled(uint reversed, uint seed) {
     reversed ^= reversed * 0x3d20adeau;
     reversed += seed;

@@ -81,7 +81,8 @@ const uint jobIsDone = 3u;
 // Max number of threads per SIMD vector. All threads of a vector run as many iterations of a loop as the thread that
 // needs most.
 const uint widestVector = 16u;
-uint commonRounds = 0u;         // iterations of loops whose number of iterations is the same in all threads
-uint ownRounds = 0u;            // this thread's iterations of loops that run a different number of times in each thread
+// Counts that hasRoundsFor() compares with the driver's limit on iterations:
+uint commonRounds = 0u;         // iterations so far of loops that run equally often in all threads
+uint ownRounds = 0u;            // this thread's iterations so far of all other loops
 
 bool hasRoundsFor(uint more, uint maximum) { return maxRounds == 0u || commonRounds + widestVector * ownRounds + more < maximum; }

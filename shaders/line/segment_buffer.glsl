@@ -122,8 +122,8 @@ void drop(Segment segment) {
 
 float slopeOf(Segment segment) { return (segment.depths.y - segment.depths.x) / max(segment.ends.y - segment.ends.x, 1e-6); }
 
-// Returns true if the colours of two segments agree. If vertices are not lit, segments have no colour, and their object
-// and material must be the same.
+// Returns true if the colours of two segments agree. Segments store no colour if vertices are not lit; they agree if
+// they have the same object and material.
 bool sameColors(Segment a, Segment b) {
     if (!lightsVertices) return triangles[a.triangle].w == triangles[b.triangle].w;
     return all(lessThanEqual(abs(a.color - b.color), vec3(sameColor)));
@@ -193,7 +193,7 @@ void addSegment(Interval interval, uint triangle, OnLine line, bool front) {
         return;
     }
 
-    // Step "eviction": if the buffer is full, drop the shortest segment.
+    // Add the segment if the buffer has room. Otherwise (step "eviction"), drop the shortest segment.
     if (segmentCount < uint(segmentCapacity)) {
         store(segmentCount, segment);
         ++segmentCount;

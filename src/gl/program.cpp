@@ -71,8 +71,8 @@ std::string directivesOf(const Stage& stage) {
     return text;
 }
 
-// Returns the log of a shader or program, read by `read`, with its lines joined into one line, because the message of
-// an Error is one line.
+// Returns the info log of a shader or program on one line, for the message of an Error. `read`: glGetShaderInfoLog or
+// glGetProgramInfoLog.
 std::string logOf(GLuint name, const auto& read) {
     std::string log(8192, '\0');
     GLsizei length = 0;

@@ -1,5 +1,6 @@
 #pragma once
-// Declares the constants that shaders read, with a program's values or with default values.
+// Generates GLSL declarations of the constants that shaders read. A constant has the value that the program sets, or
+// else its default.
 
 #include <string>
 

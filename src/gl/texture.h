@@ -47,7 +47,8 @@ public:
     // of the format.
     void upload(int level, int width, int height, const void* pixels);
     void generateMipmaps();
-    // Replaces the filtering of TextureInfo and the wrapping, which is GL_CLAMP_TO_EDGE by default.
+    // Sets filtering and wrapping. By default, the filtering is that of TextureInfo, and the wrapping is
+    // GL_CLAMP_TO_EDGE.
     void sampling(GLenum minFilter, GLenum magFilter, GLenum wrapS, GLenum wrapT);
     // Clears layer `layer` to zeros: transparent black, or depth 0.
     void clearLayer(std::uint32_t layer);

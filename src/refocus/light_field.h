@@ -40,7 +40,7 @@ struct LightFieldInfo {
     [[nodiscard]] double shift(double otherFocus) const {
         return pixelsPerDioptre * (1 / otherFocus - 1 / focusDistance);
     }
-    // Returns the number stored under `name` in `metadata`, or `standard` if it is missing.
+    // Returns the number stored under `name` in `metadata`, or `fallback` if it is missing.
     [[nodiscard]] double number(const char* name, double fallback) const;
 };
 
@@ -61,7 +61,7 @@ class LensImages {
 public:
     virtual ~LensImages() = default;
     [[nodiscard]] virtual const LightFieldInfo& info() const = 0;
-    [[nodiscard]] virtual const std::string& name() const = 0;  // name of the images in messages
+    [[nodiscard]] virtual const std::string& name() const = 0;  // name by which messages refer to the images
     // Returns the image seen from lens point i, including the margin: linear, premultiplied RGBA.
     [[nodiscard]] virtual std::shared_ptr<const HalfImage> colour(std::size_t i) = 0;
 };

@@ -31,7 +31,7 @@ struct RenderStats {
     double setupMilliseconds = 0;       // time for uploads and for compiling shaders
     double renderMilliseconds = 0;      // time from the end of the setup until the image is complete
     CpuTime cpuTime;                    // CPU time in the interval that renderMilliseconds measures
-    double gpuMilliseconds = 0;         // measured by timer queries; excludes vertex work with software drivers
+    double gpuMilliseconds = 0;         // from timer queries, which miss vertex work on software drivers
     std::uint64_t trianglesDrawn = 0;   // triangles in the plan, summed over all samples
     std::uint64_t trianglesHidden = 0;  // triangles of the plan that were skipped because they are hidden
     std::uint64_t peakBytes = 0;        // peak size of the renderer's GPU resources

@@ -58,7 +58,8 @@ protected:
     const Words costly = {"render", "--quiet", "--size", "512x384", "--field-curvature", "1000"};
 };
 
-// On two cores, the frame takes minutes. Its first block of 64 samples takes half of that time.
+// On two cores, the frame takes minutes, and its first block of 64 samples half of that. The signal thus arrives within
+// this block.
 TEST_F(Stopping, aSignalEndsARenderWithinASecond) {
     warmUp(costly);
     for (const int signal : {SIGINT, SIGTERM}) {
@@ -87,8 +88,8 @@ TEST_F(Stopping, partialImagesAreKeptOnDemand) {
     EXPECT_LT(samples, 128);
 }
 
-// One step of the method `line` (a call of Renderer::advance()) takes seconds, so the signal usually arrives within a
-// step. On a fast machine, the first step may end before the signal arrives.
+// With the method `line`, one step (a call of Renderer::advance()) takes seconds, so the signal usually arrives within
+// a step. On a fast machine, the first step may end before the signal arrives.
 TEST_F(Stopping, aLongStepIsNotAwaited) {
     warmUp({"render", "--quiet", "--size", "512x384"});
     const Words words = {"render",    "--quiet", "--size",         "512x384", "--method", "line",

@@ -37,8 +37,8 @@ double random(std::mt19937& source, double min, double max) {
     return std::uniform_real_distribution<double>(min, max)(source);
 }
 
-// If the circle of confusion is C = a/w + b at depth w, a foreground limit R clamps C at all depths w ≤ −a/(b + R). At
-// larger depths, C is unchanged (Munkberg et al. 2012, Eq. 1 and 2 with inverted signs).
+// If the circle of confusion is C = a/w + b at depth w, a foreground limit R clamps C to −R at all depths
+// w ≤ −a/(b + R). At larger depths, C is unchanged (Munkberg et al. 2012, Eq. 1 and 2 with inverted signs).
 TEST(CircleOfConfusion, foregroundLimitHasItsKinkWhereThePaperSays) {
     Lens lens = lensAt(2);
     const ClipCircleOfConfusion free = clipCircleOfConfusion(lens, 1000, 750);

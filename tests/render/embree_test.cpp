@@ -238,7 +238,7 @@ TEST(EmbreeBackground, GradientFollowsTheDirectionOfTheRay) {
     const Image image = traced(Scene{}, view, 64, sky);
     for (const int row : {0, 23, 47}) {
         const double slope = (24 - row - 0.5) * 2 * tanHalf(view) / 64;
-        // y component of the direction through the middle column
+        // y component of the unit direction of the row's ray in the middle column
         const double height = std::sin(pitch + std::atan(slope));
         EXPECT_NEAR(image.at(32, row)[0], std::max(0.0, height), 2e-3);
         EXPECT_NEAR(image.at(32, row)[1], 1 - std::abs(height), 2e-3);

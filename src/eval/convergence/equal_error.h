@@ -19,8 +19,8 @@ inline constexpr std::array comparedErrors{0.01, 0.005, 0.0033};  // RMSE of dis
 struct Competitor {
     std::string name;  // name of the method, such as "accumulation with levels" or "embree"
     struct Time {
-        double rmse = 0;
-        std::optional<double> milliseconds;  // time of a frame with this error; nullopt if all errors are larger
+        double rmse = 0;                     // the given error
+        std::optional<double> milliseconds;  // time to reach `rmse`; nullopt if no frame reaches it
         bool atMost = false;  // true: `milliseconds` is an upper bound, because the fastest frame has a smaller error
     };
     std::vector<Time> times;  // one entry for each of the given errors, in their order

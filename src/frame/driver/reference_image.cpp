@@ -89,7 +89,7 @@ Difference remainingIn(const Metadata& metadata) {
 
 // First or second half of the lens samples of a reference image.
 struct Half {
-    std::uint32_t first = 0;  // index of the first lens sample of this half, counted from referenceOffset
+    std::uint32_t first = 0;  // index of the half's first lens sample, counted from referenceOffset
     std::uint32_t count = 0;
 };
 

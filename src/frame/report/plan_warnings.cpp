@@ -50,7 +50,7 @@ std::string nothingBlurred(const FramePlan& plan) {
 struct Gaps {
     double size = 0;  // gap in px; with lens cells: standard deviation of the Gaussian, px
     double max = 16;  // largest `size` that causes no warning, px
-    double good = 8;  // max `size` in px with the settings that the warning advises
+    double good = 8;  // target for `size` with the settings that the warning suggests, px
 };
 
 Gaps gapsOf(const FramePlan& plan, const MethodUse& use, double blur, std::uint64_t samples) {

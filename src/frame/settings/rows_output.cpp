@@ -17,7 +17,7 @@ namespace {
 // Each set… function parses the text of a value. If the text is invalid, it throws Error with the allowed values in its
 // message. Each …Text function returns nullopt if the value is unset.
 
-// Sets the method. Method settings that are missing in the text are reset to their defaults.
+// Sets the method. Method settings that the text does not contain are reset to their defaults.
 void setMethod(Request& request, const std::string& text) {
     std::vector<std::string> names;
     for (const Method& method : methods()) names.push_back(method.name);

@@ -28,8 +28,7 @@ double meteredExposure(const ImageView& image);
 double meteredExposure(World& world, const View& view, const RenderSettings& settings,
                        const std::filesystem::path& shaderFolder = {});
 
-// Returns the exposure (EV) that the request gives as a value; nullopt if the lens or the meter determines the
-// exposure.
+// Returns the exposure (EV) if the request sets it to a number; nullopt if the lens or metering determines it.
 std::optional<double> exposureOf(const Request& request);
 
 // Returns the exposure (EV) that follows from the request or the lens without metering.

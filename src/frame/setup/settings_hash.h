@@ -1,7 +1,7 @@
 #pragma once
-// Computes a hash of all inputs of a frame's pixels. Frames with equal hashes have equal pixels on machines of the same
-// kind. The hash is stored in the metadata of frames and of parts of frames, so that --resume and `merge` can match
-// files.
+// Computes a hash of everything that determines a frame's pixels. Frames with equal hashes have equal pixels on
+// machines of the same kind. The hash is stored in the metadata of frames and of parts of frames, so that --resume and
+// `merge` can match files.
 
 #include <cstdint>
 #include <filesystem>

@@ -16,13 +16,13 @@ const char* lodModeName(LodMode mode);
 const char* lodMetricName(LodMetric metric);
 
 // Thresholds set by the user. Unset thresholds have defaults that depend on the sample count, so that long renders
-// converge to full detail. The meaning of the thresholds depends on the metric. For a circle of confusion (CoC) of c
-// px:
-//   size: the target edge length of a level is max(blur · c, size) px.
-//   error: the target distance between the surfaces of a level and of the mesh is max(blur · c, size) px.
-//   score: the target edge length is blur · c px.
-//   proportional: `blur` is the level of an object whose circle of confusion is as large as its bounding box.
-//   measured: a level whose edges are `edge` px long may have a relative error of at most light / edge.
+// converge to full detail. The meaning of the thresholds `blur`, `size` and `light` depends on the metric. For a circle
+// of confusion (CoC) of c px:
+//   metric size: the target edge length of a level is max(`blur` · c, `size`) px.
+//   metric error: the target distance between the surfaces of a level and of the mesh is max(`blur` · c, `size`) px.
+//   metric score: the target edge length is `blur` · c px.
+//   metric proportional: `blur` is the level of an object whose CoC is as large as its projected bounding box.
+//   metric measured: a level whose edges are `edge` px long may have a relative error of at most `light` / `edge`.
 //     The relative error is an error in radiance, divided by the standard deviation of the radiance within a blur disk.
 //     The relative error has no unit, so `light` is a length in px.
 struct GivenThresholds {
@@ -97,14 +97,15 @@ struct LevelQuery {
 };
 
 // Selects the real-valued level λ in [0, levels − 1] for all metrics except LodMetric::measured (see blurred_error.h).
-// The target in px is τ = max(blur·c, size), with the thresholds blur and size and the CoC diameter c. λ is continuous
-// in the query.
-//   size: λ is the level whose mean edge projects to τ; the logarithms of the stored mean edges are interpolated.
-//   score: like size, but with τ = blur·c. λ is the level whose mean edges are blur·s times those of level 0.
+// For the thresholds B (LodThresholds::blur) and S (LodThresholds::size) and a CoC diameter of c px, the target in px
+// is τ = max(B·c, S). λ is continuous in the query.
+//   metric size: λ is the level whose mean edge projects to τ. The logarithms of the mean edges are interpolated.
+//   metric score: like `size`, but with τ = B·c. λ is thus the level whose mean edge is B·s times that of level 0.
 //     s = c/d is the score of Tzeng et al. 2012; d is the mean edge of level 0 at the depth of the box's centre.
-//   proportional: λ = blur · c/p for a projected bounding box of p px. λ is 0 without blur, and the coarsest level if
-//     only p is 0. Jeong, Kim and Lee 2011 state that λ is proportional to the blur and to 1/p, without a constant.
-//   error: λ = l + (τ − e[l]) / (e[l+1] − e[l]), where e are the stored errors projected to px, and e[l] ≤ τ ≤ e[l+1].
+//   metric proportional: λ = B·c/p for a projected bounding box of p px; 0 if c = 0; the coarsest level if p = 0 < c.
+//     Jeong, Kim and Lee 2011 state that λ is proportional to the blur and to 1/p, without a constant.
+//   metric error: λ = l + (τ − e[l]) / (e[l+1] − e[l]), where e are the stored errors projected to px, and
+//     e[l] ≤ τ ≤ e[l+1].
 // Returns 0 if pixelsPerUnit is negative, infinite or NaN. Returns the coarsest level if pixelsPerUnit is 0, because
 // the object is then a point.
 double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,

@@ -23,7 +23,8 @@ public:
 
     [[nodiscard]] bool empty() const { return heap_.empty(); }
 
-    // Inserts the vertex with this cost (≥ 0), or updates the cost if the vertex is present.
+    // Inserts the vertex, or updates its cost (≥ 0) and `bad` if it is present. Vertices with `bad` set come
+    // after all others.
     void put(VertexHandle vertex, float cost, bool bad) {
         const std::uint64_t bits = std::bit_cast<std::uint32_t>(std::max(0.0f, cost));
         const std::uint64_t key = std::uint64_t{bad} << 63 | bits << 32 | numberOf(vertex);

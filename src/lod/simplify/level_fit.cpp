@@ -15,8 +15,8 @@ namespace defocus::engine {
 
 namespace {
 
-// Min length of a mean normal, and min mean cosine between normals. A shorter mean of unit normals has no meaningful
-// direction.
+// Min length of a fitted normal, a mean of unit normals; a shorter mean has no meaningful direction. Also the lower
+// bound of the mean cosine between fitted normals and level 0's normals (agreements()).
 constexpr float minAgreement = 0.125f;
 
 // Weights and right-hand sides of the least-squares fits (least_squares.h). An anchor is the point on the level that

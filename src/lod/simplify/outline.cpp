@@ -364,7 +364,7 @@ void fitOutlines(std::span<glm::vec3> positions, std::span<const std::uint32_t> 
     std::vector<glm::vec3> best = fit.places();
     // If the fit is not good enough, try a second fit that starts with followLocally(), which fits the outline edge by
     // edge. The second fit moves vertices farther, and an edge may follow the outline of another part of the mesh. Use
-    // the second fit only if its covered areas are closer to level 0's areas than those of the first fit.
+    // it only if the covered area then differs less from level 0's in the worst projection direction.
     if (fit.worst() > maxUnseen) {
         OutlineFit other(std::move(at), corners, outlines, box);
         for (int round = 0; round < localRounds; ++round) other.followLocally();

@@ -97,9 +97,10 @@ AttributeGradients<n> attributeGradients(const glm::dvec3* const* p, const Attri
 
 template <std::size_t n>
 struct AttributeQuadric {
-    // Σ w·(g·d + e − s)² over faces and attributes. w is the face's weight, g the attribute's gradient over the face, e
-    // the face's value at the vertex minus the vertex's own value, and s the attribute offset. `squares` holds the
-    // terms without s, and its weight is Σ w. The other members hold Σ w·g and Σ w·e per attribute.
+    // Σ w·(g·d + e − s)² over faces and attributes, where d and s are the offsets of the position and the attribute
+    // from the vertex. w is the face's weight, g the attribute's gradient over the face, and e the face's value at the
+    // vertex minus the vertex's own value. `squares` holds the terms without s, and squares.weight is Σ w. Per
+    // attribute, `gradients` holds Σ w·g, and `offset` Σ w·e.
     Quadric squares;
     AttributeGradients<n> gradients{};
     AttributeRow<n> offset{};

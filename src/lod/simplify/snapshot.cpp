@@ -31,8 +31,8 @@ constexpr int rounds = 3;  // iterations of k-means with two clusters of face no
 
 struct CornerNormal {
     TriangleCorner corner;
-    // Normal of the corner's face, by the winding order of the mesh. Its length is at first twice the face's area, and
-    // later the angle at the corner.
+    // Normal of the corner's face, by the winding order of the mesh. cornerNormal() sets its length to twice the face's
+    // area, and weighByAngle() to the angle at the corner.
     glm::dvec3 normal;
 };
 

@@ -24,7 +24,8 @@ public:
     // added.
     bool grow(double milliseconds);
     [[nodiscard]] std::uint32_t samples() const { return samples_; }  // number of lens samples in the sum
-    // Returns the triangles per pixel, summed over samples() lens samples, as r32f with row 0 at the bottom.
+    // Returns the number of triangles that cover each pixel, summed over samples() lens samples: r32f, row 0 at the
+    // bottom.
     [[nodiscard]] const GlTexture& work() const { return work_; }
 
 private:
@@ -45,9 +46,9 @@ Image renderWork(const World& world, const FramePlan& plan, const std::filesyste
 // Triangles per pixel and lens sample at which the colour map saturates.
 inline constexpr float maxShownWork = 15;
 
-// Maps the work, the triangles per pixel summed over `samples` lens samples, to linear RGB with the magma colour map.
-// The scale is the same for all frames: 0 triangles per lens sample are black; 1, 3, 7 and 15 are purple, red, orange
-// and pale yellow.
+// Maps the work, the number of triangles per pixel summed over `samples` lens samples, to linear RGB with the magma
+// colour map. The scale is the same for all frames: 0 triangles per lens sample are black; 1, 3, 7 and 15 are purple,
+// red, orange and pale yellow.
 Image workColourMap(const Image& work, std::uint32_t samples);
 
 struct WorkSummary {

@@ -34,7 +34,8 @@ public:
     // memory.
     void allocate(int width, int height, std::uint32_t count);
     void free();
-    // Stores an image of the allocated size, rounded to half floats.
+    // Rounds the pixels of `texture` to half floats and stores them as image number `image`. The texture must have the
+    // size passed to allocate().
     void store(std::uint32_t image, const GlTexture& texture);
     // Computes the mean of `parts`, of which there must be at least one. The mean has `width` × `height` px. Each part
     // contributes a rectangle of this size, whose lower left pixel is Part::corner. It must lie within the part's
@@ -53,7 +54,7 @@ private:
     bool software_;
     GlTexture images_;               // all images; if OpenGL runs on the CPU, only the latest image
     std::vector<HalfImage> halves_;  // all images, row 0 at the bottom; empty unless OpenGL runs on the CPU
-    std::vector<float> sums_;        // RGBA of the mean, if OpenGL runs on the CPU
+    std::vector<float> sums_;        // RGBA sums over the parts, then the mean; used only if OpenGL runs on the CPU
     GlTexture mean_;
     Target meanTarget_;
     Program store_, sum_;

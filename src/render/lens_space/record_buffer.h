@@ -8,7 +8,7 @@
 
 namespace defocus::engine {
 
-// Returns the max bytes of a storage buffer (GL_MAX_SHADER_STORAGE_BLOCK_SIZE).
+// Returns the max size of a storage buffer in bytes (GL_MAX_SHADER_STORAGE_BLOCK_SIZE).
 std::uint64_t largestStorage();
 
 // Returns a storage buffer of `bytes` bytes. Throws Error, with `what` as the name of the content, if `bytes` exceeds

@@ -194,8 +194,8 @@ private:
 }  // namespace
 
 BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focusDistance, double largest, int width) {
-    // The blur radius at depth w, in normalised device coordinates, is |C/w| with the clip-space circle of confusion C.
-    // `radius` is its max.
+    // In normalised device coordinates, the blur radius at depth w is |C/w|, where C is the clip-space circle of
+    // confusion. `radius` is the max blur radius.
     const double radius = largest / width;
     BlurrinessPlanes planes;
     // At depth w, C/w = a/w + b with a = coc.a < 0; b is coc.front in front of the focus plane and coc.behind behind

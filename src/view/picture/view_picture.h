@@ -60,7 +60,7 @@ public:
 
     [[nodiscard]] const GlTexture& texture() const { return display_.texture(); }
     [[nodiscard]] bool moving() const { return !growing_; }
-    // Returns whether the picture is complete until the request changes.
+    // Returns whether the picture is complete and thus stays the same until the request changes.
     [[nodiscard]] bool finished() const { return growing_ && !grows_ && !(showsWork_ && workGrows_); }
     // Returns whether grow() has nothing left to draw.
     [[nodiscard]] bool idle() const { return finished() && !keepsMore(); }

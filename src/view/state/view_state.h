@@ -109,16 +109,16 @@ struct SceneState {
 };
 
 struct ViewState : ViewEdit, SceneState {
-    // State of the current frame, set by the window loop.
+    // ---- current frame, set by the window loop
     double now = 0;             // seconds since the window was opened
     PictureArea area;           // window area that shows the picture
     glm::ivec2 pictureSize{1};  // size of the picture, px
 
-    // State of the camera and the scene.
-    Navigation navigation = Navigation::orbit;
+    // ---- camera and animation
+    Navigation navigation = Navigation::orbit;  // how dragging the mouse moves the camera
     double animationSpeed = 1;
 
-    // Settings of the picture.
+    // ---- settings of the picture
     DisplaySettings display;  // exposure and tone map are ignored; ViewEdit's `exposure` and `options` replace them
     Comparison comparison = Comparison::none;
     std::string comparedMethod = "circular";
@@ -126,7 +126,7 @@ struct ViewState : ViewEdit, SceneState {
     std::uint32_t maxSamples = 4096;        // max lens samples of a view at rest
     std::uint64_t imageBytes = 1ull << 30;  // max size of the kept lens images in bytes; 0: none are kept
 
-    // Appearance of the window, recent files and messages.
+    // ---- appearance of the window, recent files and messages
     bool panel = true;
     bool help = false;
     bool dark = true;
@@ -136,7 +136,7 @@ struct ViewState : ViewEdit, SceneState {
     std::string fault;          // latest error message
     bool printsFaults = false;  // true: also print error messages on stderr
 
-    // Contents of text fields, and the state of dialogs.
+    // ---- contents of text fields, and state of dialogs
     std::string openPath, viewName, environmentPath, aperturePath;
     bool environmentIsFile = false;  // true: the field for an environment file is shown
     std::string exportPath = "still.png";

@@ -107,9 +107,9 @@ TEST(WedgeModule, whereACreaseBeginsCornersTakeTheMostSimilarNormal) {
     }
 }
 
-// A wedge is a vertex with its attributes. Its cost is summed over its faces: area times squared attribute difference.
-// After a collapse, the cost of the surviving vertex's wedge covers the faces of both vertices. Three faces meet at
-// vertex 5 and six at vertex 4, so the cost triples; the two faces at their common edge count twice.
+// A wedge is a vertex with its attributes. The cost of replacing it by another wedge is summed over its faces: area
+// times squared attribute difference. Vertex 5 has three faces. After vertex 4, with six faces, has collapsed onto
+// vertex 5, the wedge of vertex 5 stands for 3 + 6 faces, so its cost triples. The two faces at edge 4–5 count twice.
 TEST(WedgeModule, theSurvivorsWedgeStandsForTheFacesOfBoth) {
     DrawnSurface surface(grid(), {together(leftTriangles, rightTriangles)});
     const WedgeTable& wedges = surface.mesh().wedges;

@@ -9,7 +9,8 @@ namespace {
 
 class KeepAll : public BlendedPanes {
 protected:
-    // Expects the same bits with and without keepAll. The scene's last object must be invisible to all lens samples.
+    // Expects bit-identical images with and without keepAll. The scene's last object must be invisible to all lens
+    // samples.
     static void expectSameBits(const SmallWorld& small, const RenderSettings& settings) {
         const FramePlan culled = planFrame(small.world, small.view, settings);
         ASSERT_EQ(culled.objects.size() + 1, small.world.pose.objects.size());

@@ -81,7 +81,7 @@ TEST_F(ComplexBlurs, aPointBecomesADiskOfTheRadiusAndKeepsItsEnergy) {
 TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
     Image bright = blocks();
     for (std::size_t i = 0; i < bright.pixels.size(); ++i)
-        if (i % 4 != 3) bright.pixels[i] *= 50;  // 10-bit storage divides by the image's max, so it clips nothing
+        if (i % 4 != 3) bright.pixels[i] *= 50;  // above 1, but not clipped: 10-bit storage is relative to the max
     for (const int components : {1, 2, 3}) {
         const Image exact = blurred(infoOf(components, ComplexStorage::float32), bright, filled(1, 9));
         const Image stored = blurred(infoOf(components, ComplexStorage::rgb10A2), bright, filled(1, 9));
@@ -98,8 +98,8 @@ TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
     }
 }
 
-// 10-bit storage divides radiance and weights by their max before rounding, so small weights keep their relative
-// precision.
+// Radiance and weights are divided by their max before they are rounded to 10 bits, so small weights keep their
+// relative precision.
 TEST_F(ComplexBlurs, bracketsKeepSmallWeights) {
     Image light = blocks();
     for (float& value : light.pixels) value *= 0.01f;

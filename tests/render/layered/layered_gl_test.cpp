@@ -54,7 +54,8 @@ TEST_F(Layered, apertureZeroIsThePinholeImage) {
     EXPECT_LT(largestDifference(seenBy(*small, "accumulation", 1), seenBy(*small, "layered:pinholes=1", 32)), 2e-3);
 }
 
-// An environment map is drawn with a frame plan without objects. This plan must not list blended primitives, either.
+// An environment map is drawn with a frame plan without objects. This plan must not list blended primitives, because
+// they would refer to the missing objects.
 TEST_F(Layered, anEnvironmentMapIsSeenThroughBlendedObjects) {
     const auto small = fiveSpheres();
     small->scene.materials[0].alphaMode = AlphaMode::blend;

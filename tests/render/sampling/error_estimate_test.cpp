@@ -87,8 +87,8 @@ TEST(ErrorEstimate, anotherSizeIsRefused) {
 }
 
 // For edges, the estimated error is at least 2/3 of the true error. It is at most 1.5 times the true error, or 1.8
-// times with halton and r2. Images of edges converge faster than other images. With these two sequences, they converge
-// far faster at some sample counts.
+// times with halton and r2. It may be too high because errors at edges fall faster than the estimate assumes. With
+// halton and r2, they fall far faster at some sample counts.
 TEST(ErrorEstimate, edgesUnderEachSequenceAreNotUnderrated) {
     const Image reference = trueLensEdges();
     for (const Sequence sequence : {Sequence::halton, Sequence::scrambledHalton, Sequence::sobol, Sequence::r2})

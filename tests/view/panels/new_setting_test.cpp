@@ -17,7 +17,7 @@ bool panelHas(const char* name) {
 
 TEST(NewSetting, appearsInThePanel) {
     testing::FLAGS_gtest_death_test_style = "threadsafe";
-    // Runs in a child process, because other tests of this process use the table of settings.
+    // Runs in a child process, because it adds to the table of settings, which other tests of this process use.
     EXPECT_EXIT(
         {
             EXPECT_FALSE(panelHas("newSetting"));
