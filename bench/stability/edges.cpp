@@ -83,10 +83,10 @@ void addEdgeCases(std::vector<StabilityCase>& cases) {
         cases.push_back({"lens", std::move(name), "largest error of an edge's profile", "closed form", 0.01,
                          [edge] { return edgeError(edge()); }});
     };
-    add("macro: blur 1.6 images wide, behind", [] { return macroEdge(0.7, 3); });
-    add("macro: blur 11 images wide, behind", [] { return macroEdge(0.1, 3); });
-    add("macro: blur 3.3 images wide, in front", [] { return macroEdge(0.7, 0.02); });
-    add("an edge at 0.02 m before a wall at 2,000 km, both blurred", deepEdge);
+    add("macro: blur 1.6 times the image width, behind the focus", [] { return macroEdge(0.7, 3); });
+    add("macro: blur 11 times the image width, behind the focus", [] { return macroEdge(0.1, 3); });
+    add("macro: blur 3.3 times the image width, in front of the focus", [] { return macroEdge(0.7, 0.02); });
+    add("an edge 0.02 m away, a wall 2,000 km away, both blurred", deepEdge);
 }
 
 }  // namespace defocus::engine

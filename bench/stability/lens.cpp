@@ -125,9 +125,9 @@ void addLensCases(std::vector<StabilityCase>& cases) {
     addDiameter("f/8", {.fStop = 8, .width = 960});
     addDiameter("f/0.1", {.fStop = 0.1});
     addDiameter("f/0.1 in front", {.fStop = 0.1, .depth = 1.2});
-    addDiameter("f/0.7, 3 mm behind a focus at 0.1 m",
+    addDiameter("f/0.7, 3 mm behind the focus distance of 0.1 m",
                 {.fStop = 0.7, .focusDistance = 0.1, .depth = 0.103, .width = 192});
-    addDiameter("f/0.7, 3 mm before a focus at 0.1 m",
+    addDiameter("f/0.7, 3 mm in front of the focus distance of 0.1 m",
                 {.fStop = 0.7, .focusDistance = 0.1, .depth = 0.097, .width = 192});
     addDiameter("focus at the near plane", {.fStop = 50, .focusDistance = 0.01, .depth = 1});
     addDiameter("focus at 1,000 km", {.fStop = 0.7, .focusDistance = 1e6, .depth = 1});
@@ -137,8 +137,8 @@ void addLensCases(std::vector<StabilityCase>& cases) {
     std::vector<NamedLight> lights = {
         {"field of view 1 degree", [] { return lightInField(1); }},
         {"field of view 170 degrees", [] { return lightInField(170); }},
-        {"9 lights all over 8,192 × 256 px", [] { return lightsInLargeImage(8192, 256); }},
-        {"9 lights all over 256 × 8,192 px", [] { return lightsInLargeImage(256, 8192); }},
+        {"9 lights spread over 8,192 × 256 px", [] { return lightsInLargeImage(8192, 256); }},
+        {"9 lights spread over 256 × 8,192 px", [] { return lightsInLargeImage(256, 8192); }},
     };
     for (auto& [name, light] : lights) light = measuredOnce(light);
     for (const auto& [name, light] : lights)

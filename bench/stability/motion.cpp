@@ -112,11 +112,11 @@ void addMotionCases(std::vector<StabilityCase>& cases) {
             [turns, segments] { return trapezoidError(movedSquare(toAndFro(turns), segments)); });
     };
     addPath("there and back, 2 segments", 1, 2, 0.02);
-    addPath("there and back, a pose a sample", 1, 0, 0.02);
-    addPath("20 times there and back, a pose a sample", 20, 0, 0.05);
-    addPath("there and back, 1 segment sees no motion", 1, 1, infinite);
-    add("20 turns, a pose a sample", "RMSE", "closed form", 0.02, spinError);
-    add("through the camera and back", "pixels not within 0 to 1", "finite light", 0, throughCameraError);
+    addPath("there and back, one pose per sample", 1, 0, 0.02);
+    addPath("20 times there and back, one pose per sample", 20, 0, 0.05);
+    addPath("there and back, 1 segment (shows no motion)", 1, 1, infinite);
+    add("20 turns, one pose per sample", "RMSE", "closed form", 0.02, spinError);
+    add("through the camera and back", "pixel values outside [0, 1]", "finite light", 0, throughCameraError);
 }
 
 }  // namespace defocus::engine

@@ -135,14 +135,14 @@ void addSpaceCases(std::vector<StabilityCase>& cases) {
     for (const double distance : {17e3, 1e5})
         add(fmt::format("a board {:g} m from its node's origin", distance), "place, px", "the board at its origin",
             0.01, [distance] { return ownDistanceError(distance); });
-    add("a floor through the camera plane (w to 0)", "largest difference", "cut at the near plane", 2e-3,
+    add("a floor through the camera plane (w reaches 0)", "largest difference", "clipped at the near plane", 2e-3,
         cameraPlaneError);
     add("depths of 0.02 m, 1,990 km and 2,000 km", "largest error", "the nearest board", 1e-3, depthRatioError);
     for (const double depth : {0.02, 2e6})
-        add(fmt::format("depths of 0.02 m and 2,000 km: the light at {:g} m", depth), "disk diameter, px",
+        add(fmt::format("lights at 0.02 m and 2,000 km: the light at {:g} m", depth), "disk diameter, px",
             "closed form", 0.5, [depth] { return lightAt(depth).diameterError; });
     for (const double depth : {0.02, 2e6})
-        add(fmt::format("depths of 0.02 m and 2,000 km: the light at {:g} m", depth), "place, px", "closed form", 0.1,
+        add(fmt::format("lights at 0.02 m and 2,000 km: the light at {:g} m", depth), "place, px", "closed form", 0.1,
             [depth] { return lightAt(depth).placeError; });
 }
 

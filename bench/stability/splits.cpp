@@ -81,7 +81,7 @@ double movedSamples(double from, double to, LodMode mode) {
 
 void addSplitCases(std::vector<StabilityCase>& cases) {
     const auto add = [&](std::string name, double limit, double from, double to, LodMode mode) {
-        cases.push_back({"levels", std::move(name), "an image's change, samples", "at most one", limit,
+        cases.push_back({"levels", std::move(name), "change, in samples that switch", "at most one", limit,
                          [=] { return movedSamples(from, to, mode); }});
     };
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous}) {
@@ -90,12 +90,12 @@ void addSplitCases(std::vector<StabilityCase>& cases) {
         // switch (LodMode::continuous).
         const double boundary = 1 + (mode == LodMode::fractional ? 20.5 : 20) / renderedSamples;
         for (const double level : {1.0, 2.0})
-            add(fmt::format("rendered: level {:g} by ±1e-6, {}", level, name), oneSample, level - nudge, level + nudge,
+            add(fmt::format("rendered: level {:g} ± 1e-6, {}", level, name), oneSample, level - nudge, level + nudge,
                 mode);
-        add(fmt::format("rendered: between samples by ±1e-6, {}", name), oneSample, boundary - nudge, boundary + nudge,
-            mode);
+        add(fmt::format("rendered: level where a sample switches ± 1e-6, {}", name), oneSample, boundary - nudge,
+            boundary + nudge, mode);
     }
-    add("rendered: from level 1 to 2 at once", infinite, 1, 2, LodMode::fractional);
+    add("rendered: from level 1 to 2 in one step", infinite, 1, 2, LodMode::fractional);
 }
 
 }  // namespace defocus::engine

@@ -96,19 +96,19 @@ void addSumCases(std::vector<StabilityCase>& cases) {
             [value] { return constantError(value, 4096); });
     add("65,536 samples of 0.1, plain 32-bit sum", relative, "double sum", comparison,
         [] { return plainError(0.1f, 65'536, 1); });
-    add("65,536 samples of 0.1, 32-bit sums of waves of 8", relative, "double sum", comparison,
+    add("65,536 samples of 0.1, 32-bit sums in waves of 8", relative, "double sum", comparison,
         [] { return plainError(0.1f, 65'536, 8); });
-    add("10,000 beside 0.0001 in a pixel's samples", relative, "double sum", sumLimit, mixedError);
+    add("a pixel with samples of 10,000 and 0.0001", relative, "double sum", sumLimit, mixedError);
     for (const float value : {0.1f, 0.3f, 0.7f, 1.0f / 3})
-        add(fmt::format("half-float layers of {:.4g}", value), relative, "the value", halfLimit, [value] {
+        add(fmt::format("half-float layers with the value {:.4g}", value), relative, "the value", halfLimit, [value] {
             return largestRelativeError(
                 wall(glm::vec3(value), 64, {.layerFormat = LayerFormat::rgba16f, .shaderFolder = {}, .settings = {}}),
                 glm::dvec3(value));
         });
-    add("radiance of 1,000,000 (above half floats)", relative, "the value", sumLimit,
+    add("radiance of 1,000,000 (beyond the range of half floats)", relative, "the value", sumLimit,
         [] { return largestRelativeError(wall(glm::vec3(1e6f), 64, {}), glm::dvec3(1e6)); });
     for (const std::uint32_t wave : {1u, 7u, 64u})
-        add(fmt::format("100 samples, {} at once against 8", wave), "pixels that differ", "waves of 8", 0, [wave] {
+        add(fmt::format("100 samples in waves of {}", wave), "pixels that differ", "waves of 8", 0, [wave] {
             BoardScene boards(
                 boardView(),
                 {{1.2, {-0.1, 0}, {0.1, 0.1}, {0.9f, 0.2f, 0.1f}}, {5, {0, 0}, {0.7, 0.5}, {0.1f, 0.5f, 0.9f}}},

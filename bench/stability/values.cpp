@@ -110,7 +110,7 @@ void addValueCases(std::vector<StabilityCase>& cases) {
         cases.push_back(
             {"values", std::move(name), std::move(measured), std::move(reference), limit, std::move(error)});
     };
-    add("a material that is no number", "pixels spoiled elsewhere", "the scene without it", 0, materialError);
+    add("a material with NaN radiance", "pixels spoiled elsewhere", "the scene without it", 0, materialError);
     const auto addSky = [&](const char* layers, LayerFormat format) {
         add(fmt::format("a NaN texel in a blurred sky, {} layers", layers), "pixels spoiled elsewhere",
             "the map without it", 0, [format] { return skyTexelError(format); });
@@ -119,9 +119,9 @@ void addValueCases(std::vector<StabilityCase>& cases) {
     addSky("32-bit", LayerFormat::rgba32f);
     // NaN counts as black. The texel would contribute 2e-4 of the irradiance and 3e-5 of the smallest mip level, so its
     // absence causes an error below the limit of 1e-3.
-    add("a NaN texel in the map's light, rough metal", "radiance, relative", "the map without it", 1e-3,
+    add("a map with a NaN texel lights rough metal", "radiance, relative", "the map without it", 1e-3,
         [] { return lightTexelError(1); });
-    add("a NaN texel in the map's light, not metal", "radiance, relative", "the map without it", 1e-3,
+    add("a map with a NaN texel lights a non-metal", "radiance, relative", "the map without it", 1e-3,
         [] { return lightTexelError(0); });
 }
 

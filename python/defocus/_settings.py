@@ -101,7 +101,7 @@ def refocus_request_of(settings: Mapping[str, Any]) -> _defocus.Request:
     a new rendering."""
     for keyword, value in settings.items():
         if value is not None and keyword in INFOS and keyword not in REFOCUS:
-            raise _defocus.UsageError(f"{keyword} cannot be chosen after rendering; use one of {', '.join(REFOCUS)}")
+            raise _defocus.UsageError(f"{keyword} cannot be changed after rendering; use one of {', '.join(REFOCUS)}")
     return request_of(None, settings)
 
 

@@ -198,8 +198,10 @@ void createOwnFolder(const fs::path& folder) {
 fs::path fileWithin(const fs::path& folder, const fs::path& relative) {
     const fs::path normal = relative.lexically_normal();
     if (relative.empty() || relative.is_absolute() || *normal.begin() == "..")
-        fail("'{}' is outside the folder of the file that names it; only files there or below are read",
-             relative.string());
+        fail(
+            "'{}' is outside the folder of the file that refers to it; move it into this folder and use a relative "
+            "path",
+            relative.string());
     fs::path path = folder / relative;
     std::error_code status;
     if (fs::exists(path, status) && !fs::is_regular_file(path, status))

@@ -63,10 +63,10 @@ Share parseShare(std::string_view text, std::string_view noun, int maxCount) {
     const std::optional<int> index = parsedNumber<int>(withoutPlus(text.substr(0, slash)));
     const std::optional<int> count = parsedNumber<int>(withoutPlus(text.substr(std::min(slash + 1, text.size()))));
     if (!index || !count || *index < 0 || *index >= maxCount || *count < 1 || *count > maxCount)
-        fail("'{}' is not I/N, such as 0/4: {} I (0 to N-1) of N", text, noun);
+        fail("'{0}' is not I/N, such as 0/4, where I is the {1} (0 to N-1) and N the number of {1}s", text, noun);
     if (*index >= *count)
-        fail("'{}': with {} {}s, the {} must be 0 to {} (in a Slurm job array: --array=0-{})", text, *count, noun, noun,
-             *count - 1, *count - 1);
+        fail("'{}': with {} {}s, the {} must be from 0 to {} (in a Slurm job array: --array=0-{})", text, *count, noun,
+             noun, *count - 1, *count - 1);
     return {*index, *count};
 }
 

@@ -15,8 +15,10 @@ Buffer::Buffer(std::size_t bytes, const void* data) : bytes_(bytes) {
     glNamedBufferStorage(name, static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 1)), bytes > 0 ? data : nullptr,
                          GL_DYNAMIC_STORAGE_BIT);
     if (glGetError() != GL_NO_ERROR)
-        fail("out of graphics memory: cannot allocate a buffer of {} bytes; use a smaller --memory, --size or scene",
-             bytes);
+        fail(
+            "out of graphics memory: cannot allocate a buffer of {} bytes; reduce --memory or --size, or use a smaller "
+            "scene",
+            bytes);
 }
 
 void Buffer::update(std::size_t offset, std::size_t bytes, const void* data) {

@@ -64,7 +64,8 @@ void protectShaderCache() {
 std::string shaderCacheWarning() {
     if (folderWithoutRoom().empty()) return {};
     return fmt::format(
-        "the disk of {} is almost full; the driver's shader cache is off for this run, so shaders are compiled again",
+        "the disk that holds {} is almost full, so the driver's shader cache is off for this run and shaders are "
+        "recompiled; free disk space",
         folderWithoutRoom());
 }
 

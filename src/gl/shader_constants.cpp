@@ -155,7 +155,7 @@ std::string shaderPreamble(const ShaderDefines& defines, const std::string& sour
         if (isMacro(name))
             macros += fmt::format("#define {} {}\n", name, value);
         else if (std::ranges::find(constants, name, &ShaderConstant::name) == std::end(constants))
-            fail("shaders: there is no constant '{}'", name);
+            fail("shaders: unknown constant '{}'", name);
     }
     std::string declarations;
     for (const ShaderConstant& constant : constants) {

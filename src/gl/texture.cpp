@@ -66,10 +66,8 @@ GlTexture::GlTexture(const TextureInfo& info) : info_(info) {
     else
         glTextureStorage2D(name, info.levels, format, info.width, info.height);
     if (glGetError() != GL_NO_ERROR)
-        fail(
-            "out of graphics memory: cannot allocate a texture of {} x {} px and {} layers; choose a smaller size or "
-            "wave",
-            info.width, info.height, std::max(info.layers, 1));
+        fail("out of graphics memory: cannot allocate a texture of {} x {} px and {} layers; reduce --size or --wave",
+             info.width, info.height, std::max(info.layers, 1));
     const GLenum filter = info.linear ? GL_LINEAR : GL_NEAREST;
     if (info.samples == 1) sampling(filter, filter, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
 }

@@ -296,7 +296,10 @@ void checkOptions(const std::optional<HdrFlipOptions>& hdr, double pixelsPerDegr
     if (!hdr) return;
     const double start = hdr->startExposure, stop = hdr->stopExposure;
     if (!(start >= -60 && start <= stop && stop <= 60))
-        fail("FLIP: exposures from {} to {} EV must increase and stay within ±60 EV", start, stop);
+        fail(
+            "FLIP: the exposure range {} to {} EV is invalid; the first must not exceed the second, and both must be "
+            "within ±60 EV",
+            start, stop);
     if (hdr->exposures < 1 || hdr->exposures > 64)
         fail("FLIP: the number of exposures, {}, is out of range; choose 1 to 64", hdr->exposures);
 }

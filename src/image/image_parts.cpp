@@ -115,15 +115,19 @@ ImagePartReader::ImagePartReader(const std::filesystem::path& path) : state_(std
     const auto margin = static_cast<std::int64_t>(first.full_x) - first.x;
     if (first.full_width < 1 || first.full_height < 1 || margin < 0 || first.full_width + 2 * margin != first.width ||
         first.full_height + 2 * margin != first.height)
-        fail("cannot read {}: its data window must be its display window with an equal margin on all sides", s.name);
+        fail("cannot read {}: its data window must be its display window extended by the same margin on all sides",
+             s.name);
     if (pixelCount(first.width, first.height) > maxPixels)
-        fail("cannot read {}: {}x{} pixels are too many", s.name, first.width, first.height);
+        fail("cannot read {}: {}x{} pixels exceed the maximum of {} million", s.name, first.width, first.height,
+             maxPixels / 1000000);
     s.size = {first.full_width, first.full_height, static_cast<int>(margin)};
     for (int part = 0; part == 0 || s.input->seek_subimage(part, 0); ++part) {
         const OIIO::ImageSpec& own = s.input->spec();
         if (own.channelnames != channelNames || own.deep || own.tile_width > 0)
-            fail("{}: image {} lacks the channels R, G, B, A and Z; give a file from 'defocus render --lens-images'",
-                 s.name, part);
+            fail(
+                "{}: image {} must be untiled and have the channels R, G, B, A and Z; give a file from 'defocus render "
+                "--lens-images'",
+                s.name, part);
         if (own.x != -s.size.margin || own.y != own.x || own.width != s.size.fullWidth() ||
             own.height != s.size.fullHeight())
             fail("cannot read {}: image {} and image 0 differ in size", s.name, part);

@@ -366,7 +366,7 @@ std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* 
     for (auto& [layerName, places] : channels) {
         if (places[3] < 0) places.pop_back();
         if (std::ranges::find(places, -1) != places.end())
-            fail("{}: the layer '{}' has no channel R, G or B", name, layerName);
+            fail("{}: the layer '{}' lacks at least one of the channels R, G and B", name, layerName);
         Image image(file.spec.width, file.spec.height, static_cast<int>(places.size()));
         image.pixels = readChannels<float>(file, places, name);
         layers.push_back({layerName, std::move(image)});

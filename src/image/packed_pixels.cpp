@@ -26,8 +26,10 @@ ImageView rowsOf(const ImageView& image, int first, int count) {
 PackedPixels::PackedPixels(const ImageView& view) : view_(view) {
     if (view.isPacked()) return;
     if (!coversItsPixels(view))
-        fail("{} values are too few for an image of {}x{} px with {} channels and strides of {} and {}",
-             view.pixels.size(), view.width, view.height, view.channels, view.strides.pixel, view.strides.row);
+        fail(
+            "{} values are too few for an image of {}x{} px with {} channels, a pixel stride of {} and a row stride of "
+            "{}",
+            view.pixels.size(), view.width, view.height, view.channels, view.strides.pixel, view.strides.row);
     copy_ = Image(view.width, view.height, view.channels);
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) std::copy_n(view.at(x, y), view.channels, copy_.at(x, y));

@@ -54,7 +54,8 @@ unsigned channelsOf(unsigned colour) {
 }
 
 Header headerOf(std::span<const std::byte> data, const std::string& name) {
-    if (data.size() != headerLength) fail("{}: damaged PNG image: the header has {} bytes", name, data.size());
+    if (data.size() != headerLength)
+        fail("{}: damaged PNG image: the header has {} bytes instead of 13", name, data.size());
     const auto byte = [&](std::size_t i) { return std::to_integer<unsigned>(data[i]); };
     const Header header{bigEndian(data), bigEndian(data.subspan(4)), byte(8), byte(9), byte(12) == 1};
     if (std::min(header.width, header.height) == 0 || std::max(header.width, header.height) > maxSide)
@@ -65,7 +66,7 @@ Header headerOf(std::span<const std::byte> data, const std::string& name) {
     const bool valid =
         bits == 8 || (bits == 16 && colour != paletteColour) || (small && (colour == 0 || colour == paletteColour));
     if (!valid || colour > 6 || colour == 1 || colour == 5)
-        fail("{}: damaged PNG image: colour type {} with {} bits per channel", name, colour, bits);
+        fail("{}: damaged PNG image: colour type {} cannot have {} bits per channel", name, colour, bits);
     if (byte(10) != 0 || byte(11) != 0 || byte(12) > 1)
         fail("{}: damaged PNG image: unknown compression, filter or interlace method", name);
     return header;
@@ -119,7 +120,7 @@ public:
             if (status == Z_MEM_ERROR) throw std::bad_alloc();
             if (status == Z_OK || stream_.avail_out == 0) continue;
             fail("{}: damaged PNG image: {}", name_,
-                 status == Z_DATA_ERROR ? "invalid compressed pixels" : "too few pixels for its size");
+                 status == Z_DATA_ERROR ? "invalid compressed pixels" : "too few pixels for the size in its header");
         }
     }
 
@@ -198,7 +199,7 @@ void checkPngPixels(std::span<const unsigned char> checked, const std::string& n
     for (const std::size_t length : rowLengths(header)) {
         row.resize(length);
         stream.read(row);
-        if (row[0] >= filterTypes) fail("{}: damaged PNG image: unknown filter of a row", name);
+        if (row[0] >= filterTypes) fail("{}: damaged PNG image: a row has an unknown filter type", name);
     }
 }
 

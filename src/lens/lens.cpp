@@ -53,7 +53,7 @@ void checkLens(const Lens& lens) {
     requireWithin(lens.bladeCurvature, 0, 1, "the blade curvature");
     requireWithin(lens.obstruction, 0, 0.999, "the obstruction");
     requireWithin(lens.sphericalAberration, -1, 1, "the spherical aberration");
-    requireWithin(lens.catEye, 0, 1, "the cat's-eye bokeh");
+    requireWithin(lens.catEye, 0, 1, "the strength of the cat's-eye bokeh");
     requireWithin(lens.axialChromaticAberration, -100, 100, "the axial chromatic aberration (dioptres)");
     requireWithin(lens.astigmatism, -maxAberration, maxAberration, "the astigmatism (mm)");
     requireWithin(lens.coma, -maxAberration, maxAberration, "the coma (mm)");

@@ -32,7 +32,8 @@ void checkRequest(const View& view, const RenderSettings& settings) {
     if (settings.sampleCount < 1 || settings.sampleCount > maxSamples)
         fail("{} samples: choose 1 to {}", settings.sampleCount, maxSamples);
     if (settings.positions != 1 && settings.positions != 4)
-        fail("{} subpixel positions per lens sample: choose 1 or 4 (--positions)", settings.positions);
+        fail("{} subpixel positions per lens sample are not supported; choose 1 or 4 (--positions)",
+             settings.positions);
     if (settings.positions > 1 && !settings.layers.empty())
         fail("data layers (--exr-layers) need one subpixel position per lens sample; give --positions 1");
     if (!(view.nearPlane > 0)) fail("the near plane must be above 0 m, not {}", view.nearPlane);
@@ -44,7 +45,8 @@ void checkRequest(const View& view, const RenderSettings& settings) {
     const LodMetric metric = chosenMetric(settings.metric, settings.thresholds);
     const bool measured = metric == LodMetric::measured;
     if ((metric == LodMetric::score || metric == LodMetric::proportional) && settings.thresholds.size)
-        fail("--lod-metric {} cannot be combined with --size-threshold; give --blur-threshold", lodMetricName(metric));
+        fail("--lod-metric {} cannot be combined with --size-threshold; give --blur-threshold instead",
+             lodMetricName(metric));
     if (measured ? settings.thresholds.blur || settings.thresholds.size : settings.thresholds.light.has_value())
         fail("--lod-metric {} accepts only {}", lodMetricName(metric),
              measured ? "--light-threshold" : "--blur-threshold and --size-threshold");
@@ -199,7 +201,8 @@ void boundDivisions(FramePlan& plan, const World& world) {
 std::string reasonToLeaveOut(const World& world, const FramePlan& plan, const ObjectPlan& object) {
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
     if (pyramid.levels.front().triangleCount == 0) return "it has no triangles";
-    if (outsideWidenedFrustum(object.viewBox, plan, object.own, object.coc.largest)) return "no lens sample can see it";
+    if (outsideWidenedFrustum(object.viewBox, plan, object.own, object.coc.largest))
+        return "it is outside the image for all lens samples";
     return "";
 }
 
@@ -289,12 +292,13 @@ void leaveOutSamples(FramePlan& plan) {
     const std::uint32_t kept =
         still ? std::min(plan.settings.sampleCount, antialiasingSamples) : plan.settings.sampleCount;
     plan.leftOut.push_back(
-        {"lens samples", fmt::format("no blur reaches half a pixel (maximum {:.2g} px); {} samples are drawn for {}",
-                                     plan.largestBlur, kept,
-                                     still                   ? "antialiasing"
-                                     : !plan.moments.empty() ? "motion"
-                                     : stochastic            ? "transparency"
-                                                             : "shadows")});
+        {"lens samples",
+         fmt::format("no blur reaches half a pixel (maximum {:.2g} px), so {} samples are drawn only for {}",
+                     plan.largestBlur, kept,
+                     still                   ? "antialiasing"
+                     : !plan.moments.empty() ? "motion"
+                     : stochastic            ? "transparency"
+                                             : "shadows")});
     plan.samples.resize(kept);
     plan.frameSamples = plan.frameFirst + kept;
 }
@@ -332,10 +336,12 @@ void noteUnusedPaths(FramePlan& plan, const World& world) {
     if (!plan.usesBlending) plan.leftOut.push_back({"blend path", "no drawn material is alpha-blended"});
     if (!plan.usesTransmission) plan.leftOut.push_back({"transmission path", "no drawn material transmits light"});
     if (!plan.usesCocControls)
-        plan.leftOut.push_back({"blur controls", "neither the lens nor an object has any: C(w) = a + b·w"});
+        plan.leftOut.push_back(
+            {"blur controls",
+             "neither the lens nor an object has blur controls, so the blur function is C(w) = a + b·w"});
     if (plan.shadows.maps.empty())
         plan.leftOut.push_back({"shadow maps", drawsShadows(world, plan.settings)
-                                                   ? "no object is in front of a light"
+                                                   ? "no object casts a visible shadow"
                                                    : "shadows are off (--shadows, --ground)"});
     if (plan.moments.empty()) plan.leftOut.push_back({"motion path", "nothing moves while the shutter is open"});
 }
@@ -398,15 +404,15 @@ void noteLevels(FramePlan& plan, const World& world) {
         plan.leftOut.push_back(
             {fmt::format("{} of {} pyramid levels", all - kept, all), "no sample of this frame uses them"});
     if (plan.trianglesFacingAway > 0)
-        plan.leftOut.push_back({fmt::format("{} triangles in all samples", plan.trianglesFacingAway),
+        plan.leftOut.push_back({fmt::format("{} triangles, summed over all samples", plan.trianglesFacingAway),
                                 "their clusters face away from the whole lens"});
     if (plan.trianglesOutside > 0)
-        plan.leftOut.push_back({fmt::format("{} triangles in all samples", plan.trianglesOutside),
-                                "no lens sample can see their clusters"});
+        plan.leftOut.push_back({fmt::format("{} triangles, summed over all samples", plan.trianglesOutside),
+                                "their clusters are outside the image for all lens samples"});
     const LodMode mode = plan.settings.lod;
     if (whole > 0 && (mode == LodMode::fractional || mode == LodMode::continuous))
-        plan.leftOut.push_back(
-            {fmt::format("sample split of {} object{}", whole, whole == 1 ? "" : "s"), "their level is an integer"});
+        plan.leftOut.push_back({fmt::format("sample split of {} object{}", whole, whole == 1 ? "" : "s"),
+                                "each has an integer level, which all samples draw"});
 }
 
 }  // namespace
@@ -445,7 +451,9 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     plan.needsAlpha = world.environment.type == EnvironmentType::none || !world.environment.visible;
     plan.showsMap = !plan.needsAlpha && world.environment.type == EnvironmentType::map;
     if (plan.needsAlpha && view.lens.dofEnabled && view.lens.catEye > 0)
-        fail("lens: cat's-eye bokeh (--cat-eye) cannot be combined with a transparent background");
+        fail(
+            "lens: cat's-eye bokeh (--cat-eye) cannot be combined with a transparent background; leave one of them "
+            "out");
     plan.samples = lensSamples(view.lens, settings.sequence, settings.firstSample, settings.sampleCount, settings.seed);
     // Each lens sample renders a grid of positions in a pixel. The jitter therefore spans one grid cell instead of a
     // pixel.

@@ -42,8 +42,8 @@ std::string chosenMethodText(const FramePlan& plan) {
     const LensCells cells = lensCells(plan);
     return fmt::format(
         "--method auto selects multirate, because about {:.0f} % of the image is blurred by {:g} px or more\n"
-        "each sample's image is blurred as by its cell of the lens: a Gaussian with σ = {:.3g} times the CoC ({:.2g} "
-        "px for the largest CoC)\n",
+        "each sample's image is blurred as its cell of the lens alone would blur it: a Gaussian with σ = {:.3g} times "
+        "the CoC ({:.2g} px for the largest CoC)\n",
         100 * blurredShare(plan, minBlurOfCells), minBlurOfCells, cells.blur, cells.blur * plan.largestBlur);
 }
 
@@ -68,8 +68,8 @@ std::size_t momentCount(const FramePlan& plan) {
 std::string planTable(const FramePlan& plan) {
     const Lens& lens = plan.view.lens;
     std::string text = fmt::format(
-        "{} x {} px, {} sample{} of {}{}, {:.4g} mm f/{:.3g}, focus at {:.4g} m, aperture {:.4g} mm\n"
-        "level of detail: {}, metric {}, {}, {}, vertices {}\n\n",
+        "{} x {} px, {} sample{} of {}{}, {:.4g} mm f/{:.3g}, focus at {:.4g} m, aperture diameter {:.4g} mm\n"
+        "level of detail: {}, metric {}, {}, {}, level vertices {}\n\n",
         plan.view.width, plan.view.height, plan.samples.size(), plan.samples.size() == 1 ? "" : "s",
         sequenceName(plan.settings.sequence),
         plan.settings.positions > 1 ? fmt::format(" with {} positions", plan.settings.positions) : "", lens.focalLength,
@@ -92,7 +92,7 @@ std::string planTable(const FramePlan& plan) {
     const double ratio = plan.trianglesDrawn > 0 ? static_cast<double>(plan.trianglesAtFullDetail) /
                                                        static_cast<double>(plan.trianglesDrawn)
                                                  : 1;
-    text += fmt::format("\n{} triangles in all samples; {} at full detail ({:.1f} times as many)\n",
+    text += fmt::format("\n{} triangles, summed over all samples; {} at full detail ({:.1f} times as many)\n",
                         plan.trianglesDrawn, plan.trianglesAtFullDetail, ratio);
     if (!plan.settings.keepAll && plan.usesLens) text += chosenMethodText(plan);
     if (!plan.leftOut.empty()) text += "\nleft out\n";

@@ -7,7 +7,7 @@ KeptLensImages::KeptLensImages(FrameDriver& driver, const View& view, const Rend
     : info_(lightFieldInfo(view, range)) {
     FrameOrder order{.view = withMargin(view, info_.size.margin), .settings = settings};
     order.settings.refocus = range;
-    order.untiledReason = "refocusing needs whole images";
+    order.untiledReason = "refocusing cannot use images that are drawn in tiles";
     order.takeSample = [this](std::uint32_t, Image&& colour, Image&&) {
         images_.push_back(std::make_shared<const HalfImage>(halfImage(colour)));
     };

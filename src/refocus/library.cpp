@@ -84,7 +84,7 @@ Image LightField::refocus(const RefocusSettings& settings, const Progress& progr
 }
 
 FocalStack LightField::stack(int count, const RefocusSettings& settings, const Progress& progress) {
-    if (count < 2) throw UsageError("a focal stack has at least 2 images");
+    if (count < 2) throw UsageError("a focal stack must have at least 2 images");
     if (!std::holds_alternative<CameraFocus>(settings.focus))
         throw UsageError(
             "a focal stack chooses its own focus distances; give neither a focus distance nor a focus pixel");

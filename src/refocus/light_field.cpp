@@ -37,7 +37,7 @@ constexpr std::array unsuited = {
 
 void checkThinLens(const Lens& lens) {
     if (!(apertureDiameter(lens) > 0))
-        fail("lens images need depth of field; leave out --no-dof and a blur scale of 0");
+        fail("lens images need depth of field; leave out --no-dof, and set the blur scale above 0");
     for (const char* name : unsuited) {
         const LensField& field = *lensFieldNamed(name);
         if (lensFieldValue(lens, field) != lensFieldValue(Lens(), field))
@@ -75,8 +75,8 @@ double needed(const Metadata& metadata, const char* attribute, const std::string
             "--lens-images'",
             name, attribute);
     if (*value < min || *value > max)
-        fail("{}: the attribute '{}' is {}, outside {} to {}; render the file again", name, attribute, *value, min,
-             max);
+        fail("{}: the attribute '{}' is {}, but must be from {} to {}; render the file again", name, attribute, *value,
+             min, max);
     return *value;
 }
 
@@ -128,8 +128,8 @@ LightFieldInfo lightFieldInfo(const View& view, const FocusRange& range) {
     const int longer = std::max(view.width, view.height);
     if (!(largestMove(info) <= longer))
         fail(
-            "to refocus from {:.3g} to {:.3g} m, lens images need a margin of {:.0f} px around the image, more than "
-            "its longer side of {} px; give a narrower --focus-range or a larger --fstop",
+            "to refocus between {:.3g} and {:.3g} m, lens images need a margin of {:.0f} px around the image, more "
+            "than its longer side of {} px; give a narrower --focus-range or a larger --fstop",
             range.nearest, range.farthest, largestMove(info), longer);
     info.size = {view.width, view.height, marginOf(info)};
     return info;

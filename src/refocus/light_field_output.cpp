@@ -49,8 +49,8 @@ Request LightFieldOutput::suited(Request request) {
     request.method = "accumulation";
     if (!request.samples) request.samples = defaultSamples;
     if (*request.samples > maxImageParts)
-        throw UsageError(
-            fmt::format("--lens-images writes at most {} images; --samples is {}", maxImageParts, *request.samples));
+        throw UsageError(fmt::format("--lens-images writes one image per sample, at most {}; --samples {} is too many",
+                                     maxImageParts, *request.samples));
     return request;
 }
 
@@ -58,7 +58,7 @@ void LightFieldOutput::start(const Progress& progress) {
     const Request& request = driver_.firstRequest();
     // First begin a frame without a margin, to get the metadata and the visible depths, from which the margin is
     // derived.
-    FrameParts parts{.untiledReason = "--lens-images needs whole images"};
+    FrameParts parts{.untiledReason = "--lens-images cannot write images that are drawn in tiles"};
     driver_.start(request, parts, progress);
     const double own = driver_.frame().view.lens.focusDistance;
     FocusRange range = range_ ? *range_ : visibleRange(driver_.aovs().depth).value_or(FocusRange{own, own});

@@ -37,7 +37,7 @@ void checkRanges(const LightFieldInfo& info, const Refocusing& refocusing, const
     if (!info.disk && (refocusing.shape || refocusing.fStop > info.fStop * (1 + tolerance)))
         fail(
             "{}: the aperture was not rendered as a full disk, so its size and shape are fixed; render the file again "
-            "without --blades, --aperture-image and other options of its shape",
+            "without --blades, --aperture-image or other options that set its shape",
             name);
 }
 
@@ -118,7 +118,7 @@ double diameterPerDioptre(const LightFieldInfo& info, const Refocusing& refocusi
 double focusAtPixel(LightField& field, const Pixel& pixel) {
     const PartSize& size = field.info().size;
     if (pixel.column < 0 || pixel.row < 0 || pixel.column >= size.width || pixel.row >= size.height)
-        fail("--focus-pixel {},{}: the image has {}x{} pixels", pixel.column, pixel.row, size.width, size.height);
+        fail("--focus-pixel {},{} is outside the image of {}x{} px", pixel.column, pixel.row, size.width, size.height);
     const Image depth = field.depth(field.central());
     const double metres = static_cast<double>(*depth.at(pixel.column + size.margin, pixel.row + size.margin));
     if (!(metres > 0) || std::isinf(metres))

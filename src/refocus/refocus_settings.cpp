@@ -25,7 +25,8 @@ std::optional<Lens> apertureShape(const LensSettings& settings) {
     bool given = !settings.apertureImage.empty();
     for (const auto& [name, value] : givenLensValues(settings)) {
         if (std::ranges::find(allowed, name) == allowed.end())
-            throw UsageError(fmt::format("{}: this setting cannot be chosen after rendering", name));
+            throw UsageError(fmt::format(
+                "{}: this setting cannot be changed after rendering; render the lens images again with it", name));
         try {
             setLensField(lens, *lensFieldNamed(name), value);
         } catch (const Error& error) {
@@ -44,7 +45,7 @@ Refocusing refocusingOf(const RefocusSettings& settings, LightField& field) {
     else if (const auto* const at = std::get_if<FocusPixel>(&settings.focus))
         refocusing.focusDistance = focusAtPixel(field, at->pixel);
     else if (!std::holds_alternative<CameraFocus>(settings.focus))
-        throw UsageError("the focus of an image from lens images must be a distance or a pixel");
+        throw UsageError("to refocus lens images, give the focus as a distance or as a pixel");
     refocusing.fStop = settings.lens.fStop.value_or(refocusing.fStop);
     refocusing.shape = apertureShape(settings.lens);
     refocusing.fillGaps = settings.fillGaps;

@@ -11,7 +11,7 @@
 namespace defocus::engine {
 
 // Returns the aperture shape that lens settings give; nullopt if they give none. Throws UsageError, with the setting's
-// name in its message, for a value that cannot be chosen after rendering or is out of range, and Error if the aperture
+// name in its message, for a value that cannot be changed after rendering or is out of range, and Error if the aperture
 // image cannot be read.
 std::optional<Lens> apertureShape(const LensSettings& settings);
 

@@ -33,7 +33,7 @@ void checkStop(const StopSettings& stop, const Method& method, const ShutterSett
     if (shutter.seconds > 0 && shutter.exactMotion())
         throw UsageError(fmt::format(
             "exact motion needs a fixed number of samples and cannot be combined with {}; give a number of motion "
-            "segments",
+            "segments instead",
             what));
 }
 

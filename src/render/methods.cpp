@@ -53,7 +53,8 @@ std::vector<Method>& table() {
          .make = makeAccumulationRenderer},
         {.name = "multirate",
          .description =
-             "accumulation of images, each blurred as its cell of the lens would blur it; needs fewer samples",
+             "accumulation of images, each blurred as its cell (its part of the lens) would blur it; needs fewer "
+             "samples than accumulation",
          .blursCells = true,
          .sumsBlocks = true,
          .drawsPositions = true,

@@ -116,7 +116,7 @@ std::string labelOf(const CameraNode& place) {
     std::vector<std::string> names;
     names.reserve(places.size());
     for (const CameraNode& place : places) names.push_back(labelOf(place));
-    std::string help = "; the scene has no cameras (without a camera name, the view frames the scene)";
+    std::string help = "; the scene has no cameras; leave out the camera name to frame the scene";
     if (const std::string nearest = nearestWord(name, names); !nearest.empty())
         help = fmt::format("; did you mean '{}'?", nearest);
     else if (!names.empty())

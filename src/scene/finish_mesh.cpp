@@ -91,7 +91,8 @@ std::size_t repairAttributes(VertexBlock& block, std::span<std::vector<std::uint
 }
 
 Ignored replacedNormalsNote(std::size_t count) {
-    return {"vertex normals", "zero length, NaN or infinite; replaced by the average of the adjacent faces", count};
+    return {"vertex normals", "zero length, NaN or infinite; replaced by the average normal of the adjacent faces",
+            count};
 }
 
 int tangentUvSet(std::span<const Primitive> primitives, std::span<const Material> materials) {

@@ -99,16 +99,16 @@ std::vector<std::uint32_t> trianglesOf(const std::string& label, const MeshData&
         std::iota(indices.begin(), indices.end(), 0u);
     }
     if (indices.size() % 3 != 0)
-        refuse("{}: its {} {} are not a multiple of 3; a triangle has three", label, indices.size(), corners);
+        refuse("{}: it has {} {}, not a multiple of 3; each triangle needs three", label, indices.size(), corners);
     for (const std::uint32_t index : indices)
-        if (index >= vertices) refuse("{}: index {} is outside the {} vertices", label, index, vertices);
+        if (index >= vertices) refuse("{}: index {} is out of range for {} vertices", label, index, vertices);
     return indices;
 }
 
 Mesh meshOf(const std::string& label, const MeshData& data, Scene& scene) {
     if (data.positions.empty()) refuse("{}: it has no positions", label);
     if (data.positions.size() > std::numeric_limits<std::uint32_t>::max())
-        refuse("{}: it has {} positions, more than 32-bit indices can count", label, data.positions.size());
+        refuse("{}: it has {} positions, more than 32-bit indices can address", label, data.positions.size());
     checkIndex(label, "material", data.material, scene.materials.size());
     VertexBlock block;
     Vertices& vertices = block.vertices;

@@ -58,7 +58,7 @@ TEST_F(GlProgram, unknownConstantsAreErrors) {
         const Program built = program({fullscreenShader, "add.frag"}, {{"lightCounts", "3"}});
         FAIL() << "the constant 'lightCounts' was accepted";
     } catch (const Error& error) {
-        EXPECT_TRUE(says(error.what(), "there is no constant 'lightCounts'")) << error.what();
+        EXPECT_TRUE(says(error.what(), "unknown constant 'lightCounts'")) << error.what();
     }
 }
 

@@ -52,7 +52,7 @@ def test_info_stack_and_data(path):
 def test_wrong_use(path, tmp_path):
     field = defocus.LightField(path)
     for keywords, message in [({"focus_distance": 9}, "rendered range"), ({"f_stop": 0.5}, "wider than"),
-                              ({"samples": 8}, "samples cannot be chosen after rendering"),
+                              ({"samples": 8}, "samples cannot be changed after rendering"),
                               ({"fstop": 2}, "did you mean 'f_stop'"), ({"blade_count": 2}, "not 2")]:
         with pytest.raises(defocus.Error, match=message):
             field.refocus(**keywords)

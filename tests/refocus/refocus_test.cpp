@@ -125,7 +125,7 @@ TEST(Refocus, refusesWhatWasNotRendered) {
     EXPECT_EQ(faultOf(info, {2, 2, {}}), "");
     EXPECT_EQ(faultOf(info, {2, 4, {}}),
               "a.exr: the aperture was not rendered as a full disk, so its size and shape are fixed; render the file "
-              "again without --blades, --aperture-image and other options of its shape");
+              "again without --blades, --aperture-image or other options that set its shape");
 }
 
 // Returns the message with which lens images (views from lens points) of `lens`, focused at 2 m, are rejected; empty if
@@ -163,7 +163,7 @@ TEST(LensImages, needALensThatOnlyMovesThem) {
     refused([](Lens& lens) { lens.astigmatism = 0.1; }, "--astigmatism");
     refused([](Lens& lens) { lens.coma = 0.1; }, "--coma");
     refused([](Lens& lens) { lens.dofEnabled = false; }, "--no-dof");
-    EXPECT_NE(refusalOf({}, 1e-3).find("to refocus from 0.001 to 3 m, lens images need a margin of"),
+    EXPECT_NE(refusalOf({}, 1e-3).find("to refocus between 0.001 and 3 m, lens images need a margin of"),
               std::string::npos);
 }
 

@@ -214,10 +214,10 @@ TEST(SceneFromData, invalidDataIsRefusedWithItsName) {
              s.colors.resize(4);
              s.colors[2][1] = 1.5f;
          }},
-        {"mesh 'Body' (0): index 17 is outside the 4 vertices", [](Square& s) { s.indices[4] = 17; }},
-        {"mesh 'Body' (0): its 5 indices are not a multiple of 3; a triangle has three",
+        {"mesh 'Body' (0): index 17 is out of range for 4 vertices", [](Square& s) { s.indices[4] = 17; }},
+        {"mesh 'Body' (0): it has 5 indices, not a multiple of 3; each triangle needs three",
          [](Square& s) { s.indices.pop_back(); }},
-        {"mesh 'Body' (0): its 4 positions are not a multiple of 3; a triangle has three",
+        {"mesh 'Body' (0): it has 4 positions, not a multiple of 3; each triangle needs three",
          [](Square& s) { s.indices.clear(); }},
         {"mesh 'Body' (0): there is no material 3; the scene has 1", [](Square& s) { s.meshMaterial = 3; }},
         {"mesh 'Body' (0): there is no material -2; the scene has 1", [](Square& s) { s.meshMaterial = -2; }},

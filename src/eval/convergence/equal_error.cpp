@@ -85,7 +85,7 @@ std::string equalErrorTable(std::span<const Competitor> competitors) {
         for (std::size_t i = 0; i < competitor.times.size(); ++i)
             text += fmt::format("{:>20}", cell(competitor.times[i], competitors[0].times[i]));
     }
-    return text + fmt::format("\n  (each with its best settings; x: times as long as {})\n", competitors[0].name);
+    return text + fmt::format("\n  (each with its best settings; 2x means twice as long as {})\n", competitors[0].name);
 }
 
 }  // namespace defocus::engine

@@ -127,13 +127,14 @@ std::string convergenceSummary(std::span<const ConvergenceRow> rows, const Refer
         "\n"
         "reference: {} lens samples at full detail; its own sampling error is about PSNR {:.2f} dB, FLIP {:.4f}; "
         "smaller errors in the table are not reliable\n"
-        "* no other row is both faster and closer to the reference by MSE; + no other row of the same method is; f "
-        "like *, but by FLIP\n",
+        "* no other row is both faster and closer to the reference by MSE\n"
+        "+ no other row of the same method is both faster and closer by MSE\n"
+        "f no other row is both faster and closer by FLIP\n",
         reference.samples, remaining.psnr, remaining.flip);
     for (const BiasFloor& floor : biasFloors(rows))
         text += fmt::format(
-            "bias of {}, {}: PSNR {:.2f} dB, FLIP {:.4f} relative to full detail with the same {} lens samples; more "
-            "samples with these thresholds do not reduce it\n",
+            "bias of {}, {}: PSNR {:.2f} dB, FLIP {:.4f} relative to full detail with the same {} lens samples; with "
+            "these thresholds, more samples do not reduce the bias\n",
             floor.method, floor.setting, floor.error.psnr(), floor.error.flip, floor.samples);
     return text + equalErrorTable(timesToErrors(rows, comparedErrors));
 }
@@ -154,8 +155,8 @@ std::string convergenceJson(std::span<const ConvergenceRow> rows, const Referenc
                             const ConvergenceSubject& subject) {
     ordered_json document = subjectJson("convergence", subject.bench);
     document["heldEqual"] =
-        "scene, camera, lens, image size, reference, process; runs alternate between the methods, the first wave of a "
-        "frame is drawn once before the timed run, threads are not pinned to cores";
+        "scene, camera, lens, image size, reference and process; runs alternate between the methods; the first wave of "
+        "lens samples is drawn once before a timed run; threads are not pinned to cores";
     document["errorsMeasuredOn"] = "sRGB-encoded values in [0, 1] at EV 0, whole image; FLIP at 67 pixels per degree";
     document["errorMapFullScale"] = errorMapFullScale;
     document["reference"] = referenceJson(reference);

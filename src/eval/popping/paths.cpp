@@ -101,7 +101,7 @@ void poseWorld(World& world, const MovementFrame& frame) {
 std::vector<MovementFrame> busiestStretch(const std::vector<MovementFrame>& frames, World& world,
                                           const RenderSettings& settings, int length) {
     if (length < 1 || static_cast<std::size_t>(length) > frames.size())
-        fail("{} frames exceed the {} frames of the movement", length, frames.size());
+        fail("cannot measure {} frames; choose 1 to {}, the number of frames of the movement", length, frames.size());
 
     // For each frame, the number of level changes from the first frame up to this frame.
     std::vector<int> changes;

@@ -152,8 +152,9 @@ std::string poppingLine(const PoppingRow& row) {
 
 std::string sampleStepLine(const SampleStep& step) {
     return fmt::format(
-        "N = {} samples, {}: if one sample changes from level {} to {}, the image changes by {:.4f} of the change if "
-        "all do ({:.2f}/N); expected {} = {:.4f} for a blur c of {:.1f} px and level differences w of {:.2f} px\n",
+        "N = {} samples, {}: changing one sample from level {} to {} causes {:.4f} of the image change that changing "
+        "all samples causes ({:.2f}/N); expected {} = {:.4f} for a blur c of {:.1f} px and level differences w of "
+        "{:.2f} px\n",
         step.samples, step.object, step.level, step.level + 1, step.measured, step.measured * step.samples,
         step.coc > step.edgeError ? "sqrt(c/w)/N" : "1/N", step.expected, step.coc, step.edgeError);
 }
@@ -162,8 +163,8 @@ std::string poppingSummary(std::span<const PoppingRow> rows) {
     std::uint32_t max = 0;
     for (const PoppingRow& row : rows) max = std::max(max, row.samples);
     std::string text = fmt::format(
-        "\nlargest pop at {} samples, divided by the largest pop of mode nearest (RMSE / FLIP of the pop alone, "
-        "without other changes):\n",
+        "\nlargest pop at {} samples as a fraction of the largest pop of mode 'nearest' (RMSE / FLIP of the pop "
+        "alone, without other changes):\n",
         max);
     for (const PoppingMode mode : poppingModes) {
         if (mode == PoppingMode::nearest) continue;
@@ -188,14 +189,17 @@ std::string poppingJson(std::span<const PoppingFrame> frames, std::span<const Sa
     document["pathFrames"] = options.pathFrames;
     document["definitions"] = {
         {"change",
-         "(I_t - I_t-1) - (R_t - R_t-1) of display values, R at full detail and the same lens samples; FLIP between "
-         "I_t and I_t-1 + (R_t - R_t-1), clipped"},
-        {"step", "I_t against the same view at the levels and splits of frame t-1"},
-        {"objects", "unless a name ends in Image: over the pixels that objects and their blur touch in either frame"},
+         "(I_t - I_t-1) - (R_t - R_t-1) of display values, where I is a frame of the mode and R the same frame at "
+         "full detail with the same lens samples; FLIP between I_t and I_t-1 + (R_t - R_t-1), the latter clipped to "
+         "[0, 1]"},
+        {"step", "I_t minus the same view drawn with the levels and sample splits of frame t-1"},
+        {"objects",
+         "errors are measured over the pixels that objects or their blur cover in frame t or t-1; errors whose names "
+         "end in Image are measured over the complete image"},
         {"speed", "the largest change of an object's fractional level from frame to frame"},
         {"fullDetail", "equals the reference"}};
     document["heldEqual"] =
-        "scene, views, lens samples, thresholds, image size, layer format and, except for multirate, renderer";
+        "scene, views, lens samples, thresholds, image size and layer format; also the renderer, except for multirate";
     for (const char* list : {"rows", "sampleSteps"}) document[list] = ordered_json::array();
     for (const PoppingRow& row : poppingRows(frames)) document["rows"].push_back(rowJson(row));
     for (const SampleStep& step : steps) document["sampleSteps"].push_back(stepJson(step));

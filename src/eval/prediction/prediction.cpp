@@ -67,7 +67,7 @@ Stand standFor(const PreparedFrame& frame, const PredictionOptions& options) {
     stand.world.pose = poseAt(*scene, 0);
     const Finishes finishes(*scene);
     stand.world.pyramids = buildPyramids(scene->meshes, {.finishes = &finishes});
-    if (stand.world.pyramids[0].levels.size() < 2) fail("{}: no mesh has levels", frame.sceneName);
+    if (stand.world.pyramids[0].levels.size() < 2) fail("{}: no mesh has levels of detail", frame.sceneName);
     // Frame the bounding sphere, so that the mesh is inside the image from all view directions.
     const Bounds& bounds = stand.world.pyramids[0].bounds;
     const glm::dvec3 radius(0.5 * glm::length(bounds.size()));

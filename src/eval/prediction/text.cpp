@@ -72,8 +72,8 @@ std::string predictionCsv(std::span<const PredictionRow> rows) {
 std::string predictionJson(std::span<const PredictionRow> rows, const BenchSubject& subject) {
     ordered_json document = subjectJson("prediction", subject);
     document["heldEqual"] =
-        "mesh, level, lens, lens samples, patches of the blur; level 0 of a row is the error of 64 "
-        "lens samples at full detail";
+        "mesh, level, lens, lens samples and size of the blur; rows of level 0 give the error of 64 lens samples at "
+        "full detail";
     document["rows"] = ordered_json::array();
     for (const PredictionRow& row : rows) document["rows"].push_back(rowJson(row));
     return documentText(document);

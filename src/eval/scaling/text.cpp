@@ -162,9 +162,9 @@ std::string boundsAlong(std::span<const ScalingRow> rows) {
 
 std::string scalingSummary(std::span<const ScalingRow> rows) {
     std::string text =
-        "\ntime and GPU memory as powers of each axis's value, fitted to the upper half of its points, and the largest "
-        "parts of the frame time\n(alike: their spreads overlap, or they differ by less than a twentieth of the frame "
-        "time)\n";
+        "\nexponents of power laws for time and GPU memory along each axis, fitted to the upper half of the axis's "
+        "points, and the largest parts of the frame time\n(alike: the spreads of the parts overlap, or the parts "
+        "differ by less than a twentieth of the frame time)\n";
     for (const std::vector<ScalingRow>& curve : curvesOf(rows)) {
         text += fmt::format("  {:<10} {:<10} ", scalingAxisName(curve.front().axis), lodModeName(curve.front().mode));
         const std::optional<PowerLaw> time = lawOf(curve, timeOf);
@@ -186,10 +186,11 @@ std::string scalingJson(std::span<const ScalingRow> rows, std::span<const Scalin
                         std::span<const LargeSceneRow> scenes, const BenchSubject& subject) {
     ordered_json document = subjectJson("scaling", subject);
     document["heldEqual"] =
-        "along an axis: scene, camera, lens, lens samples and image size, except for the varied quantity, and the "
-        "process; runs alternate between the modes";
+        "along an axis: process, scene, camera, lens, lens samples and image size, except the quantity that the axis "
+        "varies; runs alternate between the modes";
     document["parts"] =
-        "layers: the frame with nothing drawn; vertices: the same draws into 1/40 the width and height; fill: the rest";
+        "layers: time of the frame with nothing drawn; vertices: time of the same draw calls at 1/40 of the width and "
+        "height; fill: the rest of the frame's time";
     for (const char* list : {"curves", "rows", "leftOut"}) document[list] = ordered_json::array();
     for (const std::vector<ScalingRow>& curve : curvesOf(rows)) document["curves"].push_back(curveJson(curve));
     for (const ScalingRow& row : rows) document["rows"].push_back(rowJson(row));

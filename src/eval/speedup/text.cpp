@@ -107,12 +107,11 @@ std::string speedupCsv(std::span<const SpeedupRow> rows) {
 std::string speedupJson(std::span<const SpeedupRow> rows, const BenchSubject& subject) {
     ordered_json document = subjectJson("speedup", subject);
     document["heldEqual"] =
-        "scene, camera, lens, lens samples, image size, layers drawn at once, renderer, process; runs alternate "
-        "between the modes, presets and methods; neither set-up nor pyramids are in a frame's time";
+        "scene, camera, lens, lens samples, image size, layers drawn at once, renderer and process; runs alternate "
+        "between the modes, presets and methods; the frame times exclude set-up and the building of pyramids";
     document["parts"] =
-        "sizeOnly: fractional levels with a blur threshold of 0; blurOnly: with a size threshold of 0; each against "
-        "the "
-        "same full detail";
+        "sizeOnly: fractional levels with a blur threshold of 0; blurOnly: fractional levels with a size threshold "
+        "of 0; both are compared with the same frame at full detail";
     document["rows"] = ordered_json::array();
     for (const SpeedupRow& row : rows) document["rows"].push_back(rowJson(row));
     return documentText(document);

@@ -72,7 +72,7 @@ void requireRoomToBuild(const Mesh& mesh, const PyramidOptions& options) {
     if (held + needed <= options.memoryLimit) return;
     fail(
         "{} of memory is too little for mesh '{}': its {} triangles need up to {}, and the program already uses {}; "
-        "allow {} with --memory{}",
+        "allow at least {} with --memory{}",
         bytesText(options.memoryLimit), mesh.name, grouped(mesh.triangleCount()), bytesText(needed), bytesText(held),
         bytesText(held + needed), options.maxLevels > 1 ? ", or use --lod off, which needs less" : "");
 }

@@ -65,7 +65,7 @@ double blurredShare(const FramePlan& plan, double minCoc) {
 
 std::string reasonForAccumulation(const FramePlan& plan) {
     if (plan.tile) return "the image is drawn in tiles";
-    if (!plan.settings.layers.empty()) return "layers of --exr-layers cannot be blurred by lens cells";
+    if (!plan.settings.layers.empty()) return "the layers that --exr-layers writes cannot be blurred with lens cells";
     if (std::string reason = reasonForNoCells(plan); !reason.empty()) return reason;
     const double share = blurredShare(plan, minBlurOfCells);
     if (share >= minShareOfCells) return "";

@@ -148,7 +148,7 @@ std::string reasonForNoCells(const FramePlan& plan) {
     if (plan.frameSamples < fewestSamples) return "there are too few samples";
     if (plan.needsAlpha) return "the background is transparent";
     if (plan.coc.chromatic > 0) return "each sample has its own wavelength";
-    if (plan.usesOwnBlur) return "objects or vertices have their own blur";
+    if (plan.usesOwnBlur) return "objects or vertices have their own blur (--node-blur, vertex attributes)";
     if (plan.usesTransmission) return "a material transmits light";
     return "";
 }

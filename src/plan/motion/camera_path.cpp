@@ -11,7 +11,8 @@ namespace defocus::engine {
 glm::dmat4 lookingAt(const glm::dvec3& position, const glm::dvec3& target) {
     const glm::dvec3 backward = position - target;
     const double distance = glm::length(backward);
-    if (!(distance > 0) || !std::isfinite(distance)) fail("the camera's position and target are the same point");
+    if (!(distance > 0) || !std::isfinite(distance))
+        fail("the camera's position and target are the same point; move one of them");
     const glm::dvec3 z = backward / distance;
     glm::dvec3 x = glm::cross(glm::dvec3(0, 1, 0), z);
     if (glm::length(x) < 1e-9) x = glm::cross(glm::dvec3(0, 0, z.y > 0 ? -1 : 1), z);

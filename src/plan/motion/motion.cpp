@@ -48,7 +48,7 @@ void checkShutter(const World& world, const View& view, const RenderSettings& se
     const bool camerasFit = view.shutterCameras.empty() || view.shutterCameras.size() == count;
     const bool posesFit = world.shutter.poses.empty() || world.shutter.poses.size() == count;
     if (!camerasFit || !posesFit)
-        fail("the shutter interval has {} poses of the scene, but {} poses of the camera; give the same number",
+        fail("the shutter interval has {} poses of the scene, but {} poses of the camera; give the same number of both",
              world.shutter.poses.size(), view.shutterCameras.size());
     for (const Pose& pose : world.shutter.poses)
         if (pose.objects.size() != world.pose.objects.size())

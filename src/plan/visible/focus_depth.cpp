@@ -27,7 +27,7 @@ Lens unfocused(const Lens& lens) {
 double depthOfNode(const Scene& scene, const Pose& pose, const View& view, std::string_view name, const char* who) {
     const glm::dvec3 centre = nodeCentre(scene, pose, nodeCalled(scene, std::string(name)));
     const double depth = -(glm::inverse(view.worldFromCamera) * glm::dvec4(centre, 1)).z;
-    if (!(depth > 0)) fail("{}: the centre of '{}' is behind the camera", who, name);
+    if (!(depth > 0)) fail("{}: the centre of '{}' is behind the camera; choose an object in front of it", who, name);
     return depth;
 }
 

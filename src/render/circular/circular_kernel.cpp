@@ -119,7 +119,7 @@ std::span<const CircularComponent> circularKernel(int count, KernelConstants con
     const bool fitted = constants == KernelConstants::fitted;
     const int limit = fitted ? circularKernelLimit : publishedKernelLimit;
     if (count < 1 || count > limit)
-        fail("{}circular kernel of {} components: choose 1 to {}", fitted ? "" : "published ", count, limit);
+        fail("a {}circular kernel cannot have {} components; choose 1 to {}", fitted ? "" : "published ", count, limit);
     std::span<const CircularComponent> kernels = components;
     if (!fitted) kernels = constants == KernelConstants::rescaled ? rescaled : published;
     const auto n = static_cast<std::size_t>(count);

@@ -69,8 +69,8 @@ void DisplayPass::draw(const DisplayInputs& inputs, const DisplaySettings& setti
 double DisplayPass::psnr(const GlTexture& first, const GlTexture& second) {
     const TextureInfo& info = first.info();
     if (info.width != second.info().width || info.height != second.info().height)
-        fail("images of {} x {} and {} x {} px cannot be compared", info.width, info.height, second.info().width,
-             second.info().height);
+        fail("images of {} x {} and {} x {} px cannot be compared; their sizes must be equal", info.width, info.height,
+             second.info().width, second.info().height);
     if (!squaredError_) squaredError_ = Program({{fullscreenShader, "view/squared_error.frag"}, {}, shaderFolder_});
     const GlTexture errors({.format = TextureFormat::r32f, .width = info.width, .height = info.height});
     const Target target({&errors});

@@ -51,7 +51,8 @@ GpuPoses gpuPoses(const FramePlan& plan, const ObjectPlan& object, const GpuMesh
         }
         if (result.cameraMoves) addRows(texels, plan.middleFromView[i]);
     }
-    result.texels = TexelBuffer(texels, GL_RGBA32F, 4, "poses of an object (use fewer samples or motion segments)");
+    result.texels =
+        TexelBuffer(texels, GL_RGBA32F, 4, "poses of an object (use fewer samples or fewer motion segments)");
     return result;
 }
 

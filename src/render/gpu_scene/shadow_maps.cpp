@@ -113,7 +113,7 @@ void ShadowMaps::prepare(const FramePlan& plan, const FrameUniforms& frame) {
     const bool tinted = tintsLight(*world.scene, plan);
     if (tinted) defines_.emplace_back("tintedShadows", "true");
     projections_ = TexelBuffer(texelsOf(shadowProjections(world, plan, directions_)), GL_RGBA32F, 4,
-                               "projections of shadow maps (use fewer samples)");
+                               "shadow-map projections (use fewer samples)");
     const auto layers = static_cast<int>(frame.layerCount() * mapsPerSample(plan));
     if (!maps_ || maps_.info().width != plan.shadows.size || maps_.info().layers != layers ||
         static_cast<bool>(tintedMaps_) != tinted) {

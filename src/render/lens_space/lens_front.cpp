@@ -108,7 +108,8 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
     attributes_ = storage(std::uint64_t{vertexCount_} * attributeBytes, "the attributes of the frame's vertices");
     if (options_.lightsVertices) {
         firstTriangles_ = Buffer(std::size_t{vertexCount_} * sizeof(std::uint32_t));
-        vertexLight_ = storage(std::uint64_t{vertexCount_} * vertexLightBytes, "the light of the frame's vertices");
+        vertexLight_ =
+            storage(std::uint64_t{vertexCount_} * vertexLightBytes, "the lighting values of the frame's vertices");
     }
     triangles_ = storage(std::uint64_t{triangleCount_} * 4 * sizeof(std::uint32_t), "the frame's triangles");
     depths_ = Buffer(std::size_t{triangleCount_} * sizeof(std::uint32_t));
@@ -167,7 +168,7 @@ void LensFront::addDivisions() {
         vertexCount_ += static_cast<std::uint32_t>(divided.vertexCount());
     }
     if (divided_.empty()) return;
-    bases_ = storage(std::uint64_t{bases} * 4 * sizeof(std::uint32_t), "the triangles that are divided");
+    bases_ = storage(std::uint64_t{bases} * 4 * sizeof(std::uint32_t), "the frame's subdivided triangles");
 }
 
 std::uint32_t LensFront::groupOf(int mesh, int material, std::uint32_t level) {

@@ -68,7 +68,7 @@ std::uint64_t SeeThrough::resolve(LensFront& front, const RecordShading& shading
     if (currentIsSoftware() && front.statistics().largestTile > std::uint64_t{softwareIterations} * entriesAtOnce)
         fail(
             "a block of pixels has {} triangles, but with cut-out or blended surfaces this driver supports at most {} "
-            "per block; choose a larger image, whose blocks have fewer triangles, or choose accumulation",
+            "per block; choose a larger image (its blocks have fewer triangles) or method accumulation",
             front.statistics().largestTile, std::uint64_t{softwareIterations} * entriesAtOnce);
     while (const std::uint32_t goOn = raysThatGoOn(front, shading, count, firstRay, searches == 0)) {
         searches += goOn;

@@ -62,9 +62,9 @@ public:
           segments_(static_cast<std::uint32_t>(numberOf(options.settings, "segments"))),
           shadingStep_(static_cast<float>(numberOf(options.settings, "shading-step"))) {
         if (exact_ && segments_ != standardSegments)
-            fail("method line: segments has an effect only with resolve=published; leave it out");
+            fail("method line: 'segments' has an effect only with resolve=published; leave it out");
         if (exact_ && shortIntervals_)
-            fail("method line: interval-bits has an effect only with resolve=published; leave it out");
+            fail("method line: 'interval-bits' has an effect only with resolve=published; leave it out");
     }
 
     [[nodiscard]] std::string name() const override { return "line"; }
@@ -126,7 +126,7 @@ public:
             if (counters.records > RecordBuffer::maxRecords()) {
                 if (wave.count == 1)
                     fail(
-                        "method line: the image needs {} shaded points with one line per pixel, but a buffer of this "
+                        "method line: with one line per pixel, the image needs {} shaded points, but a buffer of this "
                         "driver holds at most {}; choose a smaller image or a larger --shading-step",
                         counters.records, RecordBuffer::maxRecords());
                 wave.count /= 2;
@@ -213,7 +213,7 @@ private:
         const std::size_t bytes = sizeof(Counters) + places.states * rangeBytes + slots * slotBytes;
         if (output_.bytes() < bytes) {
             output_ = Buffer();  // free the old buffer first: memory might not suffice for old and new buffers
-            output_ = storage(bytes, "the lines of a wave");
+            output_ = storage(bytes, "the lines drawn at once");
         }
 
         Counters counters;
@@ -358,7 +358,7 @@ Method lineMethod() {
          .choices = {"turned", "shared"}},
     };
     return {.name = "line",
-            .description = "lens space: lines through the lens for each pixel (Tzeng et al. 2012)",
+            .description = "lens space: line samples across the lens for each pixel (Tzeng et al. 2012)",
             .showsThrough = false,
             .drawsShadows = false,
             .drawsMotion = false,

@@ -77,7 +77,7 @@ double apertureRim(const Aperture& aperture, double angle) {
 LineSets lineSets(const FramePlan& plan, bool turned, std::uint32_t linesPerPosition) {
     const Aperture aperture = plan.usesLens ? makeAperture(plan.view.lens) : Aperture{};
     if (aperture.image.rows > 0)
-        fail("method line: aperture images are not supported; choose blades, or method stochastic");
+        fail("method line: aperture images are not supported; use --blades instead, or method stochastic");
     const std::vector<double> sums = lightUpToAngles(aperture);
     const auto count = static_cast<std::uint32_t>(plan.samples.size());
     const auto aspect = static_cast<float>(plan.view.width) / static_cast<float>(plan.view.height);

@@ -53,7 +53,7 @@ public:
           settings_(options.settings),
           points_(poissonDisk(taps_)) {
         if (samples_ > 1 && options.settings.at("transparency-buckets") != "0")
-            fail("method scheuermann: multisampling has no effect on transparency-buckets; leave one of them out");
+            fail("method scheuermann: multisampling has no effect on transparency-buckets; set only one of them");
     }
 
     void start(const FramePlan& plan, const FrameUniforms& frame) override {
@@ -232,8 +232,8 @@ BlurrinessPlanes withPlanesByHand(const BlurrinessPlanes& planes, const PlanesBy
     if (byHand.cutoff > 0) result.cutoff = byHand.cutoff;
     if (!(result.near < result.focus && result.focus < result.far))
         fail(
-            "method scheuermann: the distances of full blur in front ({:g} m), focus ({:g} m) and full blur behind "
-            "({:g} m) must increase in this order",
+            "method scheuermann: the distances must increase from full blur in front ({:g} m) to focus ({:g} m) to "
+            "full blur behind ({:g} m)",
             result.near, result.focus, result.far);
     return result;
 }

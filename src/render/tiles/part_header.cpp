@@ -43,7 +43,8 @@ SampleRange parseSampleRange(std::string_view text) {
 }
 
 void checkSampleRange(const SampleRange& range, std::uint32_t samples) {
-    if (range.end > samples) fail("samples {}: the frame has only {} (--samples)", rangeText(range), samples);
+    if (range.end > samples)
+        fail("samples {} are out of range: the frame has only {} (--samples)", rangeText(range), samples);
     if (range.end % blockSamples != 0 && range.end != samples)
         fail("samples {} split a block of {} samples; end at a multiple of {} or with the last sample, {}",
              rangeText(range), blockSamples, blockSamples, samples);

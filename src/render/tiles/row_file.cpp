@@ -109,7 +109,7 @@ std::vector<RowRange> missingRows(const std::vector<RowFile>& tiles, int height)
 std::vector<RowFile> completeRows(const std::vector<fs::path>& paths) {
     std::vector<RowFile> tiles;
     for (const fs::path& path : paths) tiles.push_back({path, readRowHeader(path)});
-    if (tiles.empty()) fail("no tiles given; give the files of 'defocus render --tile'");
+    if (tiles.empty()) fail("no tiles given; name the files written by 'defocus render --tile'");
     std::ranges::stable_sort(tiles, {}, [](const RowFile& tile) { return tile.header.rows.first; });
     const RowFileHeader& first = tiles.front().header;
     for (std::size_t i = 1; i < tiles.size(); ++i) {

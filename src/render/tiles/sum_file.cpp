@@ -78,8 +78,8 @@ void checkComplete(const std::vector<NamedPart>& parts) {
         if (part.range.first < next)
             fail("{} and {} overlap: both hold sample {}", parts[i - 1].path.string(), path.string(), part.range.first);
         if (part.range.first > next)
-            fail("samples {}:{} of {} are missing; the next part is {}", next, part.range.first, part.frameSamples,
-                 path.string());
+            fail("samples {}:{} of {} are missing before part {}; render them with --sample-range", next,
+                 part.range.first, part.frameSamples, path.string());
         next = part.range.end;
     }
     if (next < first.frameSamples)
@@ -144,7 +144,7 @@ MergedFrame mergeParts(const std::vector<fs::path>& paths) {
         parts.push_back({path, readPart(path)});
         parts.back().part.blocks.clear();
     }
-    if (parts.empty()) fail("no parts given; give the files of --sample-range");
+    if (parts.empty()) fail("no parts given; name the files written by 'defocus render --sample-range'");
     std::ranges::stable_sort(
         parts, {}, [](const NamedPart& named) { return std::pair(named.part.range.first, named.part.range.end); });
     checkComplete(parts);

@@ -64,8 +64,10 @@ int bandCount(int length, int max) {
                                    ? fmt::format("; give --memory {:.0f}MiB or more",
                                                  static_cast<double>(min + needs.elsewhere) * 1.05 / 0x1p20)
                                    : "";
-    fail("an image of {} x {} px needs at least {} in addition to the scene and the program, but only {} is left{}",
-         needs.width, needs.height, bytesText(min), bytesText(needs.deviceMemory), enough);
+    fail(
+        "an image of {} x {} px needs at least {} of memory in addition to the scene and the program, but only {} is "
+        "left{}",
+        needs.width, needs.height, bytesText(min), bytesText(needs.deviceMemory), enough);
 }
 
 // Returns the band of the image rows `rows`, which has one tile in each cell that the rows cross. `cells` are parts of

@@ -102,7 +102,7 @@ CameraTrack jsonCamera(std::string_view text, const std::string& name, const std
     if (!(take->aspect > 0)) fail("{}: aspectRatio must be above 0", file);
     const auto samples = json.find("samples");
     if (samples == json.end() || !samples->is_array() || samples->empty())
-        fail("{}: 'samples' must be a list of one camera or more", file);
+        fail("{}: 'samples' must be a list of one or more cameras", file);
     for (std::size_t i = 0; i < samples->size(); ++i) {
         take->samples.push_back(sampleOf((*samples)[i], fmt::format("{}: sample {}", file, i)));
         if (i > 0 && take->samples[i].time <= take->samples[i - 1].time)

@@ -51,8 +51,8 @@ bool hasArcs(const UsdPrim& prim) {
 // Returns advice for the error message of a layer whose content comes from other files; empty for other layers.
 std::string arcsAdvice(const UsdLayer& layer) {
     if (!layer.metadata.contains("subLayers") && std::ranges::none_of(layer.prims, hasArcs)) return "";
-    return "; content of other layers, references and variants is not read, so write it to one file with: usdcat "
-           "--flatten";
+    return "; content of other layers, references and variants is not read; write all layers to one file with: usdcat "
+           "--flatten FILE -o shot.usda";
 }
 
 // Returns the camera whose path or name is `chosen`; if `chosen` is empty, the layer's only camera.
@@ -146,7 +146,7 @@ public:
 
     void check() const {
         if (prim().specifier != "def")
-            fail("{}: the camera is declared only as {} '{}'; the file has no 'def' of it{}", where_,
+            fail("{}: the camera is declared only as {} '{}'; the file has no 'def' for it{}", where_,
                  prim().specifier == "over" ? "an" : "a", prim().specifier, arcsAdvice(*layer_));
         if (const std::string projection = usdText(prim(), "projection");
             !projection.empty() && projection != "perspective")
@@ -159,7 +159,7 @@ public:
             for (const std::string& arc : each->arcs)
                 lines.push_back(
                     fmt::format("{}: {} of {} are not read; write all layers to one file with: usdcat "
-                                "--flatten",
+                                "--flatten FILE -o shot.usda",
                                 where_, arc, each->name));
         for (const char* name : {"horizontalApertureOffset", "verticalApertureOffset"})
             if (number(name, 0, 0) != 0)
@@ -170,8 +170,8 @@ public:
             lines.push_back(fmt::format("{}: clippingPlanes are ignored", where_));
         if (tenthMillimetres_)
             lines.push_back(
-                fmt::format("{}: in USD's unit, a tenth of a scene unit, the sensor would be {:.3g} m wide; focal "
-                            "length and apertures are read as millimetres instead",
+                fmt::format("{}: USD gives focal length and apertures in tenths of a scene unit, so the sensor would "
+                            "be {:.3g} m wide; they are read as millimetres instead",
                             where_, number("horizontalAperture", 0, 20.955) * stage_.metresPerUnit / 10));
         if (number("fStop", 0, 0) == 0)
             lines.push_back(fmt::format(

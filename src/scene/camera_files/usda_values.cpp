@@ -60,7 +60,7 @@ glm::dmat4 operation(const UsdPrim& prim, const std::string& name, double timeCo
     const std::string type = name.substr(begin, std::min(name.find(':', begin), name.size()) - begin);
     const auto numbers = [&](std::size_t count) {
         auto found = usdNumbers(prim, name, count, timeCode, where);
-        if (!found) fail("{}: {} of xformOpOrder has no value", where, name);
+        if (!found) fail("{}: {} is listed in xformOpOrder but has no value", where, name);
         return *found;
     };
     const auto vector = [&] {

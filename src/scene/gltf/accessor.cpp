@@ -52,8 +52,8 @@ void checkRange(const Source& source, const std::string& what, int view, std::ui
     const bool inside = count == 0 || (offset <= available && elementBytes <= available - offset &&
                                        (count - 1) <= (available - offset - elementBytes) / stride);
     if (!inside)
-        fault(source.document, "{}: {} elements from byte {} exceed buffer view {}, which has {} bytes", what, count,
-              offset, view, available);
+        fault(source.document, "{}: {} elements from byte {} extend past the end of buffer view {}, which has {} bytes",
+              what, count, offset, view, available);
 }
 
 std::uint64_t strideOf(const Source& source, const tinygltf::Accessor& accessor, const Layout& layout) {
@@ -69,8 +69,8 @@ void checkSparse(const Source& source, const tinygltf::Accessor& accessor, const
         fault(source.document, "{}: sparse indices cannot have component type {}", what, type);
     if (accessor.sparse.count < 1 || static_cast<std::size_t>(accessor.sparse.count) > accessor.count ||
         accessor.sparse.indices.byteOffset < 0 || accessor.sparse.values.byteOffset < 0)
-        fault(source.document, "{}: invalid number of sparse elements or offset: {} of {} elements", what,
-              accessor.sparse.count, accessor.count);
+        fault(source.document, "{}: invalid sparse data: {} sparse elements for {} elements, or a negative byte offset",
+              what, accessor.sparse.count, accessor.count);
     const auto count = static_cast<std::uint64_t>(accessor.sparse.count);
     checkRange(source, what + " (sparse indices)", accessor.sparse.indices.bufferView,
                static_cast<std::uint64_t>(accessor.sparse.indices.byteOffset), count, componentBytes(type),

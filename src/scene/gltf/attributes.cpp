@@ -137,8 +137,8 @@ std::vector<VertexBlur> readBlurs(Source& source, const AttributeReader& reader,
     const std::vector<float> scales = readScalars(source, reader, "_COC_SCALE", 0, what);
     const std::vector<float> offsets = readScalars(source, reader, "_COC_OFFSET", -maxBlur, what);
     if (reader.has("_COC_0") != reader.has("_COC_1"))
-        fault(source.document, "{}: _COC_0 and _COC_1 must be given together (blur when the shutter opens and closes)",
-              what);
+        fault(source.document,
+              "{}: _COC_0 and _COC_1 must be given together: the blur when the shutter opens and when it closes", what);
     const bool pair = reader.has("_COC_0");
     if (pair && reader.has("_COC")) fault(source.document, "{}: _COC cannot be combined with _COC_0 and _COC_1", what);
     const std::vector<float> opening = readScalars(source, reader, pair ? "_COC_0" : "_COC", -maxBlur, what);

@@ -81,7 +81,8 @@ std::vector<float> DracoPrimitive::floats(const Source& source, const std::strin
                                           double scale) const {
     const draco::PointAttribute* data = decoded_->mesh->GetAttributeByUniqueId(ids_.at(attribute));
     if (data == nullptr)
-        fault(source.document, "{}: there is no attribute {} for {}", what_, ids_.at(attribute), attribute);
+        fault(source.document, "{}: the compressed data has no attribute {} for {}", what_, ids_.at(attribute),
+              attribute);
     if (data->num_components() != components)
         fault(source.document, "{}: {} has {} components, not {}", what_, attribute, data->num_components(),
               components);

@@ -250,7 +250,7 @@ void readEmission(Source& source, const nlohmann::json& json, const std::string&
         limited |= emission > maxEmission;
         material.emissiveFactor[i] = toFloat(std::min(emission, maxEmission));
     }
-    if (limited) ignore(source, "emission of " + label, "it is limited to 1e30");
+    if (limited) ignore(source, "emission of " + label, "the value is too large; 1e30 is used");
 }
 
 Material readMaterial(Source& source, std::size_t index) {

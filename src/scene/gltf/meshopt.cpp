@@ -30,7 +30,8 @@ CompressedView compressedView(const Source& source, std::size_t index, const nlo
     const auto length = json["byteLength"].get<std::uint64_t>();
     if (!buffer) fault(source.document, "{}: buffer {} has no data", view.what, bufferIndex);
     if (offset > buffer->size() || length > buffer->size() - offset)
-        fault(source.document, "{}: {} bytes from byte {} exceed buffer {}", view.what, length, offset, bufferIndex);
+        fault(source.document, "{}: {} bytes from byte {} extend past the end of buffer {}", view.what, length, offset,
+              bufferIndex);
     view.bytes = std::span(*buffer).subspan(offset, length);
     return view;
 }
@@ -46,7 +47,7 @@ void checkLimits(const Source& source, const CompressedView& view) {
     if (!strideFits)
         fault(source.document, "{}: {} data cannot have a stride of {}", view.what, view.mode, view.stride);
     if (view.mode == "TRIANGLES" && view.count % 3 != 0)
-        fault(source.document, "{}: {} indices are not a multiple of 3", view.what, view.count);
+        fault(source.document, "{}: the number of indices, {}, is not a multiple of 3", view.what, view.count);
     const bool filterFits =
         view.filter == "NONE" ||
         (attributes && ((view.filter == "OCTAHEDRAL" && (view.stride == 4 || view.stride == 8)) ||

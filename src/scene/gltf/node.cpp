@@ -58,7 +58,8 @@ std::vector<int> sceneRoots(Source& source, const std::vector<int>& parents, std
     std::vector<bool> listed(parents.size());
     for (const int root : scene.value("nodes", std::vector<int>())) {
         if (parents[static_cast<std::size_t>(root)] >= 0)
-            fault(source.document, "scene {} lists node {}, which is a child of node {}", chosen, root,
+            fault(source.document,
+                  "scene {} lists node {}, which is a child of node {}; a scene may list only root nodes", chosen, root,
                   parents[static_cast<std::size_t>(root)]);
         if (!listed[static_cast<std::size_t>(root)]) roots.push_back(root);
         listed[static_cast<std::size_t>(root)] = true;
@@ -293,7 +294,8 @@ std::vector<Camera> readCameras(Source& source) {
         camera.apertureImage = apertureImageOf(json);
         if (from.type == "orthographic") {
             camera.orthographic = "orthographic cameras are not supported";
-            ignore(source, label, *camera.orthographic + "; a scene without another camera is framed automatically");
+            ignore(source, label,
+                   *camera.orthographic + "; the scene is framed automatically if it has no other camera");
         } else {
             camera.yfov = from.perspective.yfov;
             camera.znear = from.perspective.znear;

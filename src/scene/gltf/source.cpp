@@ -166,20 +166,20 @@ std::span<const std::byte> viewBytes(const Source& source, int view) {
     const auto& buffer = source.buffers[static_cast<std::size_t>(bufferView.buffer)];
     if (!buffer) fault(source.document, "buffer view {}: buffer {} has no data", view, bufferView.buffer);
     if (bufferView.byteOffset > buffer->size() || bufferView.byteLength > buffer->size() - bufferView.byteOffset)
-        fault(source.document, "buffer view {}: {} bytes from byte {} exceed buffer {}, which has {} bytes", view,
+        fault(source.document,
+              "buffer view {}: {} bytes from byte {} extend past the end of buffer {}, which has {} bytes", view,
               bufferView.byteLength, bufferView.byteOffset, bufferView.buffer, buffer->size());
     return std::span(*buffer).subspan(bufferView.byteOffset, bufferView.byteLength);
 }
 
 void takeBudget(Source& source, std::uint64_t count, std::uint64_t elementBytes, const std::string& what) {
     if (!source.budget.take(count, elementBytes))
-        fault(
-            source.document,
-            "{}: {} elements are implausible for a file of {} bytes, because with them its contents would take {:.3g} "
-            "MiB, and at most {:.3g} MiB are read",
-            what, count, source.budget.fileBytes(),
-            (double(source.budget.taken()) + double(count) * double(elementBytes)) / 0x1p20,
-            double(source.budget.limit()) / 0x1p20);
+        fault(source.document,
+              "{}: {} elements would expand a file of {} bytes to {:.3g} MiB; for a file of this size, at most {:.3g} "
+              "MiB are read",
+              what, count, source.budget.fileBytes(),
+              (double(source.budget.taken()) + double(count) * double(elementBytes)) / 0x1p20,
+              double(source.budget.limit()) / 0x1p20);
 }
 
 void grantFile(Source& source, const std::string& uri, const std::string& what) {

@@ -116,7 +116,7 @@ TEST_F(Merge, whatDoesNotFitTogetherIsRefused) {
     };
     refused({"a.exr", "b.exr", "bc.exr"}, "overlap");
     refused({"a.exr", "a.exr", "bc.exr"}, "overlap");
-    refused({"a.exr", "c.exr"}, "samples 64:128 of 150 are missing; the next part is c.exr");
+    refused({"a.exr", "c.exr"}, "samples 64:128 of 150 are missing before part c.exr");
     refused({"b.exr", "c.exr"}, "samples 0:64");
     refused({"a.exr", "b.exr"}, "samples 128:150 are missing");
     refused({"a.exr", "b.exr", "other.exr"}, "different frames: seed differs (0 and 1)");

@@ -142,10 +142,10 @@ TEST(InvalidGltf, hugeCountsAreRefusedBeforeMemoryIsTaken) {
     }
     GltfBuilder builder = triangle();
     builder.json["accessors"][0]["count"] = std::uint64_t{1} << 52;  // more elements than the buffer view can hold
-    expectFault(errorOf(builder), "built.glb", "exceed buffer view 0");
+    expectFault(errorOf(builder), "built.glb", "extend past the end of buffer view 0");
     builder = triangle();
     builder.json["accessors"][0]["byteOffset"] = (std::uint64_t{1} << 53) - 1;
-    expectFault(errorOf(builder), "built.glb", "exceed buffer view 0");
+    expectFault(errorOf(builder), "built.glb", "extend past the end of buffer view 0");
 }
 
 TEST(InvalidGltf, manySmallClaimsAddUp) {

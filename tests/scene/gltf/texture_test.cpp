@@ -90,7 +90,7 @@ TEST(GltfTexture, pixelsAreCountedBeforeTheyAreDecoded) {
     builder.json["images"] = {{{"bufferView", builder.view(png)}, {"mimeType", "image/png"}}};
     const Scene scene = builder.load();
     expectOnlyFactors(scene);
-    expectNote(scene, true, "pixels: 268435456 elements are implausible for a file of");
+    expectNote(scene, true, "pixels: 268435456 elements would expand a file of");
 }
 
 TEST(GltfTexture, unsupportedFormatsFallBackToTheSource) {
