@@ -126,7 +126,7 @@ TEST_F(Merge, whatDoesNotFitTogetherIsRefused) {
     expectOneLine(part("0:32", "x.exr"), 1);
     expectOneLine(part("0:192", "x.exr"), 1);
     expectOneLine(part("0:64", "x.png"), 1);
-    expectOneLine(part("0:64", "x.exr", {"--method", "circular"}), 1);
+    expectOneLine(part("0:64", "x.exr", {"--method", "circular"}), 2);
 }
 
 }  // namespace
