@@ -266,7 +266,7 @@ void defineScenes(py::module_& package) {
             "Number of triangles of all meshes, each mesh counted once.")
         .def_property_readonly(
             "ignored", [](const OpenScene& scene) { return scene.info.ignored; },
-            "Parts of the file that are not drawn: a line each, with the reason.")
+            "Parts of the file that are not drawn, with the reason: one line for each part.")
         .def("__repr__",
              [](const OpenScene& scene) {
                  return "<defocus.Scene '" + scene.info.name + "': " + std::to_string(scene.info.triangles) +
@@ -413,7 +413,7 @@ void defineSceneData(py::module_& package) {
                 camera.lens = request.lens;
                 return request.lens != defocus::LensSettings();
             },
-            "Takes the lens of a request; returns whether the request changes the default lens.");
+            "Sets the camera's lens to the lens of a request; returns whether it differs from the default lens.");
     py::class_<LightData>(package, "LightData")
         .def(py::init<>())
         .def_readwrite("name", &LightData::name)
@@ -604,7 +604,7 @@ void defineLightField(py::module_& package) {
 }  // namespace
 
 PYBIND11_MODULE(_defocus, package) {
-    package.doc() = "The public API of defocus in C++; use the package `defocus`.";
+    package.doc() = "Bindings of the C++ API; import the package `defocus` instead.";
     package.attr("version") = DEFOCUS_VERSION_STRING;
     defineErrors(package);
     defineRequest(package);

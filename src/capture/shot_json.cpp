@@ -264,7 +264,9 @@ std::string relativeToShot(const Setting& setting, const std::string& text, cons
 void readSettings(const JsonReader& reader, Shot& shot) {
     if (const auto fish = reader.find("fish")) {
         if (reader.has("scene"))
-            fish->failWith("the setting belongs to the built-in school of fish, but the shot has a scene");
+            fish->failWith(
+                "the setting is for the built-in school of fish, but the shot has a scene; remove one of "
+                "them");
         fish->requireObject(keysAt("/fish", {}));
     }
     if (const auto animation = reader.find("animation")) {
@@ -396,7 +398,7 @@ void replaceValue(json& document, const ShotOverride& given) {
     try {
         document[json::json_pointer(given.pointer)] = value;
     } catch (const json::exception&) {
-        fail("--set {}: not found in the shot; give a JSON pointer, such as /lens/fStop=1.4", given.pointer);
+        fail("--set {}: not found in the shot; give /PLACE=VALUE, such as /lens/fStop=1.4", given.pointer);
     }
 }
 

@@ -152,8 +152,8 @@ std::vector<std::uint8_t> displayBytes(const VideoFrame& frame, const Image& fir
     const fs::path& path = frame.file;
     Image image = readImage(path);
     if (image.width != first.width || image.height != first.height)
-        fail("{} is {}x{} px, but the first frame of the video is {}x{} px", path.string(), image.width, image.height,
-             first.width, first.height);
+        fail("{} is {}x{} px, but all frames must have the size of the first frame, {}x{} px", path.string(),
+             image.width, image.height, first.width, first.height);
     // Images read from PNG and JPEG are already tone-mapped, so only the display encoding is applied.
     const bool linear = isExr(path);
     image = linear ? displayEncoded(image, frame.image.toneMap, frame.image.exposure) : displayEncoded(image);

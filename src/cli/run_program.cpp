@@ -45,13 +45,12 @@ int printFault(int code, std::string message) {
 
 void addGlobalOptions(CLI::App& program, GlobalOptions& global) {
     program.set_version_flag("--version", "defocus " + programVersion(), "Print the version and exit");
-    program.add_flag("--quiet", global.quiet, "Print errors only, without progress, warnings and summary");
-    program.add_flag(
-        "--verbose", global.verbose,
-        "Also print details: the device, use of the cache, what is left out of the drawing and why, and times");
+    program.add_flag("--quiet", global.quiet, "Print only errors: no progress, warnings or summary");
+    program.add_flag("--verbose", global.verbose,
+                     "Also print details: the device, cache use, times, and what is left out of the image and why");
     advanced(program
                  .add_option("--shader-dir", global.shaderDir,
-                             "Folder from which to read the shaders instead of the built-in ones, for live editing")
+                             "Folder of shaders to use instead of the built-in shaders, for live editing")
                  ->type_name("FOLDER")
                  ->check(unnamed(CLI::ExistingDirectory)));
 }
@@ -163,7 +162,7 @@ std::string parseFault(const CLI::App& program, const CLI::ParseError& error) {
 void refuseEmptyNames(CLI::App& command) {
     const CLI::Validator notEmpty(
         [](const std::string& text) {
-            return text.empty() ? std::string("the name is empty; give a file or folder, or leave it out")
+            return text.empty() ? std::string("the name is empty; give a file or folder, or leave the option out")
                                 : std::string();
         },
         "");

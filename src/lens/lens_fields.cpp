@@ -86,12 +86,12 @@ const LensField fields[] = {
      "0.2", LensFeature::lensPoint},
     {"astigmatism", "--astigmatism", LensSection::aperture, "MM", -100, 100, &Lens::astigmatism,
      &LensSettings::astigmatism,
-     "Astigmatism: length, in mm on the sensor, of the radial streak that a point in focus becomes at the left and "
-     "right edges. For a positive value, points at a certain depth in front of the focus plane become tangential "
-     "streaks; for a negative value, points at a certain depth behind it. Default: from the camera, else 0",
+     "Astigmatism: at the left and right edges, a point in focus becomes a radial streak of this length, in mm on the "
+     "sensor. At a certain depth, points become tangential streaks: in front of the focus plane if the value is above "
+     "0, behind the focus plane if it is below 0. Default: from the camera, else 0",
      "0.2", LensFeature::lensPoint},
     {"coma", "--coma", LensSection::aperture, "MM", -100, 100, &Lens::coma, &LensSettings::coma,
-     "Coma: length of the tail, in mm on the sensor, that a point gets at the left and right edges. Above 0, the tail "
+     "Coma: length, in mm on the sensor, of the tail that a point gets at the left and right edges. Above 0, the tail "
      "points outwards. Default: from the camera, else 0",
      "0.2", LensFeature::lensPoint},
     {"foregroundLimit", "--foreground-limit", LensSection::lens, "PX", 0, 1e6, &Lens::foregroundLimit,
@@ -102,13 +102,13 @@ const LensField fields[] = {
      "Maximum blur diameter behind the focus plane, in px. Default: from the camera, else unlimited", "40"},
     {"focusRangeFront", "--focus-range-front", LensSection::focus, "M", 0, 1e12, &Lens::focusRangeFront,
      &LensSettings::focusRangeFront,
-     "Length in m of the range in front of the focus distance in which everything stays sharp. Default: from the "
-     "camera, else 0",
+     "Length in m of the range in front of the focus plane in which everything stays sharp. Default: from the camera, "
+     "else 0",
      "0.5"},
     {"focusRangeBehind", "--focus-range-behind", LensSection::focus, "M", 0, 1e12, &Lens::focusRangeBehind,
      &LensSettings::focusRangeBehind,
-     "Length in m of the range behind the focus distance in which everything stays sharp. Default: from the camera, "
-     "else 0",
+     "Length in m of the range behind the focus plane in which everything stays sharp. Default: from the camera, else "
+     "0",
      "1"},
     {"focusRangeRefocuses", "--focus-range-refocuses", LensSection::focus, "", 0, 1, &Lens::focusRangeRefocuses,
      &LensSettings::focusRangeRefocuses,
@@ -131,8 +131,8 @@ const LensField fields[] = {
      "0.2"},
     {"radialBlurGain", "--radial-blur-gain", LensSection::lens, "R", 0, 1e3, &Lens::radialBlurGain,
      &LensSettings::radialBlurGain,
-     "Radial blur gain R: the blur grows away from the image centre and is multiplied by 1 + R at the left and right "
-     "edges. Default: from the camera, else 0",
+     "Radial blur gain R: the blur increases with the distance from the image centre and is multiplied by 1 + R at the "
+     "left and right edges. Default: from the camera, else 0",
      "1"},
 };
 

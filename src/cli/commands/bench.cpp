@@ -81,7 +81,8 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<SpeedupArguments>();
     CLI::App* command = bench.add_subcommand(
         "speedup",
-        "Measure the frame time and image error of full detail, nearest and fractional levels from a fixed camera");
+        "Measure frame time and image error from a fixed camera: full detail, and nearest and fractional levels of "
+        "detail");
     const char* group = "Measurement";
     SpeedupOptions& options = arguments->speedup;
     addIntegers(*command, "--counts", options.sampleCounts, 1, maxSamples, "Numbers of lens samples to measure")
@@ -102,8 +103,8 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
                "Number of seeds, used in turn by the runs to measure the spread of errors; at most the number of runs")
         ->group(group);
     addParsed(*command, "--reference-samples", "N",
-              "Number of lens samples of the reference; 0: no reference. Default: eight times the maximum measured "
-              "with the same lens",
+              "Number of lens samples of the reference; 0: no reference. Default: eight times the largest number of "
+              "samples measured with the same lens",
               [&options](const std::string& text) {
                   options.referenceSamples = static_cast<std::uint32_t>(parseInteger(text, 0, maxSamples));
               })

@@ -90,11 +90,11 @@ std::vector<ConvergenceRun> earlierRuns(const ConvergenceArguments& arguments, s
     std::vector<ConvergenceRun> runs;
     if (fs::exists(journal)) runs = readRunsCsv(readText(journal), subject, journal.string());
     if (!runs.empty() && !arguments.resume)
-        fail("{} has {} frames of an earlier run; continue with --resume, or start over with --overwrite",
+        fail("{} has {} frames from an earlier run; continue with --resume, or start over with --overwrite",
              journal.string(), runs.size());
     if (holdsOtherReference(folder, reference))
         fail(
-            "the reference in {} was rendered with another scene, camera, size, number of samples or build of the "
+            "the reference in {} was rendered with a different scene, camera, size, number of samples or build of the "
             "program; choose another folder, or start over with --overwrite",
             folder.string());
     return runs;
@@ -261,8 +261,8 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
               [&options](const std::string& text) { options.methods = parseMethods(text); })
         ->group(group);
     addList(command, "--rows", "published,best,default", options.forms,
-            "Settings to measure for a method that is named without settings: as published (the method's preset), with "
-            "the smallest error (best), or the defaults (default)",
+            "Settings to measure for a method that is named without settings. published: the method's preset. best: "
+            "the settings with the smallest error. default: the defaults",
             [](const std::string& part) {
                 constexpr std::array forms = {MethodForm::published, MethodForm::best, MethodForm::defaults};
                 return forms[parseChoice(part, {"published", "best", "default"})];
@@ -292,8 +292,8 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
                "Multipliers for the default level-of-detail thresholds")
         ->group(group);
     addChoice<bool>(command, "--shading", arguments.unlit, {{"lit", false}, {"unlit", true}},
-                    "Shading by the scene's lights (lit), or with light that is baked into the meshes (unlit), which "
-                    "ray tracers support too. Default: unlit in defocus_bench, which has ray tracers, else lit")
+                    "Shading. lit: by the scene's lights. unlit: by light that is baked into the meshes, so that ray "
+                    "tracers shade alike. Default: unlit in defocus_bench, which has ray tracers, else lit")
         ->group(group);
     options.runs = 5;
     options.seeds = 5;
@@ -318,11 +318,11 @@ void addOutput(CLI::App& command, ConvergenceArguments& arguments) {
         ->group(group);
     CLI::Option* resume =
         command
-            .add_flag("--resume", arguments.resume, "Measure only the runs that are missing in the folder's runs.csv")
+            .add_flag("--resume", arguments.resume, "Measure only the runs that are missing from the folder's runs.csv")
             ->group(group);
     command
         .add_flag("--overwrite", arguments.overwrite,
-                  "Delete the frames or the reference of another run in the folder, and start over")
+                  "Delete the frames and the reference of an earlier run from the folder, and start over")
         ->excludes(resume)
         ->group(group);
     command
@@ -338,7 +338,9 @@ void addOutput(CLI::App& command, ConvergenceArguments& arguments) {
 void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<ConvergenceArguments>();
     CLI::App* command = bench.add_subcommand(
-        "convergence", "Measure the error over run time of methods and settings against a reference");
+        "convergence",
+        "Measure how the error of methods and settings, relative to a reference, decreases with run "
+        "time");
     // Leave out settings that the benchmark varies itself, and exposure, because images are compared at EV 0.
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"preset", "samples", "positions", "quality", "targetError", "timeLimit", "lod",

@@ -90,8 +90,8 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<PoppingArguments>();
     arguments->request.size = {320, 240};
     CLI::App* command = bench.add_subcommand("popping",
-                                             "Measure how levels of detail change the image from frame to frame: focus "
-                                             "pull, dolly, turntable and animation");
+                                             "Measure how much changes of the level of detail alter the image between "
+                                             "frames of a focus pull, dolly, turntable and animation");
     // Leave out settings that the bench varies itself, and exposure, because images are compared at EV 0.
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"samples", "positions", "quality", "targetError", "timeLimit", "lod", "method",
@@ -105,8 +105,8 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
         "Number of consecutive frames to measure in each movement; the part with the most level changes is chosen")
         ->group(group);
     addInteger(*command, "--path-frames", options.pathFrames, 2, 100'000,
-               "Number of frames of a complete movement, which sets its speed: focus from the nearest to the farthest "
-               "object, dolly over half the focus distance, one turn, one cycle of the animation")
+               "Number of frames of a complete movement; more frames make it slower. Movements: focus from the nearest "
+               "to the farthest object, dolly over half the focus distance, one turn, one cycle of the animation")
         ->group(group);
     addBenchOutput(*command, arguments->output, "the results popping.csv and popping.json");
     addDeveloperSettings(*command, arguments->request,

@@ -34,8 +34,11 @@ void runPrediction(const PredictionArguments& arguments, const GlobalOptions& gl
     options.renderer.shaderFolder = global.shaderDir;
     BenchSubject subject = benchSubject(*context, global);
     subject.scene = frame.sceneName;
-    fmt::print("{}, {} x {} px, on {}: errors of linear radiance, relative to its mean\n\n{}", frame.sceneName,
-               options.width, options.height, subject.device, predictionHeader());
+    fmt::print(
+        "{}, {} x {} px, on {}: errors in linear radiance, relative to its mean\n"
+        "\n"
+        "{}",
+        frame.sceneName, options.width, options.height, subject.device, predictionHeader());
     std::fflush(stdout);
     std::vector<PredictionRow> rows;
     measurePrediction(
@@ -59,7 +62,8 @@ void addPredictionCommand(CLI::App& bench, const GlobalOptions& global) {
     arguments->request.size = {arguments->options.width, arguments->options.height};
     CLI::App* command = bench.add_subcommand(
         "prediction",
-        "Compare the predicted with the rendered error of each level of a scene's largest mesh, for several blurs");
+        "Compare the predicted error of each level of a scene's largest mesh with the error in a rendered image, for "
+        "several blur diameters");
     addNumbers(*command, "--cocs", arguments->options.cocs, {0.01, 1e4}, "PX,PX,…",
                "Blur at the centre of the mesh, in px")
         ->group("Measurement");

@@ -48,7 +48,7 @@ bool runScript(const std::filesystem::path& results, const std::filesystem::path
         const int code = exitCodeOf({python, "-c", reportScript(), results.string(), report.string()});
         if (code == 0) return true;
         if (code != notInstalled && code != withoutMatplotlib)
-            fail("cannot create the report {}: Python ended with exit code {}; the result files beside it are complete",
+            fail("cannot create the report {}: Python ended with exit code {}; all result files are complete",
                  (report / "index.html").string(), code);
     }
     return false;
@@ -59,8 +59,8 @@ bool runScript(const std::filesystem::path& results, const std::filesystem::path
 void addReport(CLI::App& command, CLI::Option* output, std::filesystem::path& report) {
     command
         .add_option("--report", report,
-                    "Folder for the results and index.html, with plots and tables of all benches in the folder "
-                    "(requires python3-matplotlib). Replaces --output")
+                    "Folder for the results and for index.html, a page with plots and tables of all results in the "
+                    "folder (requires python3-matplotlib). Replaces --output")
         ->type_name("FOLDER")
         ->excludes(output)
         ->group("Output");

@@ -34,7 +34,7 @@ struct ScalingArguments {
 void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) {
     if (arguments.options.large &&
         std::ranges::find(arguments.options.axes, ScalingAxis::triangles) == arguments.options.axes.end())
-        throw UsageError("--large extends the axis triangles; add it to --axes");
+        throw UsageError("--large extends the axis 'triangles'; add 'triangles' to --axes");
     const fs::path folder = openBenchOutput(arguments.output, {"scaling.csv", "scaling.json"});
     const Progress progress = terminalProgress(global);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
@@ -82,7 +82,9 @@ void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) 
 void addScalingCommand(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<ScalingArguments>();
     CLI::App* command = bench.add_subcommand(
-        "scaling", "Measure time and memory over triangles, instances, samples, pixels and blur, and fit exponents");
+        "scaling",
+        "Measure how time and memory grow with triangles, instances, samples, pixels and blur, and fit "
+        "power laws");
     const char* group = "Measurement";
     ScalingOptions& options = arguments->options;
     const std::vector<ScalingAxis> all = options.axes;
@@ -95,13 +97,13 @@ void addScalingCommand(CLI::App& bench, const GlobalOptions& global) {
         ->group(group);
     command
         ->add_flag("--large", options.large,
-                   "Measure up to 50 instead of 10 million triangles, as far as memory allows; building their pyramids "
-                   "takes minutes")
+                   "Measure up to 50 million triangles instead of 10 million, as far as memory allows; building their "
+                   "pyramids takes minutes")
         ->group(group);
     command
         ->add_flag("--scenes", arguments->scenes,
-                   "Also measure two large scenes (100 million triangles in instances, and 10,000 different objects): "
-                   "planning time, memory and time to the first image; building their pyramids takes minutes")
+                   "Also measure two large scenes (one with 100 million instanced triangles, one with 10,000 different "
+                   "objects): planning time, memory and time to the first image; building their pyramids takes minutes")
         ->group(group);
     addInteger(*command, "--runs", options.runs, 1, 1000, "Number of runs of each frame; the median is reported")
         ->group(group);

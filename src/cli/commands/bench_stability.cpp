@@ -44,11 +44,11 @@ std::vector<StabilityRow> printedCases(const Progress& progress) {
 std::vector<HonestyRow> printedHonesty(const Progress& progress) {
     fmt::print(
         "\n"
-        "Blurred disk of a point light compared with the lens: 100 mm f/1.4 focused at 2 m, light at 6 m, 36 mm "
-        "sensor,\n"
-        "192 px, 256 samples, except for the varied setting. The disk follows the lens if its size differs by at most "
-        "{:g} px\n"
-        "and its energy by at most {:g} %.\n",
+        "Blur disk of a point light, compared with the disk that the lens equation gives. Unless varied: 100 mm f/1.4 "
+        "focused\n"
+        "at 2 m, light at 6 m, 36 mm sensor, 192 px, 256 samples. A disk follows the lens if its size differs by at "
+        "most\n"
+        "{:g} px and its energy by at most {:g} %.\n",
         honestDiameter, 100 * honestEnergy, honestyHeader());
     std::vector<HonestyRow> rows;
     measureHonesty(
@@ -62,10 +62,10 @@ std::vector<HonestyRow> printedHonesty(const Progress& progress) {
     fmt::print(
         "\n"
         "{}\n"
-        "Differences are properties of the methods. scheuermann: as published, the blur is linear in depth between "
-        "three\n"
-        "planes and at most 10 px wide, for any lens; its pre-blurred small copy widens all disks, also with\n"
-        "coc=thin-lens. circular: below full resolution or with fewer taps, small disks become wider.\n",
+        "The methods cause the differences. scheuermann: as published, the blur is linear in depth between three\n"
+        "planes and at most 10 px wide, for any lens; the small, pre-blurred copy of the\n"
+        "image widens all disks, also with coc=thin-lens. circular: below full resolution or with fewer taps, small "
+        "disks become wider.\n",
         honestySummary(rows));
     return rows;
 }
@@ -91,8 +91,10 @@ void runStability(const StabilityArguments& arguments, const GlobalOptions& glob
 
 void addStabilityCommand(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<StabilityArguments>();
-    CLI::App* command = bench.add_subcommand(
-        "stability", "Compare extreme cases with their exact results, and check that the blur follows the lens");
+    CLI::App* command =
+        bench.add_subcommand("stability",
+                             "Compare extreme cases with their exact results, and check that the blur follows the lens "
+                             "equation");
     CLI::Option* output = command->add_option("-o,--output", arguments->output, "JSON file for the results")
                               ->type_name("FILE")
                               ->group("Output");

@@ -108,12 +108,14 @@ void runViewBench(const ViewBenchArguments& arguments, const GlobalOptions& glob
     openForBench(document, state);
     const BenchSubject subject = benchSubject(*context, global, *document.frame, 1);
     fmt::print("{}, {} x {} px, {}, on {}\n\n{}", subject.scene, subject.width, subject.height,
-               arguments.refocus ? "changes of focus and f-number at rest"
+               arguments.refocus ? "changes of focus and f-number with a still camera"
                                  : fmt::format("an orbit of {} frames", options.frames),
                subject.device, arguments.refocus ? refocusHeaderText() : headerText());
     std::fflush(stdout);
     nlohmann::ordered_json json = subjectJson("view", subject);
-    json["heldEqual"] = "scene, camera path, lens, image size, reference, process; the methods follow one another";
+    json["heldEqual"] =
+        "scene, camera path, lens, image size, reference, process; the methods are measured one after "
+        "another";
     json["referenceSamples"] = options.referenceSamples;
     const auto take = [&](const std::string& line, const nlohmann::ordered_json& row) {
         fmt::print("{}", line);
@@ -138,7 +140,7 @@ void addBenchViewCommand(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<ViewBenchArguments>();
     arguments->request.size = {1280, 720};
     CLI::App* command = bench.add_subcommand(
-        "view", "Measure the frame rate, response and image error of the viewer, without a display");
+        "view", "Measure the frame rate, response time and image error of the viewer, without a display");
     const char* group = "Measurement";
     ViewBenchOptions& options = arguments->options;
     addParsed(*command, "--methods", "NAME,NAME,…",
@@ -155,8 +157,8 @@ void addBenchViewCommand(CLI::App& bench, const GlobalOptions& global) {
         ->group(group);
     command
         ->add_flag("--refocus", arguments->refocus,
-                   "Measure changes of focus and f-number while the camera stands still, without and with kept lens "
-                   "images, instead of the orbit")
+                   "Instead of the orbit, measure changes of focus and f-number while the camera stands still, without "
+                   "and with stored lens images")
         ->group(group);
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"samples", "quality", "timeLimit", "method", "exposureTime", "iso"}));

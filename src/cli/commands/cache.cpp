@@ -85,7 +85,7 @@ void addCacheCommand(CLI::App& program) {
     const auto checked = [arguments, command, listing, clearing](void (*act)(const CacheArguments&)) {
         for (const CLI::App* place : {command, listing, clearing})
             if (place->count("--cache-dir") > 0 && arguments->request.cacheFolder.empty())
-                throw UsageError("--cache-dir: the folder has an empty name");
+                throw UsageError("--cache-dir: the name is empty; give a folder");
         act(*arguments);
     };
     listing->callback([checked] { checked(list); });

@@ -85,7 +85,8 @@ std::string shutterText(double seconds) {
 }
 
 const char* const plainLensNote =
-    "The depth of field ignores the sharp range, tilt, curvature and limits of the blur; the table includes them";
+    "The depth of field is computed without sharp range, tilt, field curvature and blur limits; the blur at each depth "
+    "includes them";
 
 }  // namespace
 

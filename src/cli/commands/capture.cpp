@@ -79,8 +79,8 @@ void checkArguments(const CaptureArguments& arguments) {
     if (!arguments.shot.video.empty()) {
         if (part)
             fail(
-                "--video needs all frames; run all shards first, then the command without --shard and with --resume "
-                "--video {}",
+                "--video needs all frames; run all shards first, then repeat the command without --shard but with "
+                "--resume --video {}",
                 arguments.shot.video.string());
         checkVideo(arguments.shot.video);
     }
@@ -197,8 +197,8 @@ void printFigures(const FilmFigures& figures, std::size_t frames) {
     if (figures.finishedBefore > 0) text += fmt::format(", {} of them from earlier runs", figures.finishedBefore);
     if (figures.rendered > 0)
         text += fmt::format(
-            ": {} rendered in {:.1f} s; their render times add up to {:.1f} s ({:.0f} ms and {:.2f} M triangles per "
-            "frame)",
+            ": {} rendered and written in {:.1f} s; rendering alone took {:.1f} s ({:.0f} ms and {:.2f} M triangles "
+            "per frame)",
             figures.rendered, total, render, 1000 * render / figures.rendered,
             static_cast<double>(figures.triangles) * 1e-6 / figures.rendered);
     if (figures.tiles > 1) text += fmt::format(", each in {} tiles", figures.tiles);
@@ -214,7 +214,7 @@ void printPops(const PopCheck& check) {
             "sample positions (another seed) change these pixels by an RMSE of {:.4f}",
             pop->rmse, pop->object, pop->frame - 1, pop->frame, pop->seedRmse);
     else
-        text += "none, as no object changes its level";
+        text += "none, because no object changes its level of detail";
     if (check.incomparable() > 0)
         text += fmt::format(
             "; frame pairs that cannot be compared, because their numbers of samples differ: {}; give --samples N",
@@ -239,7 +239,7 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
     // With a time limit, render at least one frame, so that repeated runs eventually finish.
     const Clock::time_point start = Clock::now();
     bool first = true;
-    setStopMessage("stopped within a frame: finished frames are kept; repeat the command with --resume to continue");
+    setStopMessage("stopped during a frame: finished frames are kept; repeat the command with --resume to continue");
     const auto stop = [&] {
         const std::optional<double> limit = arguments.request.timeLimit;
         const bool late = limit && !std::exchange(first, false) && millisecondsSince(start) > 1000 * *limit;
@@ -367,8 +367,8 @@ void addShot(CLI::App& command, CaptureArguments& arguments) {
         ->required()
         ->type_name("FILE");
     addParsed(command, "--range", "FIRST:LAST",
-              "First and last frame to render, or a single frame. A turntable or dolly still moves over all frames of "
-              "the shot",
+              "First and last frame to render, or a single frame. The movement of a turntable or dolly still takes all "
+              "frames of the shot",
               [&arguments](const std::string& text) { arguments.range = parseFrameRange(text); })
         ->group(group);
     addNumber(command, "--frame-rate", arguments.shot.frameRate, {1e-3, 1e6}, "FPS", "Frame rate in frames per second")
@@ -418,8 +418,8 @@ void addOutputs(CLI::App& command, CaptureArguments& arguments) {
     command
         .add_flag(
             "--refocus", arguments.refocus,
-            "Render one set of lens images for consecutive frames of a still scene that differ only in focus, f-number "
-            "or aperture shape, and compute these frames from it")
+            "Where the scene is still and consecutive frames differ only in focus, f-number or aperture shape, render "
+            "one set of lens images and compute these frames from the set")
         ->group(group);
     command
         .add_flag("--check", arguments.check,

@@ -38,8 +38,8 @@ RefocusRuns chosenRuns(const Shot& shot, const SequenceBase& base, const FilmSet
 
 std::string savedText(const FilmSettings& settings, const FilmFigures& figures) {
     if (figures.refocused == 0)
-        return "--refocus computed no frames; it needs consecutive frames that differ only in focus, f-number or "
-               "aperture shape";
+        return "--refocus has no effect: it needs consecutive frames that differ only in focus, f-number or aperture "
+               "shape";
     return "refocused " +
            savingText(static_cast<std::uint64_t>(figures.refocused), figures.lensImages, samplesOf(settings));
 }

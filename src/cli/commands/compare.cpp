@@ -203,7 +203,8 @@ void addCompareCommand(CLI::App& program, const GlobalOptions&) {
     command->footer(
         "All metrics except HDR FLIP use sRGB-encoded values in [0, 1] at EV 0. A pixel that is NaN or infinite in "
         "one\n"
-        "image counts as the maximum difference. If it is so in both images, it counts as equal.\n\n"
+        "image counts as the maximum difference. If it is NaN or infinite in both, it counts as equal.\n"
+        "\n"
         "Example:\n"
         "  defocus compare reference.exr out.exr --error-map error.png --fail-above flip=0.015 --fail-above psnr=42");
     command->callback([arguments] { runCompare(*arguments); });

@@ -214,7 +214,7 @@ void addCompletionsCommand(CLI::App& program) {
     command->footer(
         "Example:\n"
         "  source <(defocus completions bash)\n"
-        "An installation puts the completion scripts where the shells find them.");
+        "If defocus is installed, the shells find the completion scripts without this command.");
     command->callback([&program, script] {
         fmt::print(fmt::runtime(*script), fmt::arg("table", completionTable(program)), fmt::arg("awk", awkProgram));
         std::fflush(stdout);

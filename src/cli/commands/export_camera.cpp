@@ -66,7 +66,10 @@ void runExportCamera(const ExportArguments& arguments, const GlobalOptions& glob
     const PreparedFrame first = placeFrame(arguments.request, terminalProgress(global));
     WarningPrinter warnings(global);
     warnings.print(frameWarnings(first));
-    if (first.view.lens.apertureImage) warnings.print({"the aperture image is not written"});
+    if (first.view.lens.apertureImage)
+        warnings.print(
+            {"the aperture image is not exported; give --aperture-image "
+             "again when you render with the exported camera"});
 
     CameraTake take;
     take.name = first.cameraName.empty() ? "Camera" : first.cameraName;

@@ -269,8 +269,8 @@ std::string repairSummary(const Scene& scene) {
         if (count > 0) kinds.push_back(fmt::format("{} {}", grouped(count), what));
     };
     mention(sum.dropped, "removed (no area or repeated)");
-    mention(sum.turned, "flipped to face as their neighbours");
-    mention(sum.cut, "detached at edges of more than two faces");
+    mention(sum.turned, "flipped to face the same way as their neighbours");
+    mention(sum.cut, "detached at edges shared by more than two faces");
     mention(sum.split, "detached at corners where surfaces only touch");
     return fmt::format("{} face{} repaired before simplification: {}", grouped(sum.faces), sum.faces == 1 ? "" : "s",
                        fmt::join(kinds, ", "));
@@ -344,7 +344,8 @@ void addCameraQuestion(CLI::App& command, InfoOptions& options) {
         command
             .add_flag("--camera", options.camera,
                       "Print the camera instead of the scene: field of view, depth of field, hyperfocal distance, "
-                      "exposure and the blur at several depths. --camera=NAME chooses a camera, or 'auto'")
+                      "exposure and the blur at several depths. --camera=NAME prints another camera, --camera=auto the "
+                      "camera that frames the scene")
             ->group(group);
     addParsed(command, "--depths", "M,M,…",
               "Depths in m at which to print the blur; may include 'inf'. Default: depths around the focus",

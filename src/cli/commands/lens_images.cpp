@@ -59,16 +59,17 @@ void renderLensImages(const RenderArguments& arguments, const GlobalOptions& glo
     setStopMessage("stopped; the file of lens images is not written");
     std::uint64_t done = 0;
     do {
-        if (stopAsked()) fail("stopped after {} of {} lens images; the file is not written", done, info.points.size());
+        if (stopAsked()) fail("stopped after {} of {} lens images; the file was not written", done, info.points.size());
         report(progress, "lens images", done++, info.points.size());
     } while (output.advance());
     output.finish();
     progress = {};
     if (!global.quiet)
-        printMessage("{}: {} lens images of {}x{} px with a margin of {} px, for a focus from {} to {}, in {:.2f} s\n",
-                     arguments.lensImages.string(), info.points.size(), info.size.width, info.size.height,
-                     info.size.margin, distanceText(info.range.nearest), distanceText(info.range.farthest),
-                     millisecondsSince(start) / 1000);
+        printMessage(
+            "{}: {} lens images of {}x{} px with a margin of {} px, for focus distances from {} to {}, in "
+            "{:.2f} s\n",
+            arguments.lensImages.string(), info.points.size(), info.size.width, info.size.height, info.size.margin,
+            distanceText(info.range.nearest), distanceText(info.range.farthest), millisecondsSince(start) / 1000);
 }
 
 }  // namespace defocus::engine

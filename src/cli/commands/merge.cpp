@@ -68,11 +68,13 @@ void runMerge(const MergeArguments& arguments, const GlobalOptions& global) {
 void addMergeCommand(CLI::App& program, const GlobalOptions& global) {
     auto arguments = std::make_shared<MergeArguments>();
     CLI::App* command = program.add_subcommand(
-        "merge", "Merge the parts of a frame (render or capture with --sample-range, render with --tile)");
+        "merge",
+        "Merge the parts of a frame, written by render or capture with --sample-range, or by render with "
+        "--tile");
     command->add_option("PART", arguments->parts, "Parts of one frame, in any order")->required()->type_name("FILE…");
     addImageOutputs(*command, arguments->outputs);
     addNumber(*command, "--exposure", arguments->exposure, {-60, 60}, "EV",
-              "Exposure in EV for PNG and JPEG. Default: from the parts' lens if it has an exposure time, else 0");
+              "Exposure in EV for PNG and JPEG. Default: from the --exposure-time of the parts, else 0");
     addChoice<ToneMap>(
         *command, "--tonemap", arguments->toneMap,
         {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}, {"neutral", ToneMap::neutral}},

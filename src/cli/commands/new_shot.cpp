@@ -90,12 +90,14 @@ void runNewShot(const NewShotArguments& arguments, const GlobalOptions& global) 
 
 void addNewShotCommand(CLI::App& program, const GlobalOptions& global) {
     auto arguments = std::make_shared<NewShotArguments>();
-    CLI::App* command = program.add_subcommand("new-shot", "Create a shot file for a scene, to edit and to capture");
+    CLI::App* command = program.add_subcommand("new-shot",
+                                               "Create a shot file for a scene, which you can edit and "
+                                               "render with 'defocus capture'");
     addSettings(*command, arguments->request, {"scene"});
     command
         ->add_option("-o,--output", arguments->output,
-                     "Shot file to write. Its JSON schema is written beside it, for editors. Default: SCENE.json in "
-                     "the current folder")
+                     "Shot file to write. Its JSON schema is written beside it, for text editors. Default: SCENE.json "
+                     "in the current folder")
         ->type_name("FILE");
     command->add_flag("--overwrite", arguments->overwrite, "Replace an existing shot file");
     command->footer(

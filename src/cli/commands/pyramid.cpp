@@ -261,7 +261,7 @@ void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) 
     options.finishes = &finishes;
     if (const std::string failure = buildAll(scene, arguments.cacheFolder, options, reports, progress);
         !failure.empty())
-        WarningPrinter(global).print({"a pyramid was not cached: " + failure});
+        WarningPrinter(global).print({"a pyramid could not be cached: " + failure});
     if (!arguments.noMeasure) measureAll(reports, arguments.points, progress);
     std::size_t files = 0;
     if (!arguments.exportFolder.empty()) files = exportAll(scene, reports, arguments.exportFolder, stems);
@@ -288,25 +288,29 @@ void addPyramidCommand(CLI::App& program, const GlobalOptions& global) {
         ->type_name("NAME");
     CLI::Option* points = advanced(addInteger(
         *command, "--points", arguments->points, 100, 100'000'000,
-        "Number of points on each level and on the full mesh at which the distance between both is measured"));
+        "Number of points on each level and on the full mesh at which the distance between the two is measured"));
     command
         ->add_flag("--no-measure", arguments->noMeasure,
-                   "Do not measure the distances between levels and full mesh, which takes most of the time")
+                   "Do not measure the distances between the levels and the full mesh; measuring takes most of the "
+                   "time")
         ->excludes(points);
     command->add_option("--export", arguments->exportFolder, "Folder to which each level is written as a .glb file")
         ->type_name("FOLDER");
     command
         ->add_option("--cache-dir", arguments->cacheFolder,
-                     "Folder from which levels are read and in which they are stored. Default: build all levels")
+                     "Folder from which levels are read and in which they are stored. Default: none; all levels are "
+                     "built")
         ->type_name("FOLDER");
     command->add_flag(
         "--json", arguments->json,
         "Print JSON, with the distances from each level to the full mesh and from the full mesh to each level");
     addSettings(*command, arguments->request, {"levelVertices"});
     command->footer(
-        "Lengths are in the units of the mesh. The error of a level is an upper bound of the 99th percentile of the\n"
-        "distances between the level and level 0, in either direction. Measured distances are the larger of both\n"
-        "directions.\n\n"
+        "Lengths are in the units of the mesh. The error of a level is an upper bound on the 99th percentile of the\n"
+        "distances between the level and level 0, in either direction. Each measured distance is the larger of the "
+        "values\n"
+        "for the two directions.\n"
+        "\n"
         "Example:\n"
         "  defocus pyramid scene.glb --mesh Body --export levels");
     command->callback([arguments, &global] { runPyramid(*arguments, global); });

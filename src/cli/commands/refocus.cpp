@@ -131,9 +131,11 @@ void addRefocusCommand(CLI::App& program, const GlobalOptions& global) {
               [arguments](const std::string& text) { arguments->page = text; })
         ->excludes("--output")
         ->excludes(fills);
-    CLI::Option* const pull = addParsed(
-        *command, "--focus-pull", "A:B", "Film a focus pull from distance A to distance B in m; needs --video",
-        [arguments](const std::string& text) { parseFocusPull(text, arguments->pull); });
+    CLI::Option* const pull =
+        addParsed(*command, "--focus-pull", "A:B",
+                  "Make a video of a focus pull from distance A to distance B in m; needs "
+                  "--video",
+                  [arguments](const std::string& text) { parseFocusPull(text, arguments->pull); });
     CLI::Option* const video =
         addParsed(*command, "--video", "FILE", "Video file of --focus-pull: .mp4, .mov, .mkv, .webm or .gif",
                   [arguments](const std::string& text) { arguments->pull.video = text; });
@@ -145,9 +147,9 @@ void addRefocusCommand(CLI::App& program, const GlobalOptions& global) {
               "Frames per second of --focus-pull")
         ->needs(pull);
     addInteger(*command, "--stack", arguments->stack, 2, 100,
-               "Write a focal stack for the output out.exr: N images (out.00.exr, out.01.exr …), an image with "
-               "everything in focus (out.sharp.exr) and depths in m (out.depth.exr). The focus distances cover the "
-               "focus range of the lens images (render --focus-range), evenly in 1/distance")
+               "Write a focal stack. With -o out.exr: N images (out.00.exr, out.01.exr …), an image with everything in "
+               "focus (out.sharp.exr) and depths in m (out.depth.exr). The focus distances cover the focus range of "
+               "the lens images (render --focus-range), evenly in 1/distance")
         ->default_str("")
         ->excludes("--html")
         ->excludes(pull);

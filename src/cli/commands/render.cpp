@@ -44,8 +44,9 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
         addParsed(
             command, "--aov", "depth,coc,level,work",
             "Also write auxiliary images beside the first output. depth: depth in m. coc: signed circle of confusion "
-            "in px. level: level of detail. work: triangles per pixel, including hidden ones, summed over the lens "
-            "samples of method accumulation. depth and coc are written as EXR, level and work as EXR and PNG",
+            "in px. level: level of detail. work: triangles per pixel, including hidden triangles, summed over the "
+            "lens samples that method accumulation draws. depth and coc are written as EXR, level and work as EXR and "
+            "PNG",
             [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
             ->group(group));
     advanced(addParsed(command, "--sample-range", "FIRST:END",
@@ -163,7 +164,7 @@ void printSummary(const RenderArguments& arguments, const RenderReport& report, 
 
 void printChoices(const GlContext& context, const RenderReport& report) {
     for (const std::string& line : context.log()) printMessage("{}\n", line);
-    printMessage("{} layers of {} at once\n", report.stats.wave, report.stats.layerFormat);
+    printMessage("{} lens samples drawn at once, pixel format {}\n", report.stats.wave, report.stats.layerFormat);
     for (const LeftOut& entry : report.plan.leftOut) printMessage("left out: {}: {}\n", entry.what, entry.reason);
     printMessage("load {:.0f} ms, pyramids {:.0f} ms, set-up {:.0f} ms, render {:.0f} ms\n",
                  report.frame.loadMilliseconds, report.frame.pyramidMilliseconds, report.stats.setupMilliseconds,
@@ -192,7 +193,7 @@ std::optional<PartialImage> partialImage(FrameOutput& output, SceneDriver& drive
 std::string writePartial(const std::vector<std::filesystem::path>& outputs, const PartialImage& partial) {
     for (const std::filesystem::path& path : outputs)
         writeOutput(path, partial.image, partial.metadata, partial.options);
-    return fmt::format("stopped after {} of {} samples: the image of these samples is written", partial.samples,
+    return fmt::format("stopped after {} of {} samples: the image from these samples was written", partial.samples,
                        partial.sampleTotal);
 }
 
@@ -238,7 +239,7 @@ bool draw(FrameOutput& output, SceneDriver& driver, const Progress& progress, co
         step();
         if (stopAsked()) return false;
     } while (output.advance());
-    setStopMessage("stopped while the finished image was written; repeat the command");
+    setStopMessage("stopped while the finished image was being written; repeat the command");
     return true;
 }
 

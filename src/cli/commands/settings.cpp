@@ -102,19 +102,22 @@ std::string methodRow(const Method& method, const MethodSetting& setting) {
 
 std::string markdown() {
     std::string page =
-        "# Settings\n\n"
+        "# Settings\n"
+        "\n"
         "All settings of an image. `defocus settings --markdown` prints this page from the table that the\n"
-        "program uses (`src/frame/settings/rows.cpp`).\n\n"
+        "program uses (`src/frame/settings/rows.cpp`).\n"
+        "\n"
         "- **Option**: the option of `render`, `capture`, `view`, `plan` and `bench`.\n"
         "- **Python**: the keyword of `defocus.render` and related functions. `defocus::Request` in C++ has the same "
         "names.\n"
         "- **Shot**: the JSON pointer of the setting in a shot file ([shots](shots.md)). *keyframes* marks settings\n"
-        "  that can be animated. The extras of a glTF camera can hold lens values, too, under the last part of this\n"
-        "  pointer, such as `fStop`.\n"
+        "  that can be animated. The extras of a glTF camera can hold lens values, too; the key is the last part of\n"
+        "  the pointer, such as `fStop`.\n"
         "- **Range**: the permitted values. Lengths in mm or m also accept a suffix mm, cm or m, such as 50cm. A\n"
         "  boolean option needs no value: `--dof` is `--dof true`, and `--no-dof` is `--dof false`. The opposite of\n"
         "  `--no-cache` is `--cache`.\n"
-        "- **Default**: empty if there is no fixed default. The meaning then says what decides, if anything does.\n";
+        "- **Default**: empty if there is no fixed default. The meaning then says how the value is chosen, if one "
+        "is.\n";
     SettingGroup group = SettingGroup::developer;
     bool first = true;
     for (const Setting& setting : settings()) {
@@ -170,7 +173,8 @@ void addSettingsCommand(CLI::App& program) {
         command
             ->add_option(
                 "--shot-schema", arguments->schema,
-                "Print this JSON schema of shots with the current types, ranges and descriptions of the settings")
+                "Print the given JSON schema of shot files, with the current types, ranges and descriptions of the "
+                "settings")
             ->type_name("FILE")
             ->check(unnamed(CLI::ExistingFile));
     json->excludes(page)->excludes(schema);

@@ -32,7 +32,7 @@ void addViewCommand(CLI::App& program, const GlobalOptions& global) {
     CLI::App* command = program.add_subcommand("view", "Open an interactive viewer to look around, focus and compare");
     const char* group = "Window";
     addInteger(*command, "--frames", options->frames, 1, 1'000'000,
-               "Close the window after N frames of the scene. Default: keep it open")
+               "Close the window after it has drawn the scene N times. Default: keep it open")
         ->default_str("")
         ->group(group);
     command

@@ -89,7 +89,8 @@ void checkDistinct(const std::vector<fs::path>& outputs, const std::vector<fs::p
         std::error_code missing;
         const fs::path file = fs::weakly_canonical(fs::absolute(output, missing), missing);
         const bool regular = !fs::exists(file, missing) || fs::is_regular_file(file, missing);
-        if (regular && !files.insert(file).second) fail("{}: this output is given twice", output.string());
+        if (regular && !files.insert(file).second)
+            fail("{}: this output is given twice; give each output once", output.string());
         for (const fs::path& input : inputs)
             if (!input.empty() && fs::equivalent(input, output, missing))
                 fail("{}: the file is also an input; give another output", output.string());

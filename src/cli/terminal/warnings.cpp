@@ -13,7 +13,7 @@ void WarningPrinter::print(const std::vector<std::string>& lines) {
 
 void printCacheUse(const PreparedFrame& frame, const GlobalOptions& global) {
     if (!global.verbose || frame.cacheFolder.empty()) return;
-    printMessage("{} of {} pyramids from the cache in {}\n", frame.pyramidsLoaded, frame.world.pyramids.size(),
+    printMessage("{} of {} pyramids read from the cache in {}\n", frame.pyramidsLoaded, frame.world.pyramids.size(),
                  frame.cacheFolder.string());
 }
 

@@ -323,7 +323,7 @@ void checkLayers(FrameOrder& order, const Method& method, bool perSample) {
     if (order.settings.layers.empty()) return;
     if (!method.drawsLayers)
         throw UsageError(
-            fmt::format("method {} draws no layers for --exr-layers; use auto or accumulation", method.name));
+            fmt::format("method {} cannot draw the layers of --exr-layers; use auto or accumulation", method.name));
     if (order.samples || order.rows)
         throw UsageError("--exr-layers needs the whole image; leave out --sample-range and --tile");
     if (order.takeSample) throw UsageError("--exr-layers cannot be combined with --lens-images");

@@ -64,7 +64,7 @@ void FrameOutput::check(const FrameFiles& files, const Request& request) {
             fail("--sample-range writes sums of samples to a single EXR file; give one output, such as -o part.exr");
     }
     if (files.keepPartial && (files.samples || files.share))
-        throw UsageError("--keep-partial keeps an image; it cannot be combined with --sample-range or --tile");
+        throw UsageError("--keep-partial cannot be combined with --sample-range or --tile; leave one of them out");
     if (!files.share && !files.resume) return;
     const std::string option = files.share ? "--tile" : "--resume";
     const Method& method = *chosenMethod(request).method;
@@ -117,7 +117,8 @@ void FrameOutput::findTiles() {
 void FrameOutput::findShare() {
     const int height = wanted_.end;
     if (files_.share->count > height)
-        fail("--tile {}/{}: the image has only {} rows", files_.share->index, files_.share->count, height);
+        fail("--tile {}/{}: the image has only {} rows; use fewer tiles", files_.share->index, files_.share->count,
+             height);
     wanted_ = rowsOfPart(height, files_.share->index, files_.share->count);
     parts_.rows = {wanted_};
     if (!files_.resume || !isRowFile(files_.outputs.front())) return;
@@ -146,8 +147,8 @@ void FrameOutput::start(const Progress& progress) {
     if (!driver_.driver().inTiles()) {
         if (files_.resume)
             throw UsageError(
-                "--resume continues a frame that is drawn in tiles, but this frame fits into memory; leave out "
-                "--resume");
+                "--resume continues a frame that is drawn in tiles, but this frame fits into memory without tiles; "
+                "leave out --resume");
     } else if (settings_.empty()) {
         settings_ = driver_.settingsHash();
         findTiles();
@@ -191,7 +192,7 @@ std::optional<Image> FrameOutput::partialImage() {
 
 std::string FrameOutput::stopMessage() const {
     const FrameDriver& driver = driver_.driver();
-    if (files_.share) return fmt::format("stopped: tile {} is not written", header().share);
+    if (files_.share) return fmt::format("stopped: tile {} was not written", header().share);
     if (driver.inTiles())
         return fmt::format("stopped: {} of {} rows are kept in {}; repeat the command with --resume to continue",
                            rowsKept_ + rowsDone_, wanted_.end, tilesFolder().string());

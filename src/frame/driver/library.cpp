@@ -37,7 +37,7 @@ std::vector<std::string> namesOf(const Things& things) {
 void addLens(const std::string& label, const LensSettings& settings, double metresPerUnit, engine::Camera& camera) {
     if (!settings.apertureImage.empty())
         throw UsageError(engine::shortLine(label) +
-                         ": a camera in memory does not support apertureImage; set it in Request::lens");
+                         ": a camera in SceneData does not support apertureImage; set it in Request::lens");
     engine::Lens scratch;
     for (auto [name, value] : engine::givenLensValues(settings)) {
         const engine::LensField& field = *engine::lensFieldNamed(name);

@@ -48,8 +48,8 @@ std::size_t pyramidKind(const RenderSettings& settings) {
 std::vector<std::string> tiledSamplesNote(const FramePlan& plan) {
     if (!plan.usesLens) return {};
     return {
-        fmt::format("the image is drawn in tiles with {} lens samples, a number estimated from the blur; an image "
-                    "without tiles may have another number; set it with --samples",
+        fmt::format("the image is drawn in tiles with {} lens samples, a number estimated from the blur; without "
+                    "tiles, the number may differ; give --samples for a fixed number",
                     plan.samples.size())};
 }
 
@@ -232,7 +232,7 @@ std::vector<std::string> SceneDriver::warnings() const {
     }
     if (request_.threads.value_or(1) > 1 && !drawsInThreads(context_->device(), context_->driver()))
         lines.push_back(
-            fmt::format("--threads {} has no effect: contexts of {} ({}) cannot draw in several threads; use "
+            fmt::format("--threads {} has no effect: OpenGL contexts of {} ({}) cannot draw in several threads; use "
                         "Mesa 25.0 or later",
                         *request_.threads, context_->device(), context_->driver()));
     add(clipped_);

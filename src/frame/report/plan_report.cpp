@@ -30,15 +30,15 @@ EndText textOf(engine::PyramidEnd end) {
     using engine::PyramidEnd;
     switch (end) {
         case PyramidEnd::minTriangles:
-            return {"minTriangles", "this is the minimum size of a level"};
+            return {"minTriangles", "the last level has the minimum number of triangles"};
         case PyramidEnd::smallSaving:
-            return {"smallSaving", "it would save less than a quarter of the triangles"};
+            return {"smallSaving", "a further level would save less than a quarter of the triangles"};
         case PyramidEnd::topology:
-            return {"topology", "handles, cuts and borders need the remaining triangles"};
+            return {"topology", "holes, seams and borders of the mesh need the remaining triangles"};
         case PyramidEnd::largestParts:
-            return {"largestParts", "it would remove triangles of the largest parts"};
+            return {"largestParts", "only the largest connected parts could be simplified further"};
         case PyramidEnd::noSurface:
-            return {"noSurface", "no triangle has an area"};
+            return {"noSurface", "all triangles have zero area"};
         case PyramidEnd::maxLevels:
             return {"maxLevels", "the maximum number of levels is reached"};
     }

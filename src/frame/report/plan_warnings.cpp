@@ -96,9 +96,10 @@ std::vector<std::string> coarseDivisions(const FramePlan& plan) {
     const auto count = std::ranges::count_if(plan.objects, bounded);
     if (count == 0) return {};
     return {
-        fmt::format("the blur of {} object{} varies too much within triangles and is approximated: to limit the number "
-                    "of triangles, their edges are divided into at most {} parts; use a smaller --field-curvature, "
-                    "--radial-blur-gain or --astigmatism, or levels of detail, which have fewer triangles",
+        fmt::format("the blur of {} object{} varies too much within triangles and is approximated: edges are divided "
+                    "into at most {} parts, to limit the number of triangles; use a smaller --field-curvature, "
+                    "--radial-blur-gain or --astigmatism, or levels of detail, whose fewer triangles can be divided "
+                    "further",
                     count, count == 1 ? "" : "s", std::ranges::find_if(plan.objects, bounded)->maxParts)};
 }
 
@@ -122,7 +123,7 @@ std::vector<std::string> sharedName(const std::string& name, const PreparedFrame
     if (sharing.size() < 2) return {};
     const int used = nodeCalled(*frame.scene, name);
     const std::size_t listed = std::min(sharing.size(), maxSharing);
-    return {fmt::format("{} nodes are named '{}': {}{}; #{} is used; give the number of another node instead",
+    return {fmt::format("{} nodes are named '{}': {}{}; #{} is used; to use another node, give its number",
                         sharing.size(), name, fmt::join(sharing.begin(), sharing.begin() + listed, ", "),
                         listed < sharing.size() ? ", …" : "", used)};
 }

@@ -172,7 +172,8 @@ std::string statsJson(const RenderReport& report) {
         {"busiestThreadMilliseconds", stats.cpuTime.busiestMilliseconds},
         {"gpuMilliseconds", stats.gpuMilliseconds},
         {"gpuMillisecondsNote",
-         report.softwareDriver ? "timer queries of a software driver; they exclude vertex work, so do not compare them"
+         report.softwareDriver ? "timer queries of a software driver; they exclude vertex work, so do not compare them "
+                                 "with other times"
                                : "timer queries around the waves of samples"},
         {"trianglesDrawn", stats.trianglesDrawn},
         {"trianglesFacingAway", report.plan.trianglesFacingAway},
@@ -221,7 +222,7 @@ std::string summary(const RenderReport& report) {
     else if (const std::uint32_t asked = report.options.samples.value_or(0);
              asked > stats.samples && stats.samples == report.plan.frameSamples && !report.plan.usesLens &&
              usesLensSamples(report))
-        samples += fmt::format(" (of {}, as nothing is blurred; --keep-all draws all)", asked);
+        samples += fmt::format(" (of {}: nothing is blurred, so fewer suffice; --keep-all draws all)", asked);
     return fmt::format("{}x{}, {} in {:.2f} s: {}, {}", report.plan.view.width, report.plan.view.height, samples,
                        stats.renderMilliseconds / 1000, triangles, stats.device);
 }

@@ -14,7 +14,7 @@ std::span<const Preset> presets() {
         // Jeong, Kim and Lee 2011 give no constant of proportionality for their rule "level ∝ blur / object size". The
         // constant, blurThreshold, is this program's choice (proportionalLevels in level_selection.h).
         {"jeong2011",
-         "accumulation with levels of detail by the ratio of blur to object size (Jeong et al. 2011)",
+         "accumulation, with levels of detail chosen by the ratio of blur to object size (Jeong et al. 2011)",
          {{"method", "accumulation"},
           {"sequence", "halton"},
           {"lod", "fractional"},
@@ -25,7 +25,7 @@ std::span<const Preset> presets() {
         // Tzeng et al. 2012. The paper gives no values for blurThreshold, bin-size and lines-per-position; these values
         // are this program's choice.
         {"tzeng2012",
-         "line samples with a buffer of fixed size (Tzeng et al. 2012)",
+         "line samples, with a limited number of stored segments for each (Tzeng et al. 2012)",
          {{"focusBreathing", "true"},
           {"method",
            "line:resolve=published,shading-step=0,interval-bits=16,lines-per-position=4,bin-size=65536,"
@@ -36,16 +36,16 @@ std::span<const Preset> presets() {
           {"lodCoc", "smallest"},
           {"levelVertices", "quarters"}}},
         {"scheuermann2004",
-         "blur of one pinhole image with the samples of a Poisson disk (Scheuermann 2004)",
+         "one pinhole image, blurred with the samples of a Poisson disk (Scheuermann 2004)",
          {{"method", "scheuermann:bits=8,multisampling=4,pinholes=1"}, {"lod", "off"}}},
         {"garcia2018",
-         "blur of one pinhole image with separable circular kernels (Garcia 2018)",
+         "one pinhole image, blurred with separable circular kernels (Garcia 2018)",
          {{"method",
            "circular:near-components=1,resolution=quarter,kernel=published,max-coc=published,kernel-taps=eight,"
            "storage=r10g10b10a2,transparency-buckets=0,pinholes=1"},
           {"lod", "off"}}},
         {"lee2010",
-         "lens rays through the depth layers of one pinhole image (Lee et al. 2010)",
+         "lens rays, traced through the depth layers of one pinhole image (Lee et al. 2010)",
          {{"method", "layered:pinholes=1"}, {"lod", "off"}}},
         {"munkberg2012",
          "stochastic lens samples for each pixel (Munkberg et al. 2012)",

@@ -88,7 +88,7 @@ std::optional<std::string> focusPixelText(const Request& request) {
 void setFocusPoints(Request& request, const std::string& text) {
     const std::vector<std::string> parts = splitAt(text, ',');
     if (parts.size() < 2 * minFocusPoints || parts.size() % 2 != 0 || parts.size() > 2 * maxFocusPoints)
-        fail("'{}' is not X,Y,X,Y,X,Y: the columns and rows of {} to {} pixels", text, minFocusPoints, maxFocusPoints);
+        fail("'{}' is not X,Y,X,Y,X,Y (the columns and rows of {} to {} pixels)", text, minFocusPoints, maxFocusPoints);
     FocusPoints points;
     for (std::size_t i = 0; i < parts.size(); i += 2) points.pixels.push_back(parsePixel(parts[i], parts[i + 1]));
     request.focus = std::move(points);

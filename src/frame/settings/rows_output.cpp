@@ -83,8 +83,8 @@ Rows methodRows() {
     for (const Method& method : methods()) names.push_back(method.name);
     return {
         rows::other("method", "--method", "NAME", setMethod, methodText,
-                    fmt::format("Rendering method: {}. auto: multirate if a visible part of the image has a wide "
-                                "blur, else accumulation. NAME:SETTING=VALUE,… also sets the method's settings. "
+                    fmt::format("Rendering method: {}. auto: multirate if at least 1 % of the image is blurred by 8 px "
+                                "or more, else accumulation. NAME:SETTING=VALUE,… also sets the method's settings. "
                                 "docs/methods.md explains the methods",
                                 fmt::join(names, ", ")))
             .clears(clearMethod)
@@ -126,8 +126,8 @@ Rows displayRows() {
             .effect(SettingEffect::display)
             .inShot("/toneMap"),
         Row(SettingKind::number, "exposure", "--exposure", "EV|auto",
-            "Exposure in EV for PNG, JPEG and video. auto: metered from the scene, for a film once in its first "
-            "frame. Default: from --exposure-time if given, else auto for scenes with lights, else 0")
+            "Exposure in EV for PNG, JPEG and video. auto: metered from the scene; a film is metered once, in its "
+            "first frame. Default: from --exposure-time if given, else auto for scenes with lights, else 0")
             .range(-60, 60)
             .choices({"auto"})
             .clears(MEMBER(exposure))
@@ -166,9 +166,9 @@ Rows developerRows() {
              {"surviving", LevelVertices::surviving},
              {"quarters", LevelVertices::quarters}},
             MEMBER(levelVertices),
-            "How the vertices of a level of detail are made. fitted: moved to match the original surface best. "
-            "surviving: a subset of the original vertices, unchanged. quarters: like surviving, but with only three "
-            "levels: the full mesh, and 75 and 50 % of its vertices")
+            "How the vertices of a level of detail are made. fitted: moved to match the original surface as closely as "
+            "possible. surviving: a subset of the original vertices, unchanged. quarters: like surviving, but with "
+            "only three levels: the full mesh, and 75 and 50 % of its vertices")
             .inShot("/levelVertices")
             .unused(withoutLevels),
         rows::choice<LodCoc>("lodCoc", "--lod-coc", {{"smallest", LodCoc::smallest}, {"centre", LodCoc::centre}},

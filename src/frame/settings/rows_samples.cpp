@@ -52,8 +52,8 @@ Row samplesRow() {
                "samples", "--samples", 1, maxSamples, MEMBER(samples),
                fmt::format("Number of lens samples. If the image has no visible blur, no motion and no shadows, at "
                            "most {} are drawn, unless --keep-all is given. auto: the number that --quality needs, at "
-                           "most {}. With --target-error, or with --time-limit of a single image: the maximum "
-                           "number, {} by default",
+                           "most {}. With --target-error, or if a single image has a --time-limit, this option sets "
+                           "the maximum number; default: {}",
                            antialiasingSamples, maxAutomaticSamples, maxSamples))
         .metavar("N|auto")
         .choices({"auto"})
@@ -70,9 +70,9 @@ Row samplesRow() {
 
 Row positionsRow() {
     return rows::integer("positions", "--positions", 1, 4, MEMBER(positions),
-                         "Number of positions in each pixel at which a lens sample draws the scene: 1, or 4 in a grid "
-                         "of 2 x 2, which smooths edges as well as 2 to 4 times as many samples would. auto: 4 for "
-                         "still images of many triangles and little blur if --samples and --method are auto, else 1")
+                         "Number of positions in each pixel at which a lens sample draws the scene: 1, or 4 (a 2 x 2 "
+                         "grid). 4 positions smooth edges like 2 to 4 times as many samples. auto: 4 for still images "
+                         "of many triangles and little blur if --samples and --method are auto, else 1")
         .metavar("1|4|auto")
         .choices({"auto"})
         .values(
@@ -119,9 +119,9 @@ Rows sampleRows() {
             .example("0.003")
             .inShot("/targetError"),
         rows::number("timeLimit", "--time-limit", "S", 1e-3, 1e6, MEMBER(timeLimit),
-                     "Add blocks of 64 samples for this time, or until --target-error is reached. The time to load "
-                     "the scene does not count. With capture, the limit is for the whole film: no further frame is "
-                     "started after this time")
+                     "Time in s during which blocks of 64 samples are added; ends early if --target-error is reached. "
+                     "The time to load the scene does not count. With 'defocus capture', the limit is for the whole "
+                     "film: no further frame is started after this time")
             .unit("s")
             .effect(SettingEffect::run)
             .recorded(),
@@ -144,12 +144,12 @@ Rows sampleRows() {
             "take more time than they save")
             .inShot("/lod"),
         rows::number("blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(blurThreshold),
-                     "How much blurred objects are simplified; larger values are coarser and faster. Selects "
-                     "--lod-metric size unless another metric is given; measured ignores it. With size or score: "
-                     "permitted length of triangle edges, as a multiple of the blur diameter. With error: permitted "
-                     "error, as a multiple of the blur diameter. With proportional: the level that an object gets "
-                     "when its blur is as large as its bounding box. Default: 10 for proportional, else depends on "
-                     "the number of samples")
+                     "Strength of the simplification of blurred objects; larger values are coarser and faster. Selects "
+                     "--lod-metric size unless another metric is given. With size or score: permitted length of "
+                     "triangle edges, as a multiple of the blur diameter. With error: permitted error, as a multiple "
+                     "of the blur diameter. With proportional: level of an object whose blur is as large as its "
+                     "bounding box. With measured: no effect. Default: 10 for proportional, else depends on the number "
+                     "of samples")
             .example("0.2")
             .inShot("/blurThreshold")
             .unused(withoutLevels),
@@ -163,9 +163,10 @@ Rows sampleRows() {
             .unused(withoutLevels),
         rows::number(
             "lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(lightThreshold),
-            "With --lod-metric measured: maximum error of a level of detail, times its edge length in the image in "
-            "px; larger values are coarser and faster. The error is relative to the variation of the light within a "
-            "blurred patch (docs/reference.md has the formula). Default: depends on the number of samples")
+            "With --lod-metric measured: maximum product of a level's error and the length of its triangle edges in "
+            "the image in px; larger values are coarser and faster. The error is relative to the variation of the "
+            "light within a blurred patch (docs/reference.md has the formula). Default: depends on the number of "
+            "samples")
             .unit("px")
             .example("0.1")
             .inShot("/lightThreshold")

@@ -93,8 +93,9 @@ std::optional<std::string> sizeText(const Request& request) {
 Row unitsRow() {
     return Row(SettingKind::number, "units", "--units", "m|cm|mm|METRES|auto",
                "Length of one unit of the scene: m, cm, mm or a number of metres. auto: the unit stored in the file's "
-               "extras; else 1 m if the camera has a focal length or a focus distance, if --camera-from is given, or "
-               "if an option gives a distance or a position in m; else an estimate from the scene's size")
+               "extras, if any. Otherwise 1 m if the camera has a focal length or focus distance, or if an option sets "
+               "the focus distance, the sharp range or the camera (--camera-from, position or target). Otherwise an "
+               "estimate from the scene's size")
         .range(1e-9, 1e9)
         .choices({"auto", "m", "cm", "mm"})
         .clears(MEMBER(units))
@@ -207,7 +208,8 @@ Rows sceneRows() {
             "shutterPosition", "--shutter-position",
             {{"start", ShutterPosition::start}, {"centre", ShutterPosition::centre}, {"end", ShutterPosition::end}},
             MEMBER(shutterPosition),
-            "Whether the shutter opens at --time (start), is open around it (centre), or closes at it (end)")
+            "What happens at --time: the shutter opens (start), the exposure is half over (centre), or the shutter "
+            "closes (end)")
             .inShot("/shutter/position")
             .unused(withoutShutter),
         rows::other("motionSegments", "--motion-segments", "N|exact", setMotionSegments, motionSegmentsText,
@@ -243,9 +245,11 @@ Rows sceneRows() {
                       "Add a grey ground that receives shadows, at the height of the scene's lowest point")
             .inShot("/ground"),
         hideRow(),
-        rows::choice<Shadows>(
-            "shadows", "--shadows", {{"auto", Shadows::automatic}, {"on", Shadows::on}, {"off", Shadows::off}},
-            MEMBER(shadows), "Soft shadows of the lights and the environment. auto: only with --ground")
+        rows::choice<Shadows>("shadows", "--shadows",
+                              {{"auto", Shadows::automatic}, {"on", Shadows::on}, {"off", Shadows::off}},
+                              MEMBER(shadows),
+                              "Draw the soft shadows that the lights and the environment cause. auto: only with "
+                              "--ground")
             .inShot("/shadows"),
         rows::boolean("multipleScattering", "--multiple-scattering", MEMBER(multipleScattering),
                       "Restore the light that rough surfaces lose in glTF's material model: rough metals become "
@@ -279,9 +283,9 @@ Rows cameraRows() {
             .inShot("/camera/name"),
         rows::words(
             SettingKind::path, "cameraFrom", "--camera-from", "FILE[:CAMERA]", MEMBER(cameraFrom),
-            "Camera from another file, with lens, animation and shutter: a USD text file (.usda), a glTF file, or the "
-            "JSON of 'defocus export-camera'. CAMERA is a path such as /World/cam or a name; not needed if the file "
-            "has only one camera")
+            "Camera from another file, with its lens, animation and shutter: a USD text file (.usda), a glTF file, or "
+            "the JSON of 'defocus export-camera'. CAMERA is the camera's name or path, such as /World/cam; leave it "
+            "out if the file has only one camera")
             .excludes({"camera"})
             .example("shot.usda:/World/cam"),
         pointRow(

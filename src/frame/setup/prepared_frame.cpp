@@ -157,7 +157,7 @@ PlacedCamera place(PreparedFrame& frame, const Request& request) {
     chooseFocus(request, placed.camera, *frame.scene, frame.world.pose, frame.view);
     checkLens(frame.view.lens);
     if (request.lens.iso && frame.view.lens.exposureTime == 0)
-        frame.refusedLensValues.emplace_back("iso has no effect without --exposure-time");
+        frame.refusedLensValues.emplace_back("--iso has no effect without --exposure-time");
     return placed;
 }
 
@@ -367,7 +367,7 @@ std::vector<std::string> frameWarnings(const PreparedFrame& frame) {
         if (farthest > largestScene || farthest < smallestScene)
             lines.push_back(
                 fmt::format("the scene extends {:.2g} m from its origin; content beyond {:g} m, or smaller than {:g} "
-                            "m, may be drawn incorrectly",
+                            "m, may be drawn incorrectly; check --units",
                             farthest, largestScene, smallestScene));
     }
     if (const Pose& pose = frame.world.pose; pose.faintLights > 0)

@@ -299,7 +299,7 @@ std::vector<MethodSetting> circularSettings() {
         {.name = "convolution",
          .defaultValue = "separable",
          .description = "How the image is convolved with the kernel. separable: in two fast one-dimensional passes. "
-                        "direct: in one slow two-dimensional pass, a reference for checking separable",
+                        "direct: in one slow two-dimensional pass, to check the result of separable",
          .choices = {"separable", "direct"}},
         transparencyBucketsSetting("1"),
         pinholesSetting(),

@@ -170,8 +170,8 @@ MethodSetting shadingSetting() {
         .name = "shading",
         .defaultValue = "surfaces",
         .description =
-            "Where surfaces are shaded: at the points that rays hit (surfaces), or at the vertices of the mesh, as in "
-            "Tzeng et al. 2012 (vertices)",
+            "Where surfaces are shaded. surfaces: at their visible points. vertices: at the vertices of the mesh, as "
+            "in Tzeng et al. 2012",
         .choices = {"surfaces", "vertices"}};
 }
 
@@ -179,8 +179,8 @@ MethodSetting cocInterpolationSetting() {
     return {.name = "coc-interpolation",
             .defaultValue = "divided",
             .description =
-                "Circle of confusion inside a triangle. divided: triangles in which it isn't linear are subdivided. "
-                "linear: interpolated between the corners, as in Munkberg et al. 2012",
+                "How the circle of confusion is computed inside a triangle. divided: triangles across which it is not "
+                "linear are subdivided. linear: interpolated linearly between the corners, as in Munkberg et al. 2012",
             .choices = {"divided", "linear"}};
 }
 

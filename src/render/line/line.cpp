@@ -304,13 +304,12 @@ Method lineMethod() {
     const std::vector<MethodSetting> settings = {
         {.name = "resolve",
          .defaultValue = "exact",
-         .description = "Visible segments that are stored for each line sample. exact: all. published: at most the "
-                        "number in --segments; further segments are dropped or merged by the rules of Tzeng et al. "
-                        "2012",
+         .description = "Visible segments that are stored for each line sample. exact: all. published: at most as many "
+                        "as --segments; further segments are dropped or merged by the rules of Tzeng et al. 2012",
          .choices = {"exact", "published"}},
         {.name = "segments",
          .defaultValue = std::to_string(standardSegments),
-         .description = "With --resolve published: max number of segments that are stored for a line",
+         .description = "With --resolve published: maximum number of segments that are stored for each line sample",
          .choices = {},
          .min = 2,
          .max = 64,
@@ -318,16 +317,16 @@ Method lineMethod() {
         {.name = "shading-step",
          .defaultValue = "4",
          .description =
-             "Spacing of the shading points along a visible segment, in px. The length of a segment is the distance "
-             "that the surface moves in the image between the lens points at the segment's ends. Smaller values are "
-             "more accurate and slower. 0: one point in the middle of each segment, as in Tzeng et al. 2012",
+             "Spacing of the shading points along a visible segment, in px. The length of a segment is the shift of "
+             "its surface in the image from the lens point at one end to the lens point at the other end. Smaller "
+             "values are more accurate and slower. 0: one point in the middle of each segment, as in Tzeng et al. 2012",
          .choices = {},
          .min = 0,
          .max = 64},
         {.name = "interval-bits",
          .defaultValue = "64",
          .description =
-             "Total number of bits that store both ends of a segment, with --resolve published; 16 in Tzeng et al. "
+             "With --resolve published: number of bits that store both ends of a segment together; 16 in Tzeng et al. "
              "2012",
          .choices = {"64", "16"},
          .onlyWith = "resolve=published"},
@@ -344,7 +343,7 @@ Method lineMethod() {
          .max = 64},
         {.name = "bin-size",
          .defaultValue = "0",
-         .description = "Maximum number of triangles per tile of 8 x 8 px. If a tile has more, the farthest are "
+         .description = "Maximum number of triangles in a bin, a tile of 8 x 8 px. If a bin has more, the farthest are "
                         "dropped, and --stats reports how many. 0: unlimited",
          .choices = {},
          .min = 0,
@@ -353,8 +352,8 @@ Method lineMethod() {
         cocInterpolationSetting(),
         {.name = "wheel",
          .defaultValue = "turned",
-         .description = "Directions of the lines: rotated from pixel to pixel in an 8 x 8 pattern (turned), or the "
-                        "same in all pixels, as in Tzeng et al. 2012 (shared)",
+         .description = "Directions of the lines (the wheel) in each pixel. turned: rotated from pixel to pixel in an "
+                        "8 x 8 pattern. shared: the same in all pixels, as in Tzeng et al. 2012",
          .choices = {"turned", "shared"}},
     };
     return {.name = "line",

@@ -186,9 +186,9 @@ MethodSetting maxCocSetting(const char* defaultValue) {
     return {.name = "max-coc",
             .defaultValue = defaultValue,
             .description =
-                "Maximum blur diameter. published: 10 px with --method scheuermann, as in Scheuermann's slides; with "
-                "--method circular, 17 px of the blurred foreground or background, as in Garcia's slides, which are "
-                "68 px of the image with --resolution quarter",
+                "Maximum blur diameter. published, with --method scheuermann: 10 px, as in Scheuermann's slides. With "
+                "--method circular: 17 px at the resolution of the blurred images (--resolution), as in Garcia's "
+                "slides; with quarter, this is 68 px in the final image",
             .choices = {"published", "unlimited"}};
 }
 

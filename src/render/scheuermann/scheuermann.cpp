@@ -274,8 +274,8 @@ Method scheuermannMethod() {
     const std::vector<MethodSetting> settings = {
         {.name = "coc",
          .defaultValue = "published",
-         .description = "Blur as a function of depth: linear between three planes, as in Scheuermann's slides "
-                        "(published), or that of a thin lens",
+         .description = "Blur as a function of depth. published: linear between three planes, as in Scheuermann's "
+                        "slides. thin-lens: the blur of a thin lens",
          .choices = {"published", "thin-lens"}},
         {.name = "taps",
          .defaultValue = "8",
@@ -286,7 +286,7 @@ Method scheuermannMethod() {
         maxCocSetting("published"),
         {.name = "bits",
          .defaultValue = "16",
-         .description = "Bits per channel of the stored images: 16 for half floats, 8 for display-encoded bytes, as in "
+         .description = "Bits per channel of the stored images. 16: half floats. 8: display-encoded bytes, as in "
                         "Scheuermann's slides",
          .choices = {"16", "8"}},
         {.name = "multisampling",
@@ -295,10 +295,12 @@ Method scheuermannMethod() {
                         "samples are averaged before the blur is applied. Scheuermann's slides use a multisampled "
                         "image. 1: no multisampling",
          .choices = {"1", "4"}},
-        byHand("near-blur-depth", "Depth in m in front of which the blur is at its maximum; 0: computed from the lens",
-               1e9),
+        byHand("near-blur-depth", "Depth in m; anything nearer has the maximum blur; 0: computed from the lens", 1e9),
         byHand("focal-plane-depth", "Depth in m that is in focus; 0: the focus distance", 1e9),
-        byHand("far-blur-depth", "Depth in m beyond which the blur is at its maximum; 0: computed from the lens", 1e9),
+        byHand("far-blur-depth",
+               "Depth in m; anything farther away has the maximum blur; 0: computed from the "
+               "lens",
+               1e9),
         byHand("blurriness-cutoff",
                "Maximum blur behind the focus plane, as a fraction of the overall maximum; 0: computed from the lens",
                1),

@@ -26,7 +26,7 @@ void readKeptLists(const Document& document, ViewState& state) {
     try {
         if (!scene.empty() && document.remembersFiles) rememberRecentFile(recentFilesPath(), scene);
     } catch (const Error& error) {
-        sayFault(state, fmt::format("recent files are not saved: {}", error.what()));
+        sayFault(state, fmt::format("cannot save the list of recent files: {}", error.what()));
     }
     state.recent = readRecentFiles(recentFilesPath());
     try {
@@ -118,7 +118,7 @@ void actOnSavedViews(ViewState& state, const ViewActions& actions) {
         state.savedViews = std::move(views);
     }
     if (actions.saveView) {
-        say(state, fmt::format("The view '{}' is saved.", *actions.saveView));
+        say(state, fmt::format("View '{}' saved.", *actions.saveView));
         state.viewName.clear();
     }
     if (!actions.goToView || *actions.goToView >= state.savedViews.size()) return;

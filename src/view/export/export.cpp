@@ -39,8 +39,8 @@ std::string writeShot(const Document& document, ViewState& state) {
     writeFile(state.shotPath, shotJson({state.options, frame.cameraLens, state.shotKeys, state.animationSpeed,
                                         writeOptions(state), frame.scene->metresPerUnit}));
     std::string command = captureCommand(state.shotPath, state.options);
-    say(state, fmt::format("{} is written. Render it with this command, which is on the clipboard: {}", state.shotPath,
-                           command));
+    say(state,
+        fmt::format("{} written. Render it with this command (copied to the clipboard): {}", state.shotPath, command));
     return command;
 }
 
@@ -57,18 +57,18 @@ std::optional<std::string> actOnExport(std::optional<StillExport>& still, const 
     if (!document.frame) return std::nullopt;
     if (actions.recordKey) {
         state.shotKeys.push_back({exportView(document, state), state.camera.pivotDistance, state.options.time});
-        say(state, fmt::format("Keyframe {} is recorded. Save the shot in the Export panel.", state.shotKeys.size()));
+        say(state, fmt::format("Keyframe {} recorded. Save the shot in the Export panel.", state.shotKeys.size()));
     }
     if (actions.cancelExport && still) {
         still.reset();
-        say(state, "The export is cancelled. No file is written.");
+        say(state, "Export cancelled; no file was written.");
     }
     if (actions.askExport && still) say(state, "A still is being rendered; Esc cancels it.");
     if (actions.askExport && !still && !state.exportDialog) state.exportDialog.emplace();
     if (actions.exportStill && !still) startStill(still, document, state, software);
     if (actions.saveShot && !state.shotKeys.empty()) return writeShot(document, state);
     if (!actions.copyCommand) return std::nullopt;
-    say(state, "The command is copied.");
+    say(state, "Command copied.");
     return pictureCommand(document, state);
 }
 

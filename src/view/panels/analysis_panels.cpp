@@ -19,7 +19,7 @@ std::string shortCount(double count) {
 }
 
 void differenceRow(DisplaySettings& display) {
-    rowLabel("Difference", "Show the difference between both sides on the right (M)");
+    rowLabel("Difference", "On the right side, show the difference from the left side (M)");
     ImGui::Checkbox("##difference", &display.difference);
     if (display.difference) {
         ImGui::SameLine();
@@ -31,7 +31,7 @@ void differenceRow(DisplaySettings& display) {
 }  // namespace
 
 void overlayPanel(const Ui& ui) {
-    rowLabel("Overlay", "Blur (C), level (L), or work: triangles per pixel and lens sample (N)");
+    rowLabel("Overlay", "Overlay: blur (C), level of detail (L), or work, in triangles per pixel per lens sample (N)");
     enumCombo("##overlay", ui.state.display.overlay, "none\0circle of confusion\0level of detail\0work\0");
     rowLabel("Wireframe", "Edges of the drawn triangles, coloured by level (Z)");
     ImGui::Checkbox("##wireframe", &ui.state.display.wireframe);
@@ -51,7 +51,7 @@ void overlayPanel(const Ui& ui) {
 
 void comparePanel(const Ui& ui) {
     ViewState& state = ui.state;
-    rowLabel("Right side", "The image on the right of the divider (X)");
+    rowLabel("Right side", "The image to the right of the divider (X)");
     Comparison comparison = state.comparison;
     if (enumCombo("##comparison", comparison, "nothing\0full detail\0nearest level\0reference\0another method\0"))
         compare(state, comparison);
@@ -61,12 +61,12 @@ void comparePanel(const Ui& ui) {
     }
     if (state.comparison != Comparison::none) differenceRow(state.display);
     if (ImGui::Button(state.poppingSince ? "Stop the popping test" : "Popping test")) togglePoppingTest(state);
-    tooltip("A focus pull with fractional levels on the left and nearest levels on the right (B)");
+    tooltip("Focus pull to compare pops: --lod fractional on the left, --lod nearest on the right (B)");
 }
 
 void performancePanel(const Ui& ui) {
     ViewState& state = ui.state;
-    rowLabel("Frame budget", "Target time of a frame while the view changes; resolution and samples are adapted to it");
+    rowLabel("Frame budget", "Target frame time while the view changes; resolution and samples are adapted to it");
     slider("##budget", state.budget.milliseconds, 4, 250, "%.0f ms");
     const FrameQuality& quality = state.budget.quality();
     textRow("While moving", fmt::format("{} at {:.0f} % resolution",
@@ -85,11 +85,11 @@ void performancePanel(const Ui& ui) {
     ImGui::SetNextItemWidth(-1);
     ImGui::PlotHistogram("##times", times.data(), static_cast<int>(times.size()), 0, nullptr, 0,
                          2 * static_cast<float>(state.budget.milliseconds), {0, 48 * ui.scale});
-    tooltip("Times of the latest frames; the budget is at half the height");
+    tooltip("Times of the latest frames; half the height is the frame budget");
     const InputLatency::Summary latency = ui.times.latency.summary();
     if (latency.count > 0)
-        textRow("Input to image", fmt::format("{:.0f} ms, at most {:.0f} ms", latency.median, latency.worst),
-                "From an input event to the end of the frame that shows its effect: median and maximum");
+        textRow("Input to image", fmt::format("{:.0f} ms, max {:.0f} ms", latency.median, latency.worst),
+                "Median and maximum time from an input event to the end of the frame that shows its effect");
     ImGui::TextDisabled("%s", ui.device.c_str());
 }
 

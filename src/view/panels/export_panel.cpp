@@ -101,7 +101,7 @@ void exportPanel(const Ui& ui) {
     tooltip("Choose a file and export a still (Ctrl E)");
     ImGui::SameLine();
     if (ImGui::Button("Copy as command")) actions.copyCommand = true;
-    tooltip("Copy the 'defocus render' command of this image (Ctrl C)");
+    tooltip("Copy the 'defocus render' command that renders this image (Ctrl C)");
     rowLabel("Shot", "Keyframes for 'defocus capture', 2 s apart");
     ImGui::InputText("##shot", &state.shotPath);
     if (ImGui::Button("Record keyframe")) actions.recordKey = true;

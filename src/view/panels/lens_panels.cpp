@@ -58,8 +58,8 @@ void nodeBlurRow(const Ui& ui) {
 void lensImagesRow(const Ui& ui) {
     const KeptImages* const kept = ui.picture.image ? ui.picture.image->keptImages() : nullptr;
     std::string about =
-        "Images of single lens samples of the still view. While you change the focus or stop down, the window computes "
-        "the displayed image from these images";
+        "Images of single lens samples, kept while the view is still. If you change the focus or stop down, the "
+        "displayed image is computed from them without rendering";
     if (kept == nullptr || kept->planned() == 0) {
         if (kept != nullptr && !kept->obstacle().empty()) about += ". There are none: " + kept->obstacle();
         return textRow("Lens images", "none", about.c_str());
@@ -76,7 +76,7 @@ void focusPanel(const Ui& ui) {
     nodeBlurRow(ui);
     lensImagesRow(ui);
     ImGui::Checkbox("Peaking", &ui.state.display.focusPeaking);
-    tooltip("Mark sharp edges in focus (P)");
+    tooltip("Mark edges that are in focus (P)");
     ImGui::SameLine();
     ImGui::Checkbox("Focus plane", &ui.state.display.focusPlane);
     tooltip("Tint surfaces in focus (O)");

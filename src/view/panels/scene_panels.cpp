@@ -24,7 +24,7 @@ void openRow(const Ui& ui) {
     const float arrow = ImGui::GetFrameHeight();
     const float button = ImGui::CalcTextSize("Open…").x + 2 * style.FramePadding.x;
     ImGui::SetNextItemWidth(-button - arrow - style.ItemSpacing.x - 1);
-    const bool entered = ImGui::InputTextWithHint("##open", "a .glb or .gltf, or drop it here", &state.openPath,
+    const bool entered = ImGui::InputTextWithHint("##open", "enter or drop a .glb or .gltf", &state.openPath,
                                                   ImGuiInputTextFlags_EnterReturnsTrue);
     notePlace("open path");
     if (entered && !state.openPath.empty()) ui.actions.open = state.openPath;
@@ -56,7 +56,7 @@ void undoRow(const Ui& ui) {
         ImGui::SameLine();
     };
     const EditHistory& history = ui.document.history;
-    button("Undo", "Undo changes of camera, lens, environment, levels and exposure (Ctrl Z)", history.undoSteps() > 0,
+    button("Undo", "Undo changes to camera, lens, environment, levels and exposure (Ctrl Z)", history.undoSteps() > 0,
            ui.actions.undo);
     button("Redo", "Redo (Ctrl Shift Z)", history.redoSteps() > 0, ui.actions.redo);
     button("Reset all", "Restore the settings, camera and lens with which the scene was opened; can be undone",
@@ -108,7 +108,7 @@ void scenePanel(const Ui& ui) {
     ignoredRows(ui.scene());
     std::vector<std::string> cameras = cameraNames(ui.scene());
     cameras.insert(cameras.begin(), "auto");
-    rowLabel("Camera", "Camera of the file, or 'auto' to frame the scene (keys 1 … 9 and 0)");
+    rowLabel("Camera", "Camera of the file (keys 1 … 9), or 'auto' to frame the scene (key 0)");
     std::string camera = settingNamed("camera")->text(state.options).value_or(ui.document.frame->cameraName);
     if (combo("##camera", cameras, camera)) ui.actions.chooseCamera = camera;
     rowLabel("Mouse", "orbit: turn the camera around the point in focus. fly: turn the camera on the spot (V)");

@@ -27,9 +27,9 @@ std::uint64_t withinFreeMemory(std::uint64_t bytes) {
 std::uint32_t fittingImages(const PartSize& size, std::uint64_t bytes) {
     const std::uint64_t fitting = bytes / KeptLensImages::bytes(size, 1);
     if (fitting < KeptImages::minImages)
-        fail("{} lens images of {} x {} px need {}, more than the window may use ({})", KeptImages::minImages,
-             size.fullWidth(), size.fullHeight(), bytesText(KeptLensImages::bytes(size, KeptImages::minImages)),
-             bytesText(bytes));
+        fail("{} lens images of {} x {} px need {} of memory, but the window may use only {}; make the window smaller",
+             KeptImages::minImages, size.fullWidth(), size.fullHeight(),
+             bytesText(KeptLensImages::bytes(size, KeptImages::minImages)), bytesText(bytes));
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(fitting, KeptImages::maxImages));
 }
 

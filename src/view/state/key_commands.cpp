@@ -92,7 +92,7 @@ constexpr KeyCommand commands[] = {
     {"Ctrl O", "open a scene", ctrl('O'), [](K k) { k.actions.openDialog = true; }},
     {"Ctrl Z, Ctrl Shift Z", "undo, redo", ctrl('Z'), [](K k) { (k.shift ? k.actions.redo : k.actions.undo) = true; }},
     {{}, {}, ctrl('Y'), [](K k) { k.actions.redo = true; }},
-    {"Ctrl C", "copy the image as a command", ctrl('C'), [](K k) { k.actions.copyCommand = true; }},
+    {"Ctrl C", "copy the command for this image", ctrl('C'), [](K k) { k.actions.copyCommand = true; }},
     {"Ctrl E", "export a still", ctrl('E'), [](K k) { k.actions.askExport = true; }},
     {"Esc", "cancel an export or a popping test", key::escape, escape},
     {"K", "record a keyframe of a shot", 'K', [](K k) { k.actions.recordKey = true; }},

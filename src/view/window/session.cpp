@@ -56,7 +56,7 @@ void rememberSettings(Session& session) {
     try {
         writeViewSettings(viewSettingsPath(), settings);
     } catch (const Error& error) {
-        if (!session.options.quiet) printMessage("warning: settings are not saved: {}\n", error.what());
+        if (!session.options.quiet) printMessage("warning: cannot save the settings: {}\n", error.what());
     }
 }
 
