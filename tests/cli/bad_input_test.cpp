@@ -427,7 +427,7 @@ TEST_F(BadInput, damagedCopiesOfAModel) {
 // An empty name, which may come from an unset variable of a script, is refused instead of being read as a default.
 TEST_F(BadInput, emptyNames) {
     for (const char* option : {"--environment", "--aperture-image", "--stats", "--cache-dir", "-o"})
-        expectFault(2, "the name is empty; give a file or folder, or leave it out", {option, ""});
+        expectFault(2, "the name is empty; give a file or folder, or leave the option out", {option, ""});
     for (const char* command : {"capture", "merge"}) {
         const Outcome outcome = run({command, ""});
         expectOneLine(outcome, 2);

@@ -79,7 +79,7 @@ TEST_F(Stopping, partialImagesAreKeptOnDemand) {
     words.insert(words.end(), {"--samples", "128", "--keep-partial", "-o", "a.exr"});
     const End end = ended(words, SIGTERM, 6);
     EXPECT_EQ(end.code, 1);
-    EXPECT_NE(end.said.find("of 128 samples: the image of these samples is written"), std::string::npos) << end.said;
+    EXPECT_NE(end.said.find("of 128 samples: the image from these samples was written"), std::string::npos) << end.said;
     Metadata metadata;
     const Image image = readImage(folder() / "a.exr", metadata);
     EXPECT_EQ(image.width, 512);
@@ -107,7 +107,7 @@ TEST_F(Stopping, theSecondThreadWritesTheImageSoFar) {
     const End end = ended(words, SIGINT, 10);
     EXPECT_EQ(end.code, 1);
     EXPECT_LT(end.seconds, 2.5);
-    EXPECT_NE(end.said.find("the image of these samples is written"), std::string::npos) << end.said;
+    EXPECT_NE(end.said.find("the image from these samples was written"), std::string::npos) << end.said;
     Metadata metadata;
     EXPECT_EQ(readImage(folder() / "a.exr", metadata).width, 512);
 }

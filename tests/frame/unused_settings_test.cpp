@@ -48,7 +48,8 @@ TEST(UnusedSettings, eachIsNamedWithItsReason) {
         {{{"time", "2"}}, "--time has no effect: the scene has no animation"},
         {{{"dofEnabled", "false"}, {"fStop", "2"}}, "--fstop has no effect: --no-dof disables all blur"},
         {{{"lod", "off"}, {"lightThreshold", "0.1"}}, "--light-threshold has no effect: --lod off draws full detail"},
-        {{{"lodCoc", "centre"}}, "--lod-coc has no effect: --lod-metric measured uses the blur over the whole object"}};
+        {{{"lodCoc", "centre"}},
+         "--lod-coc has no effect: with --lod-metric measured, the blur over the whole object decides"}};
     for (const auto& [given, line] : cases) EXPECT_EQ(linesOf(given), std::vector<std::string>{line});
 }
 

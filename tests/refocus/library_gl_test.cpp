@@ -113,7 +113,7 @@ TEST_F(LightFieldLibrary, refusesWrongUse) {
     };
     EXPECT_TRUE(refused([](auto& s) { s.lens.focalLength = 35; }).starts_with("focalLength: "));
     EXPECT_NE(refused([](auto& s) { s.lens.bladeCount = 2; }).find("bladeCount"), std::string::npos);
-    EXPECT_NE(refused([](auto& s) { s.focus = FocusNode{"0"}; }).find("distance or a pixel"), std::string::npos);
+    EXPECT_NE(refused([](auto& s) { s.focus = FocusNode{"0"}; }).find("distance or as a pixel"), std::string::npos);
     for (const double wrong : {-1.0, 0.0, std::nan(""), 4.0})
         EXPECT_NE(refused([&](auto& s) { s.focus = FocusDistance{wrong}; }).find("rendered range"), std::string::npos);
     EXPECT_NE(refused([](auto& s) { s.lens.fStop = 0.5; }).find("wider than"), std::string::npos);

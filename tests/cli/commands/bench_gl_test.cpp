@@ -81,7 +81,7 @@ TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
         EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
         EXPECT_TRUE(contents() == before) << outcome.err;
     };
-    expectRefused("has 12 frames of an earlier run; continue with --resume, or start over with --overwrite", {});
+    expectRefused("has 12 frames from an earlier run; continue with --resume, or start over with --overwrite", {});
     expectRefused("contains results for another scene", {"--focus-distance", "3"});
     expectRefused("contains results for another scene", {"--resume", "--focus-distance", "3"});
     // --resume also refuses another seed, although it gives the same reference image: the measured images differ
@@ -93,7 +93,7 @@ TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
     const std::string reference = textOf(folder() / "out/reference.exr");
     const Outcome other = bench({"-o", "out", "--focus-distance", "3"});
     expectOneLine(other, 1);
-    EXPECT_NE(other.err.find("was rendered with another scene"), std::string::npos) << other.err;
+    EXPECT_NE(other.err.find("was rendered with a different scene"), std::string::npos) << other.err;
     EXPECT_TRUE(textOf(folder() / "out/reference.exr") == reference);
 
     ASSERT_EQ(bench({"-o", "out", "--focus-distance", "3", "--overwrite"}).exitCode, 0);

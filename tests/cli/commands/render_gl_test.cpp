@@ -49,7 +49,7 @@ TEST_F(Render, writesEachOutputAndOneLineOfSummary) {
 
 TEST_F(Render, theSummaryTellsOfSamplesLeftOut) {
     const std::vector<std::string> sharp = {"render", "quads.gltf", "--size", "32x24", "--samples", "100", "--no-dof"};
-    EXPECT_NE(run(sharp).err.find("16 samples (of 100, as nothing is blurred; --keep-all draws all)"),
+    EXPECT_NE(run(sharp).err.find("16 samples (of 100: nothing is blurred, so fewer suffice; --keep-all draws all)"),
               std::string::npos);
     std::vector<std::string> all = sharp;
     all.emplace_back("--keep-all");

@@ -62,8 +62,8 @@ TEST_F(RenderLayers, areRefusedWhereTheyCannotBeDrawn) {
         expectOneLine(outcome, exitCode);
         EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
     };
-    refuse({"--method", "multirate", "-o", "a.exr"}, 2, "method multirate draws no layers");
-    refuse({"--method", "circular", "-o", "a.exr"}, 2, "method circular draws no layers");
+    refuse({"--method", "multirate", "-o", "a.exr"}, 2, "method multirate cannot draw the layers");
+    refuse({"--method", "circular", "-o", "a.exr"}, 2, "method circular cannot draw the layers");
     refuse({"-o", "a.png"}, 1, ".exr");
     refuse({"-o", "a.exr", "--keep-partial"}, 1, "--keep-partial");
     refuse({"-o", "a.exr", "--shutter", "1", "--motion-segments", "exact"}, 2, "--motion-segments exact");

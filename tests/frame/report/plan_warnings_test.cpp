@@ -203,9 +203,9 @@ TEST(RequestWarnings, listNodesThatShareTheRequestedName) {
     frame.world.pose = poseAt(*frame.scene, 0);
     const std::vector<std::string> lines = requestWarnings(request, frame);
     ASSERT_EQ(lines.size(), 1u);
-    EXPECT_EQ(lines[0],
-              "2 nodes are named 'Cube': #1 at (2, 0, 0), #2 at (3, 0, 0); #1 is used; give the number of another "
-              "node instead");
+    EXPECT_EQ(
+        lines[0],
+        "2 nodes are named 'Cube': #1 at (2, 0, 0), #2 at (3, 0, 0); #1 is used; to use another node, give its number");
     for (const char* name : {"Ball", "#2"}) {
         request.focus = FocusNode{name};
         EXPECT_TRUE(requestWarnings(request, frame).empty()) << name;
