@@ -69,7 +69,7 @@ TEST_F(RenderLayers, areRefusedWhereTheyCannotBeDrawn) {
     refuse({"-o", "a.exr", "--shutter", "1", "--motion-segments", "exact"}, 2, "--motion-segments exact");
     expectOneLine(render({"--exr-layers", "depth,fog"}), 2);
     const Outcome plan = run({"plan", "ball.glb", "--fstop", "0.3", "--exr-layers", "depth"});
-    EXPECT_NE(plan.out.find("--method auto selects accumulation, because layers"), std::string::npos) << plan.out;
+    EXPECT_NE(plan.out.find("--method auto selects accumulation, because the layers"), std::string::npos) << plan.out;
 }
 
 TEST_F(RenderLayers, filmsHaveThem) {
