@@ -120,7 +120,7 @@ Mesh meshOf(const std::string& label, const MeshData& data, Scene& scene) {
     for (std::size_t i = 0; i < data.colors.size(); ++i)
         for (const float value : data.colors[i])
             if (!(value >= 0 && value <= 1))
-                refuse("{}: colors[{}] has the value {}; colours are from 0 to 1", label, i, value);
+                refuse("{}: colors[{}] is {}; colours must be from 0 to 1", label, i, value);
     if (data.uvs.empty() && data.material >= 0) {
         const Material& material = scene.materials[static_cast<std::size_t>(data.material)];
         if (std::ranges::any_of(textureUses(material), &TextureUse::used))

@@ -71,8 +71,8 @@ Row samplesRow() {
 Row positionsRow() {
     return rows::integer("positions", "--positions", 1, 4, MEMBER(positions),
                          "Number of positions in each pixel at which a lens sample draws the scene: 1, or 4 (a 2 x 2 "
-                         "grid). 4 positions smooth edges like 2 to 4 times as many samples. auto: 4 for still images "
-                         "of many triangles and little blur if --samples and --method are auto, else 1")
+                         "grid). 4 positions smooth edges like 2 to 4 times as many samples. auto: 4 for a still image "
+                         "with little blur of a scene with many triangles, if --samples and --method are auto; else 1")
         .metavar("1|4|auto")
         .choices({"auto"})
         .values(

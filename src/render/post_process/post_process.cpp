@@ -186,9 +186,9 @@ MethodSetting maxCocSetting(const char* defaultValue) {
     return {.name = "max-coc",
             .defaultValue = defaultValue,
             .description =
-                "Maximum blur diameter. published, with --method scheuermann: 10 px, as in Scheuermann's slides. With "
-                "--method circular: 17 px at the resolution of the blurred images (--resolution), as in Garcia's "
-                "slides; with quarter, this is 68 px in the final image",
+                "Maximum blur diameter. published: the value in the slides of the method. For --method scheuermann, "
+                "this is 10 px. For --method circular, it is 17 px at the resolution of the blurred images, which is "
+                "68 px in the final image with --resolution quarter",
             .choices = {"published", "unlimited"}};
 }
 

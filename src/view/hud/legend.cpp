@@ -36,7 +36,7 @@ std::optional<Legend> legendOf(const DisplaySettings& display) {
     switch (display.overlay) {
         case DisplayOverlay::coc:
             return Legend{
-                "blur in px: nearer – farther than focus", "blur, px", cocColour, {"63", "7", "0", "7", "63"}};
+                "blur in px: in front of | behind the focus", "blur, px", cocColour, {"63", "7", "0", "7", "63"}};
         case DisplayOverlay::work:
             return Legend{"triangles per pixel per lens sample", "triangles", magma, {"0", "1", "3", "7", "15 +"}};
         case DisplayOverlay::level:

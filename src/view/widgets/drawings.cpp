@@ -175,7 +175,8 @@ void stopRing(double& fStop, float scale) {
     box.list.PopClipRect();
     box.list.AddTriangleFilled({centre - 5 * scale, box.end.y}, {centre + 5 * scale, box.end.y},
                                {centre, box.end.y - 7 * scale}, color(ImGuiCol_CheckMark));
-    tooltip("Aperture ring: drag, click or turn the mouse wheel. In the image: Shift wheel or [ ].");
+    tooltip(
+        "Aperture ring: drag, click or turn the mouse wheel. In the image: Shift + mouse wheel, or the keys [ and ].");
 }
 
 void aperturePreview(const Lens& lens, float scale) {
