@@ -209,7 +209,7 @@ TEST(SceneFromData, invalidDataIsRefusedWithItsName) {
          [](Square& s) { s.uvs.resize(5); }},
         {"mesh 'Body' (0): it has 1 colors for 4 positions; give one for each position, or none",
          [](Square& s) { s.colors.resize(1); }},
-        {"mesh 'Body' (0): colors[2] has the value 1.5; colours are from 0 to 1",
+        {"mesh 'Body' (0): colors[2] is 1.5; colours must be from 0 to 1",
          [](Square& s) {
              s.colors.resize(4);
              s.colors[2][1] = 1.5f;

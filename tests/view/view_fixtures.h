@@ -81,7 +81,7 @@ protected:
     void openNarrow(int height, std::vector<std::string> more = {}) {
         openScene("260x" + std::to_string(height), std::move(more));
     }
-    // As openNarrow(), without depth of field. The image soon comes to rest and the window then draws nothing.
+    // Like openNarrow(), but without depth of field. The image soon comes to rest and the window then draws nothing.
     void openSharp(int height, std::vector<std::string> more = {}) {
         more.emplace_back("--no-dof");
         openNarrow(height, std::move(more));
