@@ -19,6 +19,7 @@
 #include "core/memory_limits.h"
 #include "frame/settings/settings.h"
 #include "frame/setup/prepared_frame.h"
+#include "frame/setup/shared_scene.h"
 #include "image/image_io.h"
 #include "image/image_rows.h"
 #include "image/metrics.h"

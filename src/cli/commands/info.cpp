@@ -18,6 +18,7 @@
 #include "core/parallel.h"
 #include "frame/report/json_values.h"
 #include "frame/setup/prepared_frame.h"
+#include "frame/setup/shared_scene.h"
 #include "lens/lens_fields.h"
 #include "lod/simplify/manifold.h"
 #include "scene/gltf/gltf.h"

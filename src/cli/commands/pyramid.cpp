@@ -26,6 +26,7 @@
 #include "frame/report/json_values.h"
 #include "frame/report/plan_report.h"
 #include "frame/setup/prepared_frame.h"
+#include "frame/setup/shared_scene.h"
 #include "lod/pyramid/cache.h"
 #include "lod/pyramid/finish.h"
 #include "lod/pyramid/surface_distance.h"

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "frame/setup/prepared_frame.h"
+#include "frame/setup/shared_scene.h"
 #include "lod/pyramid/cache.h"
 
 namespace defocus::engine {

@@ -14,6 +14,7 @@
 #include "frame/report/plan_report.h"
 #include "frame/settings/settings.h"
 #include "frame/setup/prepared_frame.h"
+#include "frame/setup/shared_scene.h"
 #include "frame/setup/scene_scale.h"
 #include "lens/lens_fields.h"
 #include "lod/pyramid/cache.h"

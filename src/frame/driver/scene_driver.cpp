@@ -9,12 +9,10 @@
 #include "frame/report/plan_warnings.h"
 #include "frame/setup/exposure.h"
 #include "frame/setup/levels.h"
-#include "frame/setup/scene_scale.h"
 #include "frame/setup/settings_hash.h"
 #include "render/aov/aov.h"
 #include "render/aov/work.h"
 #include "scene/ground.h"
-#include "scene/strokes.h"
 
 namespace defocus::engine {
 
@@ -60,17 +58,8 @@ SceneDriver::SceneDriver(std::shared_ptr<const Scene> scene, const Request& requ
     : named_(scene == nullptr), shaderFolder_(std::move(shaderFolder)), first_(request), request_(request) {
     const Clock::time_point begin = Clock::now();
     checkRequest(request);
-    scene_ = named_ ? std::make_shared<Scene>(loadScene(request, progress))
-                    : std::const_pointer_cast<Scene>(std::move(scene));
-    if (named_) {
-        setCameraTrack(request, *scene_);
-        setScale(request, *scene_);
-    }
-    if (hasStrokes(*scene_)) {
-        scene_ = std::make_shared<Scene>(*scene_);  // copied, because the caller may share the scene
-        setStrokes(request, *scene_);
-    }
-    frame_ = placeFrame(scaledScene(request), request);
+    scene_.emplace(named_ ? SharedScene(request, progress) : SharedScene(std::move(scene), request));
+    frame_ = placeFrame(scene_->of(request), request);
     chooseLevels(frame_, request);
     loadMilliseconds_ = millisecondsSince(begin);
     {
@@ -90,25 +79,6 @@ SceneDriver::~SceneDriver() {
         if (driver_) static_cast<void>(new FrameDriver(std::move(*driver_)));
         static_cast<void>(context_.release());
     }
-}
-
-// Returns the scene with the request's units, node blur and ground. The loaded scene may be shared, so changes are made
-// in a copy.
-std::shared_ptr<Scene> SceneDriver::scaledScene(const Request& request) const {
-    const double metresPerUnit = request.units.value_or(scene_->metresPerUnit);
-    if (request.nodeBlur.empty() && metresPerUnit == scene_->metresPerUnit && !request.ground &&
-        hasCameraTrack(request, *scene_))
-        return scene_;
-    if (frame_.scene && frame_.scene != scene_ && request.nodeBlur == request_.nodeBlur &&
-        request.ground == request_.ground && metresPerUnit == frame_.scene->metresPerUnit &&
-        hasCameraTrack(request, *frame_.scene))
-        return frame_.scene;
-    auto scaled = std::make_shared<Scene>(*scene_);
-    setNodeBlur(request, *scaled);
-    setCameraTrack(request, *scaled);
-    scaled->metresPerUnit = metresPerUnit;
-    setGround(request, *scaled);
-    return scaled;
 }
 
 // Moves the pyramids of the previous frame to `next`. If `next` needs pyramids of another `kind` (see pyramidKinds),
@@ -131,7 +101,7 @@ void SceneDriver::start(const Request& request, const FrameParts& parts, const P
     if (named_ && !sameScene(request, first_))
         throw UsageError("the request names another scene; create a SceneRenderer for it");
     const Environment* known = sameSurroundings(request, request_) ? &frame_.world.environment : nullptr;
-    PreparedFrame next = placeFrame(scaledScene(request), request, known);
+    PreparedFrame next = placeFrame(scene_->of(request), request, known);
     chooseLevels(next, request);
     const std::size_t kind = pyramidKind(next.settings);
     const bool sameGround = hasGround(*next.scene) == hasGround(*frame_.scene);

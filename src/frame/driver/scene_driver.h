@@ -14,6 +14,7 @@
 #include "frame/driver/frame_driver.h"
 #include "frame/report/render_report.h"
 #include "frame/setup/prepared_frame.h"
+#include "frame/setup/shared_scene.h"
 #include "gl/context.h"
 #include "image/image_io.h"
 #include "render/aov/aov.h"
@@ -56,7 +57,7 @@ public:
     [[nodiscard]] const Request& firstRequest() const { return first_; }
     [[nodiscard]] const Request& request() const { return request_; }  // request of the frame that was started last
     [[nodiscard]] const PreparedFrame& frame() const { return frame_; }
-    [[nodiscard]] std::shared_ptr<const Scene> scene() const { return scene_; }
+    [[nodiscard]] std::shared_ptr<const Scene> scene() const { return scene_->loaded(); }
     [[nodiscard]] const GlContext& context() const { return *context_; }
 
     [[nodiscard]] bool started() const { return driver_.has_value(); }
@@ -96,13 +97,12 @@ private:
     // enumerator of value n.
     static constexpr std::size_t pyramidKinds = 4;
 
-    [[nodiscard]] std::shared_ptr<Scene> scaledScene(const Request& request) const;
     void handOnPyramids(PreparedFrame& next, std::size_t kind);
 
     bool named_;  // true: the request names the scene; false: the caller passed the scene
     std::filesystem::path shaderFolder_;
     Request first_, request_;
-    std::shared_ptr<Scene> scene_;  // may be shared with other owners; never modified
+    std::optional<SharedScene> scene_;
     PreparedFrame frame_;           // frame of request_; must outlive driver_, which refers to frame_.world
     std::array<std::vector<Pyramid>, pyramidKinds> otherPyramids_;  // pyramids for later frames, indexed by pyramidKind
     double loadMilliseconds_ = 0;

@@ -23,6 +23,7 @@
 #include "frame/setup/levels.h"
 #include "frame/setup/moment.h"
 #include "frame/setup/scene_scale.h"
+#include "frame/setup/shared_scene.h"
 #include "image/image_io.h"
 #include "lens/aperture.h"
 #include "lens/camera_lens.h"
@@ -31,12 +32,7 @@
 #include "lod/pyramid/cache.h"
 #include "lod/pyramid/finish.h"
 #include "scene/built_in_environment.h"
-#include "scene/camera_files/camera_source.h"
-#include "scene/gltf/gltf.h"
-#include "scene/ground.h"
 #include "scene/hidden_nodes.h"
-#include "scene/strokes.h"
-#include "school/fish_school.h"
 
 namespace defocus::engine {
 
@@ -163,19 +159,6 @@ PlacedCamera place(PreparedFrame& frame, const Request& request) {
 
 }  // namespace
 
-Scene loadScene(const Request& request, const Progress& progress) {
-    if (!request.scene.empty()) {
-        Scene scene = loadGltf(request.scene, progress, request.variant);
-        if (const std::vector<std::string> damage = damageWarnings(scene); request.strict && !damage.empty())
-            fail("{}: {}; leave out --strict to draw the rest", request.scene.string(), damage.front());
-        return scene;
-    }
-    FishSchoolOptions school;
-    school.fishCount = request.fishCount;
-    school.trianglesPerFish = request.trianglesPerFish;
-    return fishSchool(school, progress);
-}
-
 std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path) {
     Lens lens;
     lens.apertureImage = std::make_shared<Image>(readImage(path));
@@ -215,47 +198,9 @@ void placeCamera(PreparedFrame& frame, const Request& request) {
 
 PreparedFrame placeFrame(const Request& request, const Progress& progress) {
     const Clock::time_point begin = Clock::now();
-    const auto scene = std::make_shared<Scene>(loadScene(request, progress));
-    setNodeBlur(request, *scene);
-    setCameraTrack(request, *scene);
-    setScale(request, *scene);
-    setStrokes(request, *scene);
-    setGround(request, *scene);
-    PreparedFrame frame = placeFrame(scene, request);
+    PreparedFrame frame = placeFrame(SharedScene(request, progress).of(request), request);
     frame.loadMilliseconds = millisecondsSince(begin);
     return frame;
-}
-
-void setStrokes(const Request& request, Scene& scene) {
-    if (!hasStrokes(scene)) return;
-    PreparedFrame frame;
-    frame.scene = std::make_shared<Scene>(scene);
-    frame.world.pose = exposedPose(request, scene);
-    place(frame, request);
-    const View& view = frame.view;
-    const double pixel = 2 * tanHalfHorizontalFov(view.lens) / view.width;
-    Request shown = request;
-    shown.hide.clear();  // include hidden nodes, because a later request may show them
-    scene = withStrokes(scene, exposedPose(shown, scene), {view.worldFromCamera, pixel, view.nearPlane});
-}
-
-void setGround(const Request& request, Scene& scene) {
-    if (request.ground && !hasGround(scene)) addGround(scene, poseAt(scene, 0, clipOf(request, scene)));
-}
-
-void setCameraTrack(const Request& request, Scene& scene) {
-    if (hasCameraTrack(request, scene)) return;
-    scene.cameraTrack =
-        request.cameraFrom.empty() ? nullptr : std::make_shared<CameraTrack>(openCamera(request.cameraFrom));
-}
-
-bool hasCameraTrack(const Request& request, const Scene& scene) {
-    return request.cameraFrom == (scene.cameraTrack ? scene.cameraTrack->source : std::string());
-}
-
-void setNodeBlur(const Request& request, Scene& scene) {
-    for (const auto& [name, scale] : request.nodeBlur)
-        scene.nodes[static_cast<std::size_t>(nodeCalled(scene, name))].cocScale = scale;
 }
 
 std::vector<PlacedLight> sizedLights(const Request& request, const std::vector<PlacedLight>& own, const Pose& pose) {

@@ -32,37 +32,14 @@ struct PreparedFrame {
     std::string cacheFailure;           // why a pyramid couldn't be stored; empty: no failure
 };
 
-// Loads the scene that a request names, or builds the built-in school of fish. Throws Error if the file can't be read,
-// or if Request::strict is set and damageWarnings isn't empty.
-Scene loadScene(const Request& request, const Progress& progress = {});
-
 // Loads the scene and places camera, lens and lights. The levels of detail (World::pyramids) are not yet built. Throws
 // Error if the request names an object, camera or animation that the scene doesn't have.
 PreparedFrame placeFrame(const Request& request, const Progress& progress = {});
 
-// Places camera, lens and lights for a scene that is already loaded. Does not change the scene: its units, the blur
-// scales of its nodes, its ground, and its points and lines (setStrokes) must already match the request. `environment`:
-// environment map to reuse; null: load the request's map.
+// Places camera, lens and lights for a scene that SharedScene::of (shared_scene.h) returned for this request.
+// `environment`: environment map to reuse; null: load the request's map.
 PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& request,
                          const Environment* environment = nullptr);
-
-// Scales the blur of the nodes that the request lists. Throws Error for a node that the scene doesn't have.
-void setNodeBlur(const Request& request, Scene& scene);
-
-// Opens the camera file that the request names, or removes the camera of an earlier request. Throws Error if the file
-// can't be used.
-void setCameraTrack(const Request& request, Scene& scene);
-
-// Returns whether the scene's camera track comes from the camera file that the request names; true if neither exists.
-bool hasCameraTrack(const Request& request, const Scene& scene);
-
-// Replaces the scene's points and lines by triangles, one pixel wide in the request's view; see scene/strokes.h. The
-// scene's units must already be set.
-void setStrokes(const Request& request, Scene& scene);
-
-// Adds the ground that the request asks for, unless the scene has a ground. The ground lies beneath the scene's pose at
-// the start of the animation, so that all frames of a shot share it. The scene's units must already be set.
-void setGround(const Request& request, Scene& scene);
 
 // Returns the scene's own lights `own`, moved to the scene pose `pose` and with the light sizes that the request sets.
 std::vector<PlacedLight> sizedLights(const Request& request, const std::vector<PlacedLight>& own, const Pose& pose);

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "frame/settings/settings.h"
 #include "frame/setup/moment.h"
+#include "frame/setup/shared_scene.h"
 #include "scene/ground.h"
 #include "view/document/document.h"
 

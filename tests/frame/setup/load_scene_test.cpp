@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "frame/setup/prepared_frame.h"
+#include "frame/setup/shared_scene.h"
 #include "scene/gltf/builder.h"
 
 namespace defocus::engine {
