@@ -143,8 +143,8 @@ inline std::unique_ptr<SmallWorld> fiveSpheres(int slices = 80, int stacks = 60)
     small->view.width = 160;
     small->view.height = 120;
     // Pyramids are built once for all tests of a process, since this takes longer than most tests.
-    static std::map<std::pair<int, int>, std::vector<Pyramid>> built;
-    std::vector<Pyramid>& pyramids = built[{slices, stacks}];
+    static std::map<std::pair<int, int>, SharedPyramids> built;
+    SharedPyramids& pyramids = built[{slices, stacks}];
     if (pyramids.empty()) pyramids = buildPyramids(small->scene.meshes);
     small->world.pyramids = pyramids;
     return small;

@@ -16,8 +16,10 @@
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "frame/report/layer_file.h"
+#include "frame/report/render_report.h"
 #include "frame/setup/exposure.h"
 #include "image/image_rows.h"
+#include "image/time_code.h"
 
 namespace defocus::engine {
 
@@ -89,12 +91,17 @@ struct DrawnFrame {
     bool written = false;  // true: the frame was drawn in tiles, which have already been written to its files
 };
 
-// Returns the request's stop conditions without the time limit, because a frame must have the same samples in every
-// run. The time limit ends the run between two frames instead.
-StopSettings stopOf(const FilmOptions& options) {
-    StopSettings stop = stopSettings(options.settings.request);
-    stop.timeLimit.reset();
-    return stop;
+// Returns the metadata of a frame: that of `defocus render`, without values that differ from run to run.
+Metadata frameMetadata(const Shot& shot, const FilmFrame& film, RenderReport report) {
+    report.exposure = film.write.exposure;
+    Metadata metadata = renderMetadata(report);
+    metadata.erase("defocus:seconds");
+    metadata["capDate"] = std::string();  // no date; otherwise, the image library would insert the current time
+    metadata["defocus:frame"] = film.frame;
+    metadata["defocus:frameRate"] = shot.frameRate;
+    metadata["framesPerSecond"] = rationalFrameRate(shot.frameRate);
+    if (const auto code = timeCodeOfFrame(film.frame, shot.frameRate)) metadata["timeCode"] = *code;
+    return metadata;
 }
 
 // Returns the metadata for the file with index `file` of a frame: the metadata `ofFrame` with the file's settings hash.
@@ -155,63 +162,64 @@ private:
 };
 
 // Draws a frame, or a range of its samples.
-DrawnFrame drawFrame(const FilmFrame& film, FrameMoment moment, World& world, FrameDriver& driver,
-                     const FilmOptions& options, const FilmMetadata& metadata,
-                     const std::function<void(double)>& step) {
+DrawnFrame drawFrame(const Shot& shot, const FilmFrame& film, FrameMoment moment, SceneDriver& driver,
+                     const FilmOptions& options, const std::function<void(double)>& step) {
     const Clock::time_point start = Clock::now();
-    applyMoment(moment, world);
-    const auto ofFrame = [&] { return metadata(moment, driver.plan(), driver.stats()); };
-    RowsToFiles rows(film, ofFrame);
-    FrameOrder order{moment.view, moment.settings, stopOf(options), options.sampleRange};
+    driver.pose(options.settings.request, moment);
+    RowsToFiles rows(film, [&] { return frameMetadata(shot, film, driver.report()); });
+    FrameParts parts{.samples = options.sampleRange};
     if (!options.sampleRange)
-        order.takeRows = [&](const RowRange&, Image&& pixels) {
+        parts.takeRows = [&](const RowRange&, Image&& pixels) {
             rows.take(std::move(pixels), moment.view.width, moment.view.height);
         };
-    driver.start(std::move(order));
+    driver.start(parts);
+    FrameDriver& frame = driver.driver();
     do {
-        step(driver.share());
+        step(frame.share());
     } while (driver.advance());
 
     DrawnFrame drawn;
-    drawn.written = driver.inTiles();
-    drawn.stats = driver.stats();
+    drawn.written = frame.inTiles();
+    drawn.stats = frame.stats();
     if (options.sampleRange) {
-        drawn.part = driver.sums();
+        drawn.part = frame.sums();
         drawn.stats.samples = drawn.part.frameSamples;
     } else if (!drawn.written) {
         drawn.image = driver.image();
         drawn.layers = driver.layerImages();
     }
-    drawn.times.planMilliseconds = driver.planMilliseconds();
+    drawn.times.planMilliseconds = frame.planMilliseconds();
     drawn.times.renderMilliseconds = millisecondsSince(start);
-    drawn.metadata = metadata(moment, driver.plan(), drawn.stats);
+    drawn.metadata = frameMetadata(shot, film, driver.report(frame.plan(), drawn.stats));
     drawn.part.metadata = drawn.metadata;
     if (drawn.written) {
         drawn.times.writeMilliseconds = rows.finish();
         drawn.times.renderMilliseconds -= drawn.times.writeMilliseconds;
     }
     drawn.moment = std::move(moment);
-    drawn.scene = world.scene;
-    if (drawn.written) appendTimes(options, driver.memoryLimit(), film, drawn.moment, drawn.stats, drawn.times);
+    drawn.scene = driver.frame().scene;
+    if (drawn.written) appendTimes(options, frame.memoryLimit(), film, drawn.moment, drawn.stats, drawn.times);
     return drawn;
 }
 
 // Computes a frame of `run` from the run's lens images (one image per lens sample).
-DrawnFrame refocusFrame(const RefocusRun& run, FrameMoment moment, World& world, FrameDriver& driver,
-                        RefocusedPictures& pictures, const FilmMetadata& metadata,
+DrawnFrame refocusFrame(const Shot& shot, const FilmFrame& film, const RefocusRun& run, FrameMoment moment,
+                        SceneDriver& driver, RefocusedPictures& pictures, const FilmOptions& options,
                         const std::function<void(double)>& step) {
     const Clock::time_point start = Clock::now();
-    applyMoment(moment, world);
-    RefocusedPictures::Picture picture = pictures.picture(run, moment, driver, step);
+    const Request& request = options.settings.request;
+    RefocusedPictures::Picture picture = pictures.picture(run, request, moment, driver, step);
+    driver.pose(request, moment);
     DrawnFrame drawn;
     drawn.image = std::move(picture.image);
-    drawn.stats = driver.stats();
+    drawn.stats = driver.driver().stats();
     drawn.stats.samples = picture.samples;
     drawn.stats.trianglesDrawn = picture.rendered ? picture.plan.trianglesDrawn : 0;
-    drawn.times.planMilliseconds = picture.rendered ? driver.planMilliseconds() : 0;
+    drawn.times.planMilliseconds = picture.rendered ? driver.driver().planMilliseconds() : 0;
     drawn.times.renderMilliseconds = millisecondsSince(start);
-    drawn.metadata = metadata(moment, picture.plan, drawn.stats);
+    drawn.metadata = frameMetadata(shot, film, driver.report(picture.plan, drawn.stats));
     drawn.moment = std::move(moment);
+    drawn.scene = driver.frame().scene;
     return drawn;
 }
 
@@ -279,8 +287,8 @@ std::vector<FilmFrame> filmFrames(const Shot& shot, const SequenceBase& base, co
     return film;
 }
 
-FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world, FrameDriver& driver,
-                       const std::vector<FilmFrame>& frames, const FilmOptions& options, const FilmMetadata& metadata,
+FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, SceneDriver& driver,
+                       const std::vector<FilmFrame>& frames, const FilmOptions& options,
                        const std::function<bool()>& stop, const Progress& progress) {
     std::error_code ignored;
     if (!options.resume) fs::remove(options.timings, ignored);  // delete the timings file of an earlier run
@@ -309,23 +317,24 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
         FrameMoment moment = frameAt(shot, base, film.frame);
         const RefocusRun* const run = runOf(options.runs, film.frame);
         const auto drawn = std::make_shared<DrawnFrame>(
-            run != nullptr ? refocusFrame(*run, std::move(moment), world, driver, pictures, metadata, step)
-                           : drawFrame(film, std::move(moment), world, driver, options, metadata, step));
+            run != nullptr ? refocusFrame(shot, film, *run, std::move(moment), driver, pictures, options, step)
+                           : drawFrame(shot, film, std::move(moment), driver, options, step));
         ++figures.rendered;
         if (run != nullptr) {
             ++figures.refocused;
             if (drawn->stats.trianglesDrawn > 0) figures.lensImages += run->samples;
         }
-        figures.tiles = driver.tiles();
+        const FrameDriver& frame = driver.driver();
+        figures.tiles = frame.tiles();
         figures.renderMilliseconds += drawn->times.renderMilliseconds;
         figures.triangles += drawn->stats.trianglesDrawn;
-        if (options.frameDrawn && run == nullptr) options.frameDrawn(film.frame, driver.plan());
+        if (options.frameDrawn && run == nullptr) options.frameDrawn(film.frame, frame.plan());
         if (figures.rendered == 1 && options.firstDrawn && !drawn->image.empty())
             options.firstDrawn(drawn->image, film.write);
-        const auto write = [drawn, &film, &options, limit = driver.memoryLimit()] {
+        const auto write = [drawn, &film, &options, limit = frame.memoryLimit()] {
             writeFrame(film, *drawn, options, limit);
         };
-        if (driver.crowded() && !drawn->written)
+        if (frame.crowded() && !drawn->written)
             write();
         else if (!drawn->written)
             writer.add(write);

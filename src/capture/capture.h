@@ -13,7 +13,7 @@
 #include "capture/frame_sequence.h"
 #include "capture/refocus_runs.h"
 #include "core/progress.h"
-#include "frame/driver/frame_driver.h"
+#include "frame/driver/scene_driver.h"
 #include "frame/setup/settings_hash.h"
 #include "image/image_io.h"
 
@@ -35,8 +35,8 @@ struct FilmOptions {
     // Range of samples to draw; nullopt: all samples. If set, their sum is written to FRAME.partFIRST-END.exr, which
     // requires exactly one output, an EXR file.
     std::optional<SampleRange> sampleRange;
-    // `encoding` is set per file by filmFrames(). Request::timeLimit is ignored; the callback `stop` of
-    // renderFilm() can limit the time of the run.
+    // `encoding` is set per file by filmFrames(). The request must have no time limit, because a frame must have the
+    // same samples in every run; the callback `stop` of renderFilm() can limit the time of the run.
     FilmSettings settings;
     bool metered = false;  // true: the caller stores a metered exposure in FilmFrame::write before renderFilm()
     std::filesystem::path timings;  // path of the sidecar file, timings.jsonl
@@ -46,7 +46,7 @@ struct FilmOptions {
     // Called with the image of the first rendered frame, unless the frame is drawn in tiles, and with the options for
     // writing this image to PNG, JPEG and video.
     std::function<void(const Image&, const WriteOptions&)> firstDrawn;
-    // Called for each rendered frame with its number and plan, while the world is posed for that frame. Not called for
+    // Called for each rendered frame with its number and plan, while the driver's frame is that frame. Not called for
     // frames that are computed from lens images.
     std::function<void(int frame, const FramePlan& plan)> frameDrawn;
 };
@@ -71,18 +71,12 @@ struct FilmFigures {
     std::optional<int> stoppedBefore;  // first frame not drawn because the run was stopped; nullopt: not stopped
 };
 
-// A function that returns the metadata of a frame's files, without render times.
-using FilmMetadata = std::function<Metadata(const FrameMoment&, const FramePlan&, const RenderStats&)>;
-
-// Bytes per pixel of the images that wait for the writer thread. Used as DriverOptions::keptPixelBytes.
-inline constexpr std::uint64_t filmPixelBytes = 3 * 16;
-
-// Renders the unfinished frames. `driver` must be constructed with `world`, whose pose and lights are set for each
-// frame. Calls `stop` before each frame; the run ends when `stop` returns true. Frames in tiles are written row by row.
-// If memory is short, each frame is written before the next is drawn. Throws Error if a file can't be written or a
-// frame doesn't fit into memory; finished frames are kept.
-FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world, FrameDriver& driver,
-                       const std::vector<FilmFrame>& frames, const FilmOptions& options, const FilmMetadata& metadata,
+// Renders the unfinished frames. Loads nothing: the pyramids of `driver` must be built, and its GL context open if the
+// method needs one. Calls `stop` before each frame; the run ends when `stop` returns true. Frames in tiles are written
+// row by row. If memory is short, each frame is written before the next is drawn. Throws Error if a file can't be
+// written or a frame doesn't fit into memory; finished frames are kept.
+FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, SceneDriver& driver,
+                       const std::vector<FilmFrame>& frames, const FilmOptions& options,
                        const std::function<bool()>& stop, const Progress& progress = {});
 
 }  // namespace defocus::engine

@@ -154,16 +154,18 @@ std::uint64_t memoryOf(const RefocusRun& run, const View& view) {
     return KeptLensImages::bytes(lightFieldInfo(viewOf(run, view), run.range).size, run.samples);
 }
 
-RefocusedPictures::Picture RefocusedPictures::picture(const RefocusRun& run, const FrameMoment& moment,
-                                                      FrameDriver& driver, const std::function<void(double)>& step) {
+RefocusedPictures::Picture RefocusedPictures::picture(const RefocusRun& run, Request request, const FrameMoment& moment,
+                                                      SceneDriver& driver, const std::function<void(double)>& step) {
     const bool rendered = run_ != &run;
     if (rendered) {
         run_ = nullptr;
         images_.reset();  // frees the memory before the next images are drawn
-        RenderSettings settings = moment.settings;
-        settings.sampleCount = run.samples;
-        images_.emplace(driver, viewOf(run, moment.view), settings, run.range, step);
-        plan_ = driver.plan();
+        FrameMoment drawn = moment;
+        drawn.view = viewOf(run, moment.view);
+        request.samples = drawn.settings.sampleCount = run.samples;
+        driver.pose(std::move(request), drawn);
+        images_.emplace(driver, run.range, step);
+        plan_ = driver.driver().plan();
         run_ = &run;
     }
     const Lens& lens = moment.view.lens;

@@ -55,9 +55,10 @@ public:
         FramePlan plan;             // plan with which the lens images were rendered, but with the view of `image`
         bool rendered = false;      // true: the lens images were rendered for this frame
     };
-    // Computes a frame of `run`. Renders the run's lens images if the previous call was for another run. `driver` draws
-    // the world of the frame. `step` receives the finished fraction.
-    Picture picture(const RefocusRun& run, const FrameMoment& moment, FrameDriver& driver,
+    // Computes a frame of `run`, whose request and moment are given. Renders the run's lens images with `driver` if the
+    // previous call was for another run; the driver's frame is then the one of these images. `step` receives the
+    // finished fraction.
+    Picture picture(const RefocusRun& run, Request request, const FrameMoment& moment, SceneDriver& driver,
                     const std::function<void(double)>& step);
 
 private:

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lens/lens.h"
+#include "lod/pyramid/shared_pyramids.h"
 #include "plan/render_settings.h"
 #include "scene/defaults.h"
 #include "scene/pose.h"
@@ -46,7 +47,7 @@ struct World {
     Shutter shutter;  // poses during the exposure; lights and sky stay fixed at the middle of the exposure
     std::vector<PlacedLight> lights;
     Environment environment;
-    std::vector<Pyramid> pyramids;  // one pyramid per mesh of the scene
+    SharedPyramids pyramids;  // one pyramid per mesh of the scene
 };
 
 }  // namespace defocus::engine

@@ -2,19 +2,16 @@
 
 namespace defocus::engine {
 
-KeptLensImages::KeptLensImages(FrameDriver& driver, const View& view, const RenderSettings& settings,
-                               const FocusRange& range, const std::function<void(double)>& step)
-    : info_(lightFieldInfo(view, range)) {
-    FrameOrder order{.view = withMargin(view, info_.size.margin), .settings = settings};
-    order.settings.refocus = range;
-    order.untiledReason = "refocusing cannot use images that are drawn in tiles";
-    order.takeSample = [this](std::uint32_t, Image&& colour, Image&&) {
+KeptLensImages::KeptLensImages(SceneDriver& driver, const FocusRange& range, const std::function<void(double)>& step)
+    : info_(lightFieldInfo(driver.frame().view, range)) {
+    const auto keep = [this](std::uint32_t, Image&& colour, Image&&) {
         images_.push_back(std::make_shared<const HalfImage>(halfImage(colour)));
     };
-    driver.start(std::move(order));
-    addSamples(info_, driver.plan());
+    driver.start({.untiledReason = "refocusing cannot use images that are drawn in tiles",
+                  .lensImages = LensImageOrder{range, info_.size.margin, keep}});
+    addSamples(info_, driver.driver().plan());
     do {
-        step(driver.share());
+        step(driver.driver().share());
     } while (driver.advance());
 }
 

@@ -5,18 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "frame/driver/frame_driver.h"
+#include "frame/driver/scene_driver.h"
 #include "refocus/light_field.h"
 
 namespace defocus::engine {
 
 class KeptLensImages : public LensImages {
 public:
-    // Draws `settings.sampleCount` lens images of a view, for focus distances in `range`. `driver` must render with the
-    // accumulation method. `step` receives the finished fraction of the work, 0 to 1. Throws Error if lightFieldInfo or
-    // addSamples throws it, or if the images need tiles.
-    KeptLensImages(FrameDriver& driver, const View& view, const RenderSettings& settings, const FocusRange& range,
-                   const std::function<void(double)>& step);
+    // Draws the lens images of the frame that SceneDriver::pose described, for focus distances in `range`. The request
+    // must have the method accumulation and a fixed number of samples. `step` receives the finished fraction of the
+    // work, 0 to 1. Throws Error if lightFieldInfo or addSamples throws it, or if the images need tiles.
+    KeptLensImages(SceneDriver& driver, const FocusRange& range, const std::function<void(double)>& step);
 
     [[nodiscard]] const LightFieldInfo& info() const override { return info_; }
     [[nodiscard]] const std::string& name() const override { return name_; }

@@ -89,7 +89,7 @@ void runGltf(std::span<const std::byte> bytes) {
         request.size.height = 48;
         request.samples = 8;
         // Plans the scene without a ground, and again with a ground and shadows.
-        std::vector<Pyramid> pyramids;
+        SharedPyramids pyramids;
         for (const bool ground : {false, true}) {
             request.ground = ground;
             setGround(request, *scene);

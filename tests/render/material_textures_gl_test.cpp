@@ -227,11 +227,12 @@ TEST_F(MaterialTextures, fittedVertexColoursAreNotClamped) {
     const auto small = litWall(unlitMaterial({0.5f, 1, 1, 1}));
     small->scene.meshes[0].vertices.colors.assign(4, glm::vec4(1));
     finish(*small);
-    Pyramid& pyramid = small->world.pyramids[0];
+    Pyramid pyramid = small->world.pyramids[0];
     pyramid.levels.resize(1);
     PyramidLevel coarse = pyramid.levels[0];
     coarse.colors.assign(4, {1.5f, 0.25f, -0.125f, 1});
     pyramid.levels.push_back(coarse);
+    small->world.pyramids.replace(0, std::move(pyramid));
     FramePlan plan = wallPlan(*small);
     plan.objects[0].fine.level = 1;
     plan.levelsUsed[0].assign(2, false);

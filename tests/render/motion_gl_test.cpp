@@ -213,7 +213,11 @@ std::unique_ptr<SmallWorld> straightWays() {
     Mesh& mesh = small->scene.meshes[0];
     mesh.morphTargets.resize(1);
     for (const glm::vec3& p : mesh.vertices.positions) mesh.morphTargets[0].positions.push_back({0.3f * p.y, 0, 0});
-    for (Pyramid& pyramid : small->world.pyramids) measureDeformations(pyramid, mesh);
+    for (std::size_t i = 0; i < small->world.pyramids.size(); ++i) {
+        Pyramid pyramid = small->world.pyramids[i];
+        measureDeformations(pyramid, mesh);
+        small->world.pyramids.replace(i, std::move(pyramid));
+    }
     return small;
 }
 

@@ -30,11 +30,7 @@
 #include "core/stopwatch.h"
 #include "frame/report/picture_warnings.h"
 #include "frame/report/plan_warnings.h"
-#include "frame/report/render_report.h"
 #include "frame/setup/exposure.h"
-#include "frame/setup/prepared_frame.h"
-#include "gl/context.h"
-#include "image/time_code.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
@@ -108,40 +104,40 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
 // Replaces method "auto" by one method for all frames, so that the look doesn't change within the shot. Chooses a
 // method for up to 16 frames, spread over the complete shot. Uses multirate if it is chosen for any of these frames,
 // else accumulation.
-void settleMethod(CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base) {
-    const MethodUse use = chosenMethod(arguments.request);
+void settleMethod(Request& request, const Shot& shot, PreparedFrame placed, const SequenceBase& base) {
+    const MethodUse use = chosenMethod(request);
     if (use.method->name != automaticMethod) return;
     // Plan the frames without levels of detail, because these don't affect the choice of the method.
-    const LodMode lod = std::exchange(prepared.settings.lod, LodMode::off);
-    addPyramids(prepared);
+    placed.settings.lod = LodMode::off;
+    addPyramids(placed);
     constexpr int maxPlanned = 16;
-    const FrameRange& range = arguments.shot.range;
+    const FrameRange& range = shot.range;
     const int steps = std::min(maxPlanned - 1, range.last - range.first);
-    for (int i = 0; i <= steps && arguments.request.method != "multirate"; ++i) {
+    for (int i = 0; i <= steps && request.method != "multirate"; ++i) {
         const int number = range.first + (range.last - range.first) * i / std::max(steps, 1);
-        FrameMoment frame = frameAt(arguments.shot, base, number);
+        FrameMoment frame = frameAt(shot, base, number);
         frame.settings.lod = LodMode::off;
-        applyMoment(frame, prepared.world);
-        arguments.request.method = drawnMethod(use, planFrame(prepared.world, frame.view, frame.settings)).method->name;
+        applyMoment(frame, placed.world);
+        request.method = drawnMethod(use, planFrame(placed.world, frame.view, frame.settings)).method->name;
     }
-    prepared.world.pyramids.clear();
-    prepared.settings.lod = lod;
 }
 
-void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
-               const std::vector<FilmFrame>& film, const FilmOptions& options, const MethodUse& use) {
-    const StopSettings stop = stopSettings(arguments.request);
+void printPlan(const Shot& shot, SceneDriver& driver, const SequenceBase& base, const std::vector<FilmFrame>& film,
+               const FilmOptions& options) {
+    const Request& request = options.settings.request;
+    const StopSettings stop = stopSettings(request);
     const std::string samples = stop.targetError ? fmt::format("samples until the error is {:g}", *stop.targetError)
                                 : stop.automatic ? "as many samples as each frame needs"
                                                  : fmt::format("{} samples", base.settings.sampleCount);
-    fmt::print("{}, camera '{}', {}x{}, {}, method {}, {:g} frames per second\n", prepared.sceneName,
-               prepared.cameraName, base.view.width, base.view.height, samples, use.text(), arguments.shot.frameRate);
+    fmt::print("{}, camera '{}', {}x{}, {}, method {}, {:g} frames per second\n", driver.frame().sceneName,
+               driver.frame().cameraName, base.view.width, base.view.height, samples, chosenMethod(request).text(),
+               shot.frameRate);
     fmt::print("{:>7} {:>9} {:>10} {:>8} {:>8} {:>12}  {}\n", "frame", "time, s", "focus, m", "f-stop", "mm",
                "triangles", "file");
     for (const FilmFrame& each : film) {
-        const FrameMoment frame = frameAt(arguments.shot, base, each.frame);
-        applyMoment(frame, prepared.world);
-        const FramePlan plan = planFrame(prepared.world, frame.view, frame.settings);
+        const FrameMoment frame = frameAt(shot, base, each.frame);
+        driver.pose(request, frame);
+        const FramePlan plan = planFrame(driver.frame().world, frame.view, frame.settings);
         const Lens& lens = frame.view.lens;
         fmt::print("{:>7} {:>9.3f} {:>10.4g} {:>8.3g} {:>8.4g} {:>12}  {}{}\n", each.frame, frame.time,
                    lens.focusDistance, lens.fStop, lens.focalLength, plan.trianglesDrawn, each.files.front().string(),
@@ -152,41 +148,11 @@ void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const
     }
 }
 
-// Returns a function that gives a frame's metadata: the metadata that `defocus render` writes, without values that
-// differ from run to run. `exposure`: EV of all frames; nullopt: from each frame's lens.
-FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& prepared, const std::string& method,
-                        std::optional<double> exposure) {
-    return [&arguments, &prepared, method, exposure](const FrameMoment& frame, const FramePlan& plan,
-                                                     const RenderStats& stats) {
-        Request options = arguments.request;
-        options.time = frame.time;
-        options.timeLimit.reset();
-        options.seed = frame.settings.seed;
-        Metadata metadata = renderMetadata({options, method, prepared, plan, stats, false, 0, exposure});
-        metadata.erase("defocus:seconds");
-        metadata["capDate"] = std::string();  // no date; otherwise, the image library would insert the current time
-        metadata["defocus:frame"] = frame.frame;
-        metadata["defocus:frameRate"] = arguments.shot.frameRate;
-        metadata["framesPerSecond"] = rationalFrameRate(arguments.shot.frameRate);
-        if (const auto code = timeCodeOfFrame(frame.frame, arguments.shot.frameRate)) metadata["timeCode"] = *code;
-        return metadata;
-    };
-}
-
-// Plans the first frame of `film` and prints the warnings about its plan.
-void printPlanWarnings(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
-                       const std::vector<FilmFrame>& film, const MethodUse& use, WarningPrinter& warnings) {
-    const FrameMoment frame = frameAt(arguments.shot, base, film.front().frame);
-    applyMoment(frame, prepared.world);
-    warnings.print(planWarnings(planFrame(prepared.world, frame.view, frame.settings), use));
-}
-
 // Meters the shot's first frame, even if this run doesn't render that frame, and sets the exposure of all frames.
-void meterFilm(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
-               std::vector<FilmFrame>& film, const GlobalOptions& global) {
-    const FrameMoment frame = frameAt(arguments.shot, base, arguments.shot.range.first);
-    applyMoment(frame, prepared.world);
-    const double exposure = meteredExposure(prepared.world, frame.view, frame.settings, global.shaderDir);
+void meterFilm(const Shot& shot, SceneDriver& driver, const SequenceBase& base, const Request& request,
+               std::vector<FilmFrame>& film) {
+    driver.pose(request, frameAt(shot, base, shot.range.first));
+    const double exposure = driver.writeOptions().exposure;
     for (FilmFrame& each : film) each.write.exposure = exposure;
 }
 
@@ -222,19 +188,17 @@ void printPops(const PopCheck& check) {
     printMessage("{}\n", text);
 }
 
-FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
-                         const std::vector<FilmFrame>& film, FilmOptions& options, const MethodUse& use,
-                         const GlobalOptions& global, const Progress& progress) try {
-    const Request& request = arguments.request;
-    FrameDriver driver(prepared.world, driverOptions(request, global.shaderDir, filmPixelBytes));
+FilmFigures renderFrames(const CaptureArguments& arguments, SceneDriver& driver, const SequenceBase& base,
+                         const std::vector<FilmFrame>& film, FilmOptions& options, const GlobalOptions& global,
+                         const Progress& progress) try {
+    const Request& request = options.settings.request;
     std::optional<PopCheck> check;
     if (arguments.check) {
+        driver.makeCurrent();
         const RendererOptions renderer{.layerFormat = request.layerFormat, .shaderFolder = global.shaderDir};
-        check.emplace(prepared.world, use, renderer);
+        check.emplace(driver.frame().world, chosenMethod(request), renderer);
         options.frameDrawn = [&](int frame, const FramePlan& plan) { check->note(frame, plan); };
     }
-    const std::optional<double> exposure =
-        options.metered ? std::optional(film.front().write.exposure) : exposureOf(request);
     stopWhenAsked();
     // With a time limit, render at least one frame, so that repeated runs eventually finish.
     const Clock::time_point start = Clock::now();
@@ -245,8 +209,7 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
         const bool late = limit && !std::exchange(first, false) && millisecondsSince(start) > 1000 * *limit;
         return stopAsked() || late;
     };
-    const FilmFigures figures = renderFilm(arguments.shot, base, prepared.world, driver, film, options,
-                                           metadataOf(arguments, prepared, use.text(), exposure), stop, progress);
+    const FilmFigures figures = renderFilm(arguments.shot, base, driver, film, options, stop, progress);
     if (check) printPops(*check);
     return figures;
 } catch (const Error& error) {
@@ -264,10 +227,11 @@ void refuseToReplace(const std::vector<FilmFrame>& film) {
          more > 0 ? fmt::format(" and {} more frame{} were", more, more > 1 ? "s" : "") : " was");
 }
 
-PreparedFrame placedFrame(const CaptureArguments& arguments, const Progress& progress) try {
-    return placeFrame(arguments.request, progress);
+std::unique_ptr<SceneDriver> openedScene(const Shot& shot, const Request& request, const GlobalOptions& global,
+                                         const Progress& progress) try {
+    return std::make_unique<SceneDriver>(nullptr, request, global.shaderDir, progress);
 } catch (const MissingName& missing) {
-    failForName(arguments.shot, missing);
+    failForName(shot, missing);
 }
 
 void runCapture(CaptureArguments& arguments, const GivenOptions& given, const GlobalOptions& global) {
@@ -276,40 +240,41 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     settleShot(shot, arguments.request, given);
     if (!arguments.outputs.empty()) shot.outputs = arguments.outputs;
     checkArguments(arguments);
-    if (arguments.request.targetError) checkStop(arguments.request);
+    Request request = arguments.request;
+    request.timeLimit.reset();  // limits the run, not a frame: a frame must have the same samples in every run
     Progress progress = terminalProgress(global);
-    PreparedFrame prepared = placedFrame(arguments, progress);
-    const SequenceBase base = sequenceBase(prepared, arguments.request);
-    if (arguments.refocus && chosenMethod(arguments.request).method->name == automaticMethod)
-        arguments.request.method = "accumulation";
-    settleMethod(arguments, prepared, base);
-    const MethodUse use = chosenMethod(arguments.request);
-    FilmOptions options = filmOptions(arguments, filmSettings(prepared, arguments.request, global.shaderDir));
+    const std::unique_ptr<SceneDriver> driver = openedScene(shot, request, global, progress);
+    const PreparedFrame& placed = driver->frame();
+    const SequenceBase base = sequenceBase(placed, request);
+    if (arguments.refocus && chosenMethod(request).method->name == automaticMethod) request.method = "accumulation";
+    settleMethod(request, shot, placed, base);
+    const MethodUse use = chosenMethod(request);
+    FilmOptions options = filmOptions(arguments, filmSettings(placed, request, global.shaderDir));
     if (arguments.refocus && use.method->name != "accumulation")
         throw UsageError(
             fmt::format("--refocus requires --method accumulation, not '{}'; leave out --method", use.text()));
     RefocusRuns runs;
     if (arguments.refocus) runs = chosenRuns(shot, base, options.settings);
     options.runs = runs.runs;
-    options.metered = metersExposure(arguments.request, *prepared.scene, prepared.view.lens);
+    options.metered = metersExposure(request, *placed.scene, placed.view.lens);
     const std::vector<int> frames =
         shardFrames(arguments.range.value_or(shot.range), arguments.shard.index, arguments.shard.count);
     std::vector<FilmFrame> film = filmFrames(shot, base, frames, options, progress);
     if (arguments.resume && !arguments.overwrite && !arguments.dryRun) refuseToReplace(film);
     const bool allThere = std::ranges::all_of(film, &FilmFrame::finished);
 
-    std::unique_ptr<GlContext> context;
     const bool meters = options.metered && (!allThere || !shot.video.empty());
-    if (((!allThere && use.method->needsGl) || meters) && !arguments.dryRun) context = createHeadlessContext();
-    if (!allThere || meters || arguments.dryRun) addPyramids(prepared, progress);
+    if (((!allThere && use.method->needsGl) || meters) && !arguments.dryRun) driver->openContext();
+    if (!allThere || meters || arguments.dryRun) driver->buildPyramids(progress);
     progress = {};
-    printCacheUse(prepared, global);
+    printCacheUse(placed, global);
     WarningPrinter warnings(global);
-    warnings.print(requestWarnings(arguments.request, prepared));
+    if (!film.empty()) driver->pose(request, frameAt(shot, base, film.front().frame));
+    warnings.print(driver->warnings());
     warnings.print(runs.rendered);
-    if (!allThere) printPlanWarnings(arguments, prepared, base, film, use, warnings);
-    if (arguments.dryRun) return printPlan(arguments, prepared, base, film, options, use);
-    if (meters) meterFilm(arguments, prepared, base, film, global);
+    if (!allThere) warnings.print(planWarnings(planFrame(placed.world, placed.view, placed.settings), use));
+    if (arguments.dryRun) return printPlan(shot, *driver, base, film, options);
+    if (meters) meterFilm(shot, *driver, base, request, film);
     progress = terminalProgress(global);
     if (!shot.video.empty() || !std::ranges::all_of(shot.outputs, isExr))
         options.firstDrawn = [&](const Image& image, const WriteOptions& write) {
@@ -319,7 +284,7 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
         };
     FilmFigures figures;
     figures.finishedBefore = static_cast<int>(film.size());
-    if (!allThere) figures = renderFrames(arguments, prepared, base, film, options, use, global, progress);
+    if (!allThere) figures = renderFrames(arguments, *driver, base, film, options, global, progress);
     if (figures.stoppedBefore)
         fail("stopped before frame {}: {} of {} frames are finished; repeat the command with --resume to continue",
              *figures.stoppedBefore, figures.rendered + figures.finishedBefore, film.size());

@@ -77,7 +77,7 @@ double largestBlur(const FramePlan& plan) {
 
 std::uint64_t pyramidBytes(const World& world) {
     std::uint64_t bytes = 0;
-    for (const Pyramid& pyramid : world.pyramids) {
+    for (const Pyramid& pyramid : world.pyramids.all()) {
         bytes += pyramid.indices.size() * sizeof(std::uint32_t);
         for (const PyramidLevel& level : pyramid.levels)
             bytes += level.positions.size() * sizeof(glm::vec3) + level.normals.size() * sizeof(glm::vec3) +

@@ -60,19 +60,23 @@ SceneDriver::SceneDriver(std::shared_ptr<const Scene> scene, const Request& requ
     checkRequest(request);
     scene_.emplace(named_ ? SharedScene(request, progress) : SharedScene(std::move(scene), request));
     frame_ = placeFrame(scene_->of(request), request);
-    chooseLevels(frame_, request);
-    loadMilliseconds_ = millisecondsSince(begin);
-    {
-        const CurrentContextKeeper callers;
-        context_ = createHeadlessContext();
-    }
-    addPyramids(frame_, progress);
-    pyramidMilliseconds_ = frame_.pyramidMilliseconds;
+    loadMilliseconds_ = frame_.loadMilliseconds = millisecondsSince(begin);
+}
+
+SceneDriver::SceneDriver(PreparedFrame frame, const Request& request, std::filesystem::path shaderFolder)
+    : shaderFolder_(std::move(shaderFolder)),
+      first_(request),
+      request_(request),
+      frame_(std::move(frame)),
+      loadMilliseconds_(frame_.loadMilliseconds),
+      pyramidMilliseconds_(frame_.pyramidMilliseconds),
+      ownContext_(false) {
+    scene_.emplace(frame_.scene, request);
 }
 
 SceneDriver::~SceneDriver() {
     try {
-        const InContext use(*context_);
+        const InContext use = inContext();
         driver_.reset();
         context_.reset();
     } catch (const Error&) {  // another thread uses the context: leak its resources until the process ends
@@ -81,18 +85,41 @@ SceneDriver::~SceneDriver() {
     }
 }
 
-// Moves the pyramids of the previous frame to `next`. If `next` needs pyramids of another `kind` (see pyramidKinds),
-// stores the previous pyramids for later frames instead. Doesn't throw.
-void SceneDriver::handOnPyramids(PreparedFrame& next, std::size_t kind) {
-    if (kind == pyramidKind(frame_.settings)) {
-        next.world.pyramids = std::move(frame_.world.pyramids);
-        next.pyramidsLoaded = frame_.pyramidsLoaded;
-        next.cacheFailure = std::move(frame_.cacheFailure);
-        return;
+void SceneDriver::prepare(const Progress& progress) {
+    chooseLevels(frame_, request_);
+    openContext();
+    buildPyramids(progress);
+}
+
+void SceneDriver::openContext() {
+    if (context_ || !ownContext_) return;
+    const CurrentContextKeeper callers;
+    context_ = createHeadlessContext();
+}
+
+void SceneDriver::buildPyramids(const Progress& progress) {
+    givePyramids(frame_, progress);
+}
+
+void SceneDriver::makeCurrent() {
+    if (context_) context_->makeCurrent();
+}
+
+// Sets the pyramids of `frame`: those of an earlier frame, or else new ones.
+void SceneDriver::givePyramids(PreparedFrame& frame, const Progress& progress) {
+    if (hasGround(*frame.scene) != builtGround_) built_ = {};  // the ground adds a mesh, or changes one
+    builtGround_ = hasGround(*frame.scene);
+    std::optional<Built>& built = built_[pyramidKind(frame.settings)];
+    if (!built) {
+        addPyramids(frame, progress);
+        pyramidMilliseconds_ += frame.pyramidMilliseconds;
+        built = {frame.world.pyramids, frame.pyramidsLoaded, frame.cacheFailure};
     }
-    if (next.world.pyramids.empty()) next.world.pyramids = std::move(otherPyramids_[kind]);
-    otherPyramids_[kind].clear();
-    otherPyramids_[pyramidKind(frame_.settings)] = std::move(frame_.world.pyramids);
+    frame.world.pyramids = built->pyramids;
+    frame.pyramidsLoaded = built->loaded;
+    frame.cacheFailure = built->cacheFailure;
+    frame.loadMilliseconds = loadMilliseconds_;
+    frame.pyramidMilliseconds = pyramidMilliseconds_;
 }
 
 void SceneDriver::start(const Request& request, const FrameParts& parts, const Progress& progress) {
@@ -103,42 +130,44 @@ void SceneDriver::start(const Request& request, const FrameParts& parts, const P
     const Environment* known = sameSurroundings(request, request_) ? &frame_.world.environment : nullptr;
     PreparedFrame next = placeFrame(scene_->of(request), request, known);
     chooseLevels(next, request);
-    const std::size_t kind = pyramidKind(next.settings);
-    const bool sameGround = hasGround(*next.scene) == hasGround(*frame_.scene);
-    const bool samePyramids = kind == pyramidKind(frame_.settings) && sameGround;
-    const bool same = samePyramids && sameDriver(request, request_);
-    if (!samePyramids && (!sameGround || otherPyramids_[kind].empty())) {
-        addPyramids(next, progress);
-        pyramidMilliseconds_ += next.pyramidMilliseconds;
-    }
+    openContext();
+    givePyramids(next, progress);
     Request asked = request;
-    const InContext use(*context_);
+    const InContext use = inContext();
 
     // All checks of the request have passed: replace the previous frame.
-    if (!same) driver_.reset();
-    if (sameGround)
-        handOnPyramids(next, kind);
-    else  // adding or removing the ground changes the meshes, so stored pyramids don't match
-        otherPyramids_ = {};
-    next.loadMilliseconds = loadMilliseconds_;
-    next.pyramidMilliseconds = pyramidMilliseconds_;
+    if (next.world.pyramids != frame_.world.pyramids) resetDriver();
+    replaceRequest(std::move(asked));
     frame_ = std::move(next);
-    request_ = std::move(asked);
+    start(parts);
+}
+
+void SceneDriver::pose(Request request, const FrameMoment& moment) {
+    request.time = moment.time;
+    request.seed = moment.settings.seed;
+    replaceRequest(std::move(request));
+    applyMoment(moment, frame_.world);
+    frame_.view = moment.view;
+    frame_.settings = moment.settings;
+}
+
+void SceneDriver::start(const FrameParts& parts) {
+    FrameOrder order{.view = frame_.view,
+                     .settings = frame_.settings,
+                     .stop = stopSettings(request_),
+                     .samples = parts.samples,
+                     .rows = parts.rows,
+                     .takeRows = parts.takeRows,
+                     .untiledReason = parts.untiledReason,
+                     .shortDraws = parts.shortDraws};
+    if (parts.lensImages) {
+        order.view = withMargin(frame_.view, parts.lensImages->margin);
+        order.settings.refocus = parts.lensImages->range;
+        order.takeSample = parts.lensImages->take;
+    }
+    const InContext use = inContext();
     try {
         if (!driver_) driver_.emplace(frame_.world, driverOptions(request_, shaderFolder_, keptPixelBytes));
-        FrameOrder order{.view = frame_.view,
-                         .settings = frame_.settings,
-                         .stop = stopSettings(request_),
-                         .samples = parts.samples,
-                         .rows = parts.rows,
-                         .takeRows = parts.takeRows,
-                         .untiledReason = parts.untiledReason,
-                         .shortDraws = parts.shortDraws};
-        if (parts.lensImages) {
-            order.view = withMargin(frame_.view, parts.lensImages->margin);
-            order.settings.refocus = parts.lensImages->range;
-            order.takeSample = parts.lensImages->take;
-        }
         driver_->start(std::move(order));
     } catch (...) {
         driver_.reset();
@@ -146,9 +175,20 @@ void SceneDriver::start(const Request& request, const FrameParts& parts, const P
     }
 }
 
+void SceneDriver::resetDriver() {
+    const InContext use = inContext();
+    driver_.reset();
+}
+
+// Sets the request of the next frame. Keeps the FrameDriver if it can draw that frame, too.
+void SceneDriver::replaceRequest(Request request) {
+    if (!sameDriver(request, request_)) resetDriver();
+    request_ = std::move(request);
+}
+
 bool SceneDriver::advance() {
     FrameDriver& driver = this->driver();
-    const InContext use(*context_);
+    const InContext use = inContext();
     return driver.advance();
 }
 
@@ -164,7 +204,7 @@ const FrameDriver& SceneDriver::driver() const {
 
 Image SceneDriver::image() {
     if (driver().samples() == 0) fail("the image has no samples yet; call advance() first");
-    const InContext use(*context_);
+    const InContext use = inContext();
     return driver_->image();
 }
 
@@ -173,19 +213,19 @@ AovImages SceneDriver::aovs() {
         fail(
             "AOVs need the whole image, but the image does not fit into memory and is drawn in tiles; raise --memory "
             "or reduce --size");
-    const InContext use(*context_);
+    const InContext use = inContext();
     return renderAovs(frame_.world, driver_->plan(), shaderFolder_);
 }
 
 std::optional<LayerImages> SceneDriver::layerImages() {
     FrameDriver& driver = this->driver();
-    const InContext use(*context_);
+    const InContext use = inContext();
     return driver.layerImages();
 }
 
 Image SceneDriver::work() {
     const FramePlan& plan = driver().plan();
-    const InContext use(*context_);
+    const InContext use = inContext();
     return renderWork(frame_.world, plan, shaderFolder_);
 }
 
@@ -200,7 +240,7 @@ std::vector<std::string> SceneDriver::warnings() const {
         add(planWarnings(driver_->plan(), driver_->method(), counted ? 0 : driver_->samples()));
         if (driver_->inTiles() && stop.automatic) add(tiledSamplesNote(driver_->plan()));
     }
-    if (request_.threads.value_or(1) > 1 && !drawsInThreads(context_->device(), context_->driver()))
+    if (context_ && request_.threads.value_or(1) > 1 && !drawsInThreads(context_->device(), context_->driver()))
         lines.push_back(
             fmt::format("--threads {} has no effect: OpenGL contexts of {} ({}) cannot draw in several threads; use "
                         "Mesa 25.0 or later",
@@ -214,7 +254,7 @@ std::string SceneDriver::settingsHash() const {
 }
 
 WriteOptions SceneDriver::writeOptions() {
-    const InContext use(*context_);
+    const InContext use = inContext();
     const bool meters = metersExposure(request_, *frame_.scene, frame_.view.lens);
     const double exposure = meters && metered_
                                 ? *metered_
@@ -223,30 +263,33 @@ WriteOptions SceneDriver::writeOptions() {
     return {request_.toneMap, exposure};
 }
 
-RenderReport SceneDriver::report(std::string command, double milliseconds) {
-    const double exposure = writeOptions().exposure;
-    const InContext use(*context_);
-    const FrameDriver& driver = this->driver();
+RenderReport SceneDriver::report(const FramePlan& plan, const RenderStats& stats) {
     return {.options = request_,
-            .method = driver.method().text(),
+            .method = driver().method().text(),
             .frame = frame_,
-            .plan = driver.plan(),
-            .stats = driver.stats(),
-            .softwareDriver = context_->software(),
-            .totalMilliseconds = milliseconds,
-            .exposure = exposure,
-            .command = std::move(command),
-            .memoryLimit = driver.memoryLimit(),
-            .tiles = driver.tiles()};
+            .plan = plan,
+            .stats = stats,
+            .softwareDriver = context_ && context_->software(),
+            .exposure = writeOptions().exposure,
+            .memoryLimit = driver().memoryLimit(),
+            .tiles = driver().tiles()};
+}
+
+RenderReport SceneDriver::report(std::string command, double milliseconds) {
+    const InContext use = inContext();
+    RenderReport report = this->report(driver().plan(), driver().stats());
+    report.command = std::move(command);
+    report.totalMilliseconds = milliseconds;
+    return report;
 }
 
 RenderStatistics SceneDriver::statistics() const {
     RenderStatistics statistics;
     statistics.loadMilliseconds = loadMilliseconds_;
     statistics.pyramidMilliseconds = pyramidMilliseconds_;
-    statistics.device = context_->device();
+    if (context_) statistics.device = context_->device();
     if (!driver_) return statistics;
-    const InContext use(*context_);
+    const InContext use = inContext();
     const RenderStats stats = driver_->stats();
     statistics.samples = driver_->samples();
     statistics.positions = driver_->plan().settings.positions;

@@ -1,6 +1,12 @@
 #pragma once
-// Renders requests of one scene, frame after frame. Implements the public SceneRenderer (defocus/renderer.h) and serves
-// the program's commands. The scene is loaded once; its pyramids are reused between frames.
+// Renders requests of one scene, frame after frame: still images, frames of a shot, and exports of the window.
+// Implements the public SceneRenderer (defocus/renderer.h). The scene is loaded once; its pyramids are reused between
+// frames.
+//
+//   SceneDriver driver(nullptr, request, shaderFolder, progress);
+//   driver.start(request);            // or, for a frame of a shot: driver.pose(request, moment); driver.start();
+//   while (driver.advance()) {}
+//   driver.write(path, driver.image());
 
 #include <array>
 #include <filesystem>
@@ -13,10 +19,12 @@
 #include "defocus/renderer.h"
 #include "frame/driver/frame_driver.h"
 #include "frame/report/render_report.h"
+#include "frame/setup/frame_moment.h"
 #include "frame/setup/prepared_frame.h"
 #include "frame/setup/shared_scene.h"
 #include "gl/context.h"
 #include "image/image_io.h"
+#include "lod/pyramid/shared_pyramids.h"
 #include "render/aov/aov.h"
 
 namespace defocus::engine {
@@ -41,16 +49,33 @@ struct FrameParts {
 
 class SceneDriver {
 public:
-    // Loads the scene that the request names, or uses `scene` if it isn't null. Checks the request, scene, lens
-    // and device before any pyramid is built. Throws Error in the same cases as SceneRenderer.
+    // Loads the scene that the request names, or uses `scene` if it isn't null, and places camera, lens and lights.
+    // Checks the request, scene and lens. Throws Error in the same cases as SceneRenderer.
     SceneDriver(std::shared_ptr<const Scene> scene, const Request& request, std::filesystem::path shaderFolder,
                 const Progress& progress);
+    // Draws in the caller's current GL context. `frame` must have pyramids and match the request.
+    SceneDriver(PreparedFrame frame, const Request& request, std::filesystem::path shaderFolder);
     ~SceneDriver();
     SceneDriver(const SceneDriver&) = delete;
     SceneDriver& operator=(const SceneDriver&) = delete;
 
-    // Begins a frame. If the request fails its checks, throws Error and leaves the previous frame unchanged.
+    // Prepares a still image before start(), which otherwise does this itself: chooses whether to use levels of detail,
+    // opens the GL context and builds the pyramids.
+    void prepare(const Progress& progress);
+    // Opens the GL context if the driver has none. Throws Error without a usable device.
+    void openContext();
+    // Builds the pyramids that the settings of frame() need, unless they are built.
+    void buildPyramids(const Progress& progress);
+    // Makes the driver's GL context current on this thread.
+    void makeCurrent();
+
+    // Begins a still image. If the request fails its checks, throws Error and leaves the previous frame unchanged.
     void start(const Request& request, const FrameParts& parts = {}, const Progress& progress = {});
+    // Replaces pose, lights, camera, lens and settings of frame() by those of a moment of the same scene, whose
+    // pyramids must be built before the next start(). The time and seed of the request are those of the moment.
+    void pose(Request request, const FrameMoment& moment);
+    // Begins the frame that pose() described. Throws Error in the same cases as FrameDriver::start.
+    void start(const FrameParts& parts = {});
     // Draws a batch (wave) of lens samples. Returns false once the frame is complete.
     bool advance();
 
@@ -84,32 +109,46 @@ public:
     [[nodiscard]] Metadata metadata();
     // `command`: the command line in shell syntax; empty: none. `milliseconds`: time since the command began.
     [[nodiscard]] RenderReport report(std::string command = {}, double milliseconds = 0);
+    // Returns the report of an image that was computed from lens images of this driver. `plan` must outlive the report.
+    [[nodiscard]] RenderReport report(const FramePlan& plan, const RenderStats& stats);
     // Writes an image of the frame to a file, with the frame's metadata; EXR files also get the layers.
     void write(const std::filesystem::path& path, const ImageView& image);
 
 private:
     // Makes the driver's GL context current during the object's lifetime, then restores the caller's context.
     struct InContext {
-        explicit InContext(GlContext& context) { context.makeCurrent(); }
+        explicit InContext(GlContext* context) {
+            if (context != nullptr) context->makeCurrent();
+        }
         CurrentContextKeeper callers;
     };
     // Number of kinds of pyramids. Kind 0 has full detail only; kind 1 + n has levels built with the LevelVertices
     // enumerator of value n.
     static constexpr std::size_t pyramidKinds = 4;
+    struct Built {
+        SharedPyramids pyramids;
+        std::size_t loaded = 0;
+        std::string cacheFailure;
+    };
 
-    void handOnPyramids(PreparedFrame& next, std::size_t kind);
+    [[nodiscard]] InContext inContext() const { return InContext(context_.get()); }
+    void givePyramids(PreparedFrame& frame, const Progress& progress);
+    void resetDriver();
+    void replaceRequest(Request request);
 
-    bool named_;  // true: the request names the scene; false: the caller passed the scene
+    bool named_ = false;  // true: the request names the scene; false: the caller passed the scene
     std::filesystem::path shaderFolder_;
     Request first_, request_;
     std::optional<SharedScene> scene_;
-    PreparedFrame frame_;           // frame of request_; must outlive driver_, which refers to frame_.world
-    std::array<std::vector<Pyramid>, pyramidKinds> otherPyramids_;  // pyramids for later frames, indexed by pyramidKind
+    PreparedFrame frame_;  // frame of request_; must outlive driver_, which refers to frame_.world
+    std::array<std::optional<Built>, pyramidKinds> built_;  // indexed by pyramidKind
+    bool builtGround_ = false;                              // whether the pyramids in built_ include a ground
     double loadMilliseconds_ = 0;
     double pyramidMilliseconds_ = 0;
-    std::optional<double> metered_;     // metered exposure, EV
-    std::vector<std::string> clipped_;  // warnings about clipping in the latest written 8-bit image
-    std::unique_ptr<GlContext> context_;
+    std::optional<double> metered_;       // metered exposure, EV
+    std::vector<std::string> clipped_;    // warnings about clipping in the latest written 8-bit image
+    bool ownContext_ = true;              // false: frames are drawn in the caller's context
+    std::unique_ptr<GlContext> context_;  // null until openContext()
     std::optional<FrameDriver> driver_;
 };
 

@@ -17,10 +17,14 @@ public:
 };
 
 SceneRenderer::SceneRenderer(const Request& request, const Progress& progress)
-    : state_(std::make_unique<State>(nullptr, request, std::filesystem::path(), progress)) {}
+    : state_(std::make_unique<State>(nullptr, request, std::filesystem::path(), progress)) {
+    state_->prepare(progress);
+}
 
 SceneRenderer::SceneRenderer(const Scene& scene, const Request& request, const Progress& progress)
-    : state_(std::make_unique<State>(scene.engineScene(), request, std::filesystem::path(), progress)) {}
+    : state_(std::make_unique<State>(scene.engineScene(), request, std::filesystem::path(), progress)) {
+    state_->prepare(progress);
+}
 
 SceneRenderer::~SceneRenderer() = default;
 SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;

@@ -25,8 +25,8 @@ std::unique_ptr<PreparedFrame> draftOf(const PreparedFrame& frame) {
     draft->world.pyramids.resize(meshes.size());
     parallelFor(meshes.size(), [&](std::size_t i) {
         const double share = static_cast<double>(meshes[i].triangleCount()) / static_cast<double>(total);
-        draft->world.pyramids[i] =
-            draftPyramid(meshes[i], std::max(256u, static_cast<std::uint32_t>(share * draftTriangles)));
+        draft->world.pyramids.replace(
+            i, draftPyramid(meshes[i], std::max(256u, static_cast<std::uint32_t>(share * draftTriangles))));
     });
     return draft;
 }

@@ -112,7 +112,7 @@ void updateGround(Document& document, ViewState& state) {
     Scene& scene = *document.frame->scene;
     if (hasGround(scene)) removeGround(scene);
     setGround(state.options, scene);
-    std::vector<Pyramid>& pyramids = document.frame->world.pyramids;
+    SharedPyramids& pyramids = document.frame->world.pyramids;
     pyramids.resize(std::min(pyramids.size(), scene.meshes.size()));
     while (pyramids.size() < scene.meshes.size()) pyramids.push_back(fullDetail(scene.meshes[pyramids.size()]));
     updatePose(document, state);

@@ -23,14 +23,15 @@ View exportView(const Document& document, const ViewState& state) {
     return view;
 }
 
-void startStill(std::optional<StillExport>& still, const Document& document, ViewState& state, bool software) {
+void startStill(std::optional<StillExport>& still, const Document& document, ViewState& state) {
     if (document.draft) {
         sayFault(state, "The simplified meshes are still being built; export the still again in a moment.");
         return;
     }
     state.playing = false;
-    still.emplace(*document.frame, StillRequest{state.options, exportView(document, state), state.exportPath,
-                                                writeOptions(state), software, document.shaderFolder});
+    Request request = state.options;
+    request.exposure = ExposureValue{writeOptions(state).exposure};
+    still.emplace(*document.frame, exportView(document, state), request, state.exportPath, document.shaderFolder);
 }
 
 // Writes the recorded shot to a file. Returns the command that renders the shot.
@@ -53,7 +54,7 @@ std::string pictureCommand(const Document& document, const ViewState& state) {
 }
 
 std::optional<std::string> actOnExport(std::optional<StillExport>& still, const Document& document, ViewState& state,
-                                       const ViewActions& actions, bool software) {
+                                       const ViewActions& actions) {
     if (!document.frame) return std::nullopt;
     if (actions.recordKey) {
         state.shotKeys.push_back({exportView(document, state), state.camera.pivotDistance, state.options.time});
@@ -65,7 +66,7 @@ std::optional<std::string> actOnExport(std::optional<StillExport>& still, const 
     }
     if (actions.askExport && still) say(state, "A still is being rendered; Esc cancels it.");
     if (actions.askExport && !still && !state.exportDialog) state.exportDialog.emplace();
-    if (actions.exportStill && !still) startStill(still, document, state, software);
+    if (actions.exportStill && !still) startStill(still, document, state);
     if (actions.saveShot && !state.shotKeys.empty()) return writeShot(document, state);
     if (!actions.copyCommand) return std::nullopt;
     say(state, "Command copied.");
@@ -79,7 +80,7 @@ void stepExport(std::optional<StillExport>& still, ViewState& state) {
         bool more = true;
         while (more && millisecondsSince(begin) < exportSlice) more = still->step();
         if (more) return;
-        say(state, "Written: " + still->request().output.string());
+        say(state, "Written: " + still->output().string());
     } catch (const Error& error) {
         sayFault(state, error.what());
     }

@@ -51,8 +51,8 @@ void drawProgress(const Ui& ui) {
     const double seconds = ui.still->secondsLeft();
     const std::string left = std::isfinite(seconds) ? fmt::format(", about {:.0f} s left", std::max(1.0, seconds)) : "";
     drawBar(ui, bottom,
-            fmt::format("{}: {:.0f} %{}. Esc cancels", ui.still->request().output.filename().string(),
-                        100 * ui.still->share(), left),
+            fmt::format("{}: {:.0f} %{}. Esc cancels", ui.still->output().filename().string(), 100 * ui.still->share(),
+                        left),
             ui.still->share());
 }
 

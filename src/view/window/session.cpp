@@ -125,7 +125,7 @@ void act(Session& session) {
         if (actions.openDialog) openSceneDialog(session.openDialog, state);
         if (actions.toggleFullscreen) session.window.setFullscreen(!session.window.fullscreen());
         actOnDocument(session.document, state, actions, session.still.has_value());
-        const auto copied = actOnExport(session.still, session.document, state, actions, session.window.software());
+        const auto copied = actOnExport(session.still, session.document, state, actions);
         if (copied) session.window.setClipboard(*copied);
         if (actions.quit) session.window.close();
     } catch (const Error& error) {

@@ -179,7 +179,7 @@ TEST(ScalingWorlds, aSchoolHasAboutTheTrianglesAskedFor) {
     for (const std::uint64_t triangles : {20'000ull, 60'000ull}) {
         const ScalingWorld school = schoolOf(triangles, {});
         std::uint64_t total = 0;
-        for (const Pyramid& pyramid : school.world.pyramids) total += pyramid.levels[0].triangleCount;
+        for (const Pyramid& pyramid : school.world.pyramids.all()) total += pyramid.levels[0].triangleCount;
         EXPECT_NEAR(static_cast<double>(total) / static_cast<double>(triangles), 1, 0.15);
         EXPECT_EQ(school.world.pose.objects.size(), 8u);
     }
