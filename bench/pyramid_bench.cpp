@@ -397,13 +397,15 @@ void normalsRows(const std::string& name, const Scene& source, const Mesh& mesh)
     furnish(stage, source, mesh);
     stage.world.pyramids = buildPyramids(stage.world.scene->meshes);
     forEachLevelInUse(stage, [&](std::uint32_t l, double coc) {
-        const Pyramid& pyramid = stage.world.pyramids[0];
-        PyramidLevel& level = stage.world.pyramids[0].levels[l];
+        const Pyramid pyramid = stage.world.pyramids[0];
+        const PyramidLevel& level = pyramid.levels[l];
         const Image reference = drawn(stage, 0);
         const auto differenceWith = [&](std::vector<glm::vec3> normals) {
-            std::swap(level.normals, normals);
+            Pyramid changed = pyramid;
+            changed.levels[l].normals = std::move(normals);
+            stage.world.pyramids.replace(0, std::move(changed));
             const Difference difference = compareImages(reference, drawn(stage, l));
-            std::swap(level.normals, normals);
+            stage.world.pyramids.replace(0, pyramid);
             return difference;
         };
         const std::vector<glm::vec3>& own = pyramid.vertices.normals;

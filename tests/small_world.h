@@ -2,6 +2,7 @@
 // Builds small scenes for tests of plans and renderers: bumpy spheres and quads with pyramids of levels of detail.
 
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
@@ -95,6 +96,15 @@ inline void place(SmallWorld& small, int mesh, const glm::dmat4& worldFromObject
 
 inline void finish(SmallWorld& small) {
     small.world.pyramids = buildPyramids(small.scene.meshes);
+}
+
+// Calls `change` with each pyramid of the world.
+inline void changePyramids(World& world, const std::function<void(Pyramid&)>& change) {
+    for (std::size_t i = 0; i < world.pyramids.size(); ++i) {
+        Pyramid pyramid = world.pyramids[i];
+        change(pyramid);
+        world.pyramids.replace(i, std::move(pyramid));
+    }
 }
 
 inline PlacedLight sunFrom(const glm::dvec3& direction, float intensity) {

@@ -180,7 +180,7 @@ DrawnFrame drawFrame(const Shot& shot, const FilmFrame& film, FrameMoment moment
 
     DrawnFrame drawn;
     drawn.written = frame.inTiles();
-    drawn.stats = frame.stats();
+    drawn.stats = driver.stats();
     if (options.sampleRange) {
         drawn.part = frame.sums();
         drawn.stats.samples = drawn.part.frameSamples;
@@ -212,7 +212,7 @@ DrawnFrame refocusFrame(const Shot& shot, const FilmFrame& film, const RefocusRu
     driver.pose(request, moment);
     DrawnFrame drawn;
     drawn.image = std::move(picture.image);
-    drawn.stats = driver.driver().stats();
+    drawn.stats = driver.stats();
     drawn.stats.samples = picture.samples;
     drawn.stats.trianglesDrawn = picture.rendered ? picture.plan.trianglesDrawn : 0;
     drawn.times.planMilliseconds = picture.rendered ? driver.driver().planMilliseconds() : 0;

@@ -213,11 +213,7 @@ std::unique_ptr<SmallWorld> straightWays() {
     Mesh& mesh = small->scene.meshes[0];
     mesh.morphTargets.resize(1);
     for (const glm::vec3& p : mesh.vertices.positions) mesh.morphTargets[0].positions.push_back({0.3f * p.y, 0, 0});
-    for (std::size_t i = 0; i < small->world.pyramids.size(); ++i) {
-        Pyramid pyramid = small->world.pyramids[i];
-        measureDeformations(pyramid, mesh);
-        small->world.pyramids.replace(i, std::move(pyramid));
-    }
+    changePyramids(small->world, [&](Pyramid& pyramid) { measureDeformations(pyramid, mesh); });
     return small;
 }
 

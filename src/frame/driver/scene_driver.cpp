@@ -202,6 +202,12 @@ const FrameDriver& SceneDriver::driver() const {
     return *driver_;
 }
 
+RenderStats SceneDriver::stats() const {
+    const FrameDriver& driver = this->driver();
+    const InContext use = inContext();
+    return driver.stats();
+}
+
 Image SceneDriver::image() {
     if (driver().samples() == 0) fail("the image has no samples yet; call advance() first");
     const InContext use = inContext();
@@ -276,8 +282,7 @@ RenderReport SceneDriver::report(const FramePlan& plan, const RenderStats& stats
 }
 
 RenderReport SceneDriver::report(std::string command, double milliseconds) {
-    const InContext use = inContext();
-    RenderReport report = this->report(driver().plan(), driver().stats());
+    RenderReport report = this->report(driver().plan(), stats());
     report.command = std::move(command);
     report.totalMilliseconds = milliseconds;
     return report;
@@ -289,8 +294,7 @@ RenderStatistics SceneDriver::statistics() const {
     statistics.pyramidMilliseconds = pyramidMilliseconds_;
     if (context_) statistics.device = context_->device();
     if (!driver_) return statistics;
-    const InContext use = inContext();
-    const RenderStats stats = driver_->stats();
+    const RenderStats stats = this->stats();
     statistics.samples = driver_->samples();
     statistics.positions = driver_->plan().settings.positions;
     statistics.setupMilliseconds = stats.setupMilliseconds;

@@ -99,6 +99,7 @@ public:
     // All functions below require a started frame.
     [[nodiscard]] FrameDriver& driver();
     [[nodiscard]] const FrameDriver& driver() const;
+    [[nodiscard]] RenderStats stats() const;
     [[nodiscard]] Image image();  // throws Error if no sample has been drawn
     [[nodiscard]] AovImages aovs();
     [[nodiscard]] std::optional<LayerImages> layerImages();  // nullopt without Request::layers

@@ -39,8 +39,7 @@ protected:
 
 // With pyramids of one level, every mode draws full detail, so the modes do not differ.
 TEST_F(Popping, withoutCoarserLevelsThereIsNone) {
-    for (std::size_t i = 0; i < small_->world.pyramids.size(); ++i)
-        small_->world.pyramids.replace(i, fullDetail(small_->scene.meshes[0]));
+    changePyramids(small_->world, [&](Pyramid& pyramid) { pyramid = fullDetail(small_->scene.meshes[0]); });
     options_.movements = {Movement::focusPull, Movement::dolly, Movement::turntable};
     options_.frames = 3;
     measure();

@@ -287,8 +287,9 @@ TEST_F(Accumulation, normalsThatLookAwayDoNotGlare) {
     lamp.direction = {0, 0, 1};  // light from behind the wall
     small->world.lights = {lamp};
     for (const float tilt : {-0.9f, -0.5f, -0.1f, -0.01f}) {
-        for (glm::vec3& normal : small->world.pyramids[0].levels[0].normals)
-            normal = glm::vec3(std::sqrt(1 - tilt * tilt), 0, tilt);
+        changePyramids(small->world, [&](Pyramid& pyramid) {
+            for (glm::vec3& normal : pyramid.levels[0].normals) normal = glm::vec3(std::sqrt(1 - tilt * tilt), 0, tilt);
+        });
         EXPECT_LT(rendered(*small, settingsFor(1)).at(48, 32)[0], 1) << tilt;
     }
 }

@@ -40,11 +40,9 @@ TEST_P(LensSpace, withoutAnApertureIsThePinholeImage) {
 TEST_P(LensSpace, showsAConstantSceneAsConstant) {
     const auto small = twoSpheres();
     small->scene.materials[0] = unlitMaterial({0.5f, 0.25f, 1, 1});
-    for (std::size_t i = 0; i < small->world.pyramids.size(); ++i) {
-        Pyramid pyramid = small->world.pyramids[i];
+    changePyramids(small->world, [](Pyramid& pyramid) {
         for (auto& level : pyramid.levels) level.colors.assign(level.colors.size(), glm::vec4(1));
-        small->world.pyramids.replace(i, std::move(pyramid));
-    }
+    });
     small->world.environment = {EnvironmentType::uniform, {0.5f, 0.25f, 1}, {}, {}, nullptr, 1};
     const Image image = lensSpaceImage(GetParam(), *small, 7);
     for (std::size_t i = 0; i < image.pixels.size(); ++i)

@@ -10,7 +10,7 @@
 #include <optional>
 #include <thread>
 
-#include "frame/driver/frame_driver.h"
+#include "frame/driver/scene_driver.h"
 #include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
 #include "gl/read_back.h"
@@ -78,15 +78,19 @@ protected:
 // The library draws and rounds its own lens images (views from lens points), and adds them on the CPU. Its refocused
 // images equal those of the window.
 TEST_F(KeptImagesOfAView, givePicturesOfTheLibrary) {
-    FrameDriver driver(frame_.world, {parseMethodUse("accumulation"), {}, {}});
-    RenderSettings settings = frame_.settings;
-    settings.sampleCount = 64;
+    Request request = smallSchool();
+    request.method = "accumulation";
+    request.samples = 64;
+    FrameMoment moment = momentOf(frame_, request);
+    moment.settings.sampleCount = 64;
+    SceneDriver driver(frame_, request, {});
+    driver.pose(request, moment);
     std::optional<KeptLensImages> library;
     for (const bool software : {false, true}) {
         KeptImages images = keptImages(muchMemory, software);
         ASSERT_TRUE(images.complete()) << images.obstacle();
         EXPECT_EQ(images.drawn(), 64u);
-        if (!library) library.emplace(driver, view_, settings, images.info().range, [](double) {});
+        if (!library) library.emplace(driver, images.info().range, [](double) {});
         for (const auto& [focus, fStop] : {std::pair(2.0, 0.95), std::pair(1.2, 0.95), std::pair(2.5, 1.4)}) {
             const double difference =
                 largestDifference(sharpSum(*library, {focus, fStop}), refocused(images, focus, fStop));
