@@ -163,8 +163,7 @@ RefocusedPictures::Picture RefocusedPictures::picture(const RefocusRun& run, Req
         FrameMoment drawn = moment;
         drawn.view = viewOf(run, moment.view);
         request.samples = drawn.settings.sampleCount = run.samples;
-        driver.pose(std::move(request), drawn);
-        images_.emplace(driver, run.range, step);
+        images_.emplace(driver, request, std::move(drawn), run.range, step);
         plan_ = driver.driver().plan();
         run_ = &run;
     }

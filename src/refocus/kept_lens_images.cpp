@@ -2,13 +2,16 @@
 
 namespace defocus::engine {
 
-KeptLensImages::KeptLensImages(SceneDriver& driver, const FocusRange& range, const std::function<void(double)>& step)
-    : info_(lightFieldInfo(driver.frame().view, range)) {
-    const auto keep = [this](std::uint32_t, Image&& colour, Image&&) {
-        images_.push_back(std::make_shared<const HalfImage>(halfImage(colour)));
-    };
-    driver.start({.untiledReason = "refocusing cannot use images that are drawn in tiles",
-                  .lensImages = LensImageOrder{range, info_.size.margin, keep}});
+KeptLensImages::KeptLensImages(SceneDriver& driver, const Request& request, FrameMoment moment, const FocusRange& range,
+                               const std::function<void(double)>& step)
+    : info_(lightFieldInfo(moment.view, range)) {
+    moment.view = withMargin(moment.view, info_.size.margin);
+    moment.settings.refocus = range;
+    driver.pose(request, moment);
+    driver.start(
+        {.takeSample = [this](std::uint32_t, Image&& colour,
+                              Image&&) { images_.push_back(std::make_shared<const HalfImage>(halfImage(colour))); },
+         .untiledReason = "refocusing cannot use images that are drawn in tiles"});
     addSamples(info_, driver.driver().plan());
     do {
         step(driver.driver().share());

@@ -12,10 +12,11 @@ namespace defocus::engine {
 
 class KeptLensImages : public LensImages {
 public:
-    // Draws the lens images of the frame that SceneDriver::pose described, for focus distances in `range`. The request
-    // must have the method accumulation and a fixed number of samples. `step` receives the finished fraction of the
-    // work, 0 to 1. Throws Error if lightFieldInfo or addSamples throws it, or if the images need tiles.
-    KeptLensImages(SceneDriver& driver, const FocusRange& range, const std::function<void(double)>& step);
+    // Draws the lens images of a moment of the driver's scene, for focus distances in `range`. The request must have
+    // the method accumulation and a fixed number of samples. `step` receives the finished fraction of the work, 0 to 1.
+    // Throws Error if lightFieldInfo or addSamples throws it, or if the images need tiles.
+    KeptLensImages(SceneDriver& driver, const Request& request, FrameMoment moment, const FocusRange& range,
+                   const std::function<void(double)>& step);
 
     [[nodiscard]] const LightFieldInfo& info() const override { return info_; }
     [[nodiscard]] const std::string& name() const override { return name_; }

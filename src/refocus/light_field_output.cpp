@@ -68,10 +68,12 @@ void LightFieldOutput::start(const Progress& progress) {
     info_.metadata["defocus:samples"] = static_cast<int>(*request.samples);
     info_.metadata.erase("defocus:seconds");
 
-    parts.lensImages =
-        LensImageOrder{info_.range, info_.size.margin,
-                       [this](std::uint32_t, Image&& colour, Image&& depth) { writer_->write(colour, depth); }};
-    driver_.start(request, parts, progress);
+    FrameMoment drawn = momentOf(driver_.frame(), request);
+    drawn.view = withMargin(drawn.view, info_.size.margin);
+    drawn.settings.refocus = info_.range;
+    parts.takeSample = [this](std::uint32_t, Image&& colour, Image&& depth) { writer_->write(colour, depth); };
+    driver_.pose(request, drawn);
+    driver_.start(parts);
     addSamples(info_, driver_.driver().plan());
     writer_.emplace(path_, info_.size, partMetadata(info_));
 }

@@ -90,7 +90,7 @@ class FrameDriver::Tiled : public Planned {
 public:
     Tiled(const World& world, Renderer& renderer, FrameOrder order, const std::vector<Band>& bands)
         : Planned(world, renderer, order, order.stop.automatic),
-          takeRows_(std::move(order.takeRows)),
+          takeRows_(std::move(order.parts.takeRows)),
           bands_(bands),
           walk_(renderer, plan_, bands_, [this](const Tile& tile, Image&& pixels) { take(tile, std::move(pixels)); }) {
         if (!takeRows_) kept_ = Image(plan_.view.width, plan_.view.height, 4);
@@ -113,7 +113,7 @@ public:
     [[nodiscard]] int tiles() const override { return walk_.tiles(); }
 
 private:
-    // Copies a finished tile into kept_. If the order has a row sink (FrameOrder::takeRows), copies the tile into its
+    // Copies a finished tile into kept_. If the order has a row sink (FrameParts::takeRows), copies the tile into its
     // band (a row of tiles) instead, and passes each complete band to the sink.
     void take(const Tile& tile, Image&& pixels) {
         if (!takeRows_) return placeTile(kept_, 0, tile, pixels);
@@ -142,8 +142,8 @@ class FrameDriver::Summed : public Planned {
 public:
     Summed(const World& world, Renderer& renderer, const FrameOrder& order) : Planned(world, renderer, order) {
         part_.frameSamples = static_cast<std::uint32_t>(plan_.samples.size());
-        part_.range = {std::min(order.samples->first, part_.frameSamples),
-                       std::min(order.samples->end, part_.frameSamples)};
+        part_.range = {std::min(order.parts.samples->first, part_.frameSamples),
+                       std::min(order.parts.samples->end, part_.frameSamples)};
         part_.width = plan_.view.width;
         part_.height = plan_.view.height;
         if (count() == 0) return;  // the frame has no samples in the requested range
@@ -178,7 +178,7 @@ private:
 class FrameDriver::Separate : public Planned {
 public:
     Separate(const World& world, Renderer& renderer, const FrameOrder& order)
-        : Planned(world, renderer, order), take_(order.takeSample) {
+        : Planned(world, renderer, order), take_(order.parts.takeSample) {
         renderer_.start(samplesOf(plan_, 0, 1));
     }
 
@@ -232,11 +232,11 @@ FrameDriver::Fit FrameDriver::fitOf(const FrameOrder& order) {
             order.settings.layers,
             order.stop.choosesPositions,
             order.stop.given(),
-            order.samples.has_value(),
-            static_cast<bool>(order.takeRows),
-            order.shortDraws || order.stop.timeLimit,
-            order.untiledReason,
-            order.rows};
+            order.parts.samples.has_value(),
+            static_cast<bool>(order.parts.takeRows),
+            order.parts.shortDraws || order.stop.timeLimit,
+            order.parts.untiledReason,
+            order.parts.rows};
 }
 
 // Returns the max number of samples drawn together (in a wave) for a frame that must be able to stop soon. On a CPU,
@@ -263,7 +263,7 @@ void FrameDriver::fit(const FrameOrder& order) {
     const int axis = order.stop.choosesPositions ? 2 : positionsPerAxis(order.settings);
     const int width = order.view.width * axis;
     const int height = order.view.height * axis;
-    if (!order.rows && order.settings.layers.empty() && surelyFits(width, height, mapsPossible, limits, limit_)) {
+    if (!order.parts.rows && order.settings.layers.empty() && surelyFits(width, height, mapsPossible, limits, limit_)) {
         if (!renderer_) makeRenderer();
         return renderer_->setWave({.perWave = shortWave(order),
                                    .threads = threadsWithin(width, height, limit_, wantedThreads(limits, method))});
@@ -276,10 +276,11 @@ void FrameDriver::fit(const FrameOrder& order) {
     const bool tiles = mustDrawInTiles(*world_, plan, limits, method, limit_);
     if (tiles && order.stop.given())
         refuseTiles(plan, limit_, "--target-error and --time-limit need the whole image; give --samples");
-    if (tiles && order.samples) refuseTiles(plan, limit_, "--sample-range needs the whole image; use --tile instead");
-    if (tiles && !order.untiledReason.empty()) refuseTiles(plan, limit_, order.untiledReason);
-    if (tiles || order.rows)
-        return fitTiles(order, plan, order.rows.value_or(std::vector<RowRange>{{0, plan.view.height}}));
+    if (tiles && order.parts.samples)
+        refuseTiles(plan, limit_, "--sample-range needs the whole image; use --tile instead");
+    if (tiles && !order.parts.untiledReason.empty()) refuseTiles(plan, limit_, order.parts.untiledReason);
+    if (tiles || order.parts.rows)
+        return fitTiles(order, plan, order.parts.rows.value_or(std::vector<RowRange>{{0, plan.view.height}}));
     TilingNeeds needs = needsBeforeUpload(*world_, plan, limits, limit_);
     makeRenderer();
     const std::uint32_t threads = threadsWithin(needs, wantedThreads(limits, method));
@@ -296,7 +297,7 @@ void FrameDriver::fitTiles(const FrameOrder& order, const FramePlan& plan, const
     bands_.emplace();
     if (rows.empty()) return;
     TilingNeeds needs = measuredNeeds(*world_, plan, options_.limits, *renderer_, limit_);
-    if (!order.takeRows) needs.keptBytes = pixelCount(needs.width, needs.height) * options_.keptPixelBytes;
+    if (!order.parts.takeRows) needs.keptBytes = pixelCount(needs.width, needs.height) * options_.keptPixelBytes;
     const std::uint32_t threads = threadsWithin(needs, wantedThreads(options_.limits, *options_.method.method));
     reserveThreads(needs, threads);
     for (const RowRange& range : rows) {
@@ -311,7 +312,7 @@ namespace {
 
 // Throws UsageError if a range of samples is requested from a method that does not sum samples in blocks.
 void checkSampleRange(const FrameOrder& order, const Method& method) {
-    if (order.samples && !method.sumsBlocks)
+    if (order.parts.samples && !method.sumsBlocks)
         throw UsageError(
             fmt::format("method '{}' cannot add lens samples in blocks, which --sample-range requires", method.name));
 }
@@ -324,14 +325,14 @@ void checkLayers(FrameOrder& order, const Method& method, bool perSample) {
     if (!method.drawsLayers)
         throw UsageError(
             fmt::format("method {} cannot draw the layers of --exr-layers; use auto or accumulation", method.name));
-    if (order.samples || order.rows)
+    if (order.parts.samples || order.parts.rows)
         throw UsageError("--exr-layers needs the whole image; leave out --sample-range and --tile");
-    if (order.takeSample) throw UsageError("--exr-layers cannot be combined with --lens-images");
+    if (order.parts.takeSample) throw UsageError("--exr-layers cannot be combined with --lens-images");
     const auto& layers = order.settings.layers;
     if (std::ranges::find(layers, Layer::motion) != layers.end() && perSample)
         throw UsageError(
             "layer 'motion' cannot be written with --motion-segments exact; give a number or leave the option out");
-    if (order.untiledReason.empty()) order.untiledReason = "--exr-layers needs the whole image";
+    if (order.parts.untiledReason.empty()) order.parts.untiledReason = "--exr-layers needs the whole image";
 }
 
 }  // namespace
@@ -349,9 +350,9 @@ void FrameDriver::start(FrameOrder order) {
     }
     if (bands_)
         drawing_ = std::make_unique<Tiled>(*world_, *renderer_, std::move(order), *bands_);
-    else if (order.takeSample)
+    else if (order.parts.takeSample)
         drawing_ = std::make_unique<Separate>(*world_, *renderer_, order);
-    else if (order.samples)
+    else if (order.parts.samples)
         drawing_ = std::make_unique<Summed>(*world_, *renderer_, order);
     else
         drawing_ = std::make_unique<Untiled>(*world_, *renderer_, order);

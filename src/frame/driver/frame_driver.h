@@ -42,17 +42,21 @@ using RowSink = std::function<void(const RowRange& rows, Image&& pixels)>;
 // where no surface writes depth).
 using SampleSink = std::function<void(std::uint32_t sample, Image&& colour, Image&& depth)>;
 
-// Describes the frame, or the part of a frame, that is to be drawn.
-struct FrameOrder {
-    View view;
-    RenderSettings settings;
-    StopSettings stop = {};
+// Selects the part of a frame to draw, and who receives the pixels.
+struct FrameParts {
     std::optional<SampleRange> samples = {};         // draw only the partial sum of these samples; nullopt: all samples
     std::optional<std::vector<RowRange>> rows = {};  // draw only these rows, in tiles; nullopt: all rows
     RowSink takeRows = {};                           // receives the rows of finished tiles; empty: image() returns them
     SampleSink takeSample = {};                      // receives each lens sample's image; if set, no mean is computed
     std::string untiledReason = {};                  // reason why tiles are forbidden; empty: tiles are allowed
     bool shortDraws = false;  // true: advance() draws few samples per call; implied by a time limit
+};
+
+struct FrameOrder {
+    View view;
+    RenderSettings settings;
+    StopSettings stop = {};
+    FrameParts parts = {};
 };
 
 class FrameDriver {
@@ -83,11 +87,11 @@ public:
     [[nodiscard]] int tiles() const;  // number of tiles drawn so far; 1 for an untiled frame
     [[nodiscard]] bool inTiles() const;
     // Returns the linear RGBA mean of the samples so far; unfinished tiles are black with alpha 0. Not available if
-    // FrameOrder::takeRows is set, because finished rows are then not kept.
+    // FrameParts::takeRows is set, because finished rows are then not kept.
     [[nodiscard]] Image image();
     // Returns the images of the layers in RenderSettings::layers; nullopt if there are none.
     [[nodiscard]] std::optional<LayerImages> layerImages();
-    // Returns the partial sums over FrameOrder::samples; FramePart::settings and ::metadata stay empty. All these
+    // Returns the partial sums over FrameParts::samples; FramePart::settings and ::metadata stay empty. All these
     // samples must have been drawn.
     [[nodiscard]] FramePart sums();
     // Returns whether there is too little memory for the images counted in DriverOptions::keptPixelBytes. If so, the

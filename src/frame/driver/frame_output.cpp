@@ -131,6 +131,7 @@ void FrameOutput::findShare() {
 void FrameOutput::start(const Progress& progress) {
     const Request& request = driver_.request();
     check(files_, request);
+    driver_.prepare(progress);
     // Meter the exposure (in writeOptions) before the frame allocates memory.
     static_cast<void>(driver_.writeOptions());
     wanted_ = {0, request.size.height};

@@ -152,23 +152,10 @@ void SceneDriver::pose(Request request, const FrameMoment& moment) {
 }
 
 void SceneDriver::start(const FrameParts& parts) {
-    FrameOrder order{.view = frame_.view,
-                     .settings = frame_.settings,
-                     .stop = stopSettings(request_),
-                     .samples = parts.samples,
-                     .rows = parts.rows,
-                     .takeRows = parts.takeRows,
-                     .untiledReason = parts.untiledReason,
-                     .shortDraws = parts.shortDraws};
-    if (parts.lensImages) {
-        order.view = withMargin(frame_.view, parts.lensImages->margin);
-        order.settings.refocus = parts.lensImages->range;
-        order.takeSample = parts.lensImages->take;
-    }
     const InContext use = inContext();
     try {
         if (!driver_) driver_.emplace(frame_.world, driverOptions(request_, shaderFolder_, keptPixelBytes));
-        driver_->start(std::move(order));
+        driver_->start({frame_.view, frame_.settings, stopSettings(request_), parts});
     } catch (...) {
         driver_.reset();
         throw;

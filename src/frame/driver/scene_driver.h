@@ -29,24 +29,6 @@
 
 namespace defocus::engine {
 
-// Requests a separate image for each lens sample, from which images with another focus are computed later
-// (src/refocus).
-struct LensImageOrder {
-    FocusRange range;  // focus distances of the images computed later; see RenderSettings::refocus
-    int margin = 0;    // width in px by which the images extend beyond the request's size on each side
-    SampleSink take;
-};
-
-// Selects the part of a frame to draw; see FrameOrder.
-struct FrameParts {
-    std::optional<SampleRange> samples = {};
-    std::optional<std::vector<RowRange>> rows = {};
-    RowSink takeRows = {};
-    std::string untiledReason = {};
-    bool shortDraws = false;
-    std::optional<LensImageOrder> lensImages = {};
-};
-
 class SceneDriver {
 public:
     // Loads the scene that the request names, or uses `scene` if it isn't null, and places camera, lens and lights.

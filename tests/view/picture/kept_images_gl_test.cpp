@@ -84,13 +84,12 @@ TEST_F(KeptImagesOfAView, givePicturesOfTheLibrary) {
     FrameMoment moment = momentOf(frame_, request);
     moment.settings.sampleCount = 64;
     SceneDriver driver(frame_, request, {});
-    driver.pose(request, moment);
     std::optional<KeptLensImages> library;
     for (const bool software : {false, true}) {
         KeptImages images = keptImages(muchMemory, software);
         ASSERT_TRUE(images.complete()) << images.obstacle();
         EXPECT_EQ(images.drawn(), 64u);
-        if (!library) library.emplace(driver, images.info().range, [](double) {});
+        if (!library) library.emplace(driver, request, moment, images.info().range, [](double) {});
         for (const auto& [focus, fStop] : {std::pair(2.0, 0.95), std::pair(1.2, 0.95), std::pair(2.5, 1.4)}) {
             const double difference =
                 largestDifference(sharpSum(*library, {focus, fStop}), refocused(images, focus, fStop));
