@@ -100,35 +100,29 @@ double focusAt(const FocusTrack& focus, const Scene& scene, const FrameMoment& f
     return 1 / valueAt(dioptres, focus.easing, frame.frame);
 }
 
-enum class Scale { plain, logarithmic, reciprocal, stepped };
-
-// Returns the scale on which keyframes of a lens value are interpolated: logarithmic for f-number, focal length,
-// exposure time and ISO, reciprocal (dioptres) for the focus distance.
-Scale scaleOf(const LensField& field) {
-    if (!std::holds_alternative<double Lens::*>(field.member)) return Scale::stepped;
-    const std::string_view name = field.name;
-    if (name == "fStop" || name == "focalLength" || name == "exposureTime" || name == "iso") return Scale::logarithmic;
-    return name == "focusDistance" ? Scale::reciprocal : Scale::plain;
-}
-
 double lensValueAt(const LensTrack& track, const LensField& field, double frame) {
-    if (track.keys.size() == 1) return track.keys.front().value;
     std::vector<Key<double>> keys = track.keys;
-    switch (scaleOf(field)) {
-        case Scale::plain:
-            return valueAt(keys, track.easing, frame);
-        case Scale::logarithmic:
-            if (std::ranges::any_of(keys, [](const Key<double>& key) { return key.value <= 0; })) break;
-            for (Key<double>& key : keys) key.value = std::log(key.value);
-            return std::exp(valueAt(keys, track.easing, frame));
-        case Scale::reciprocal:
-            for (Key<double>& key : keys) key.value = 1 / key.value;
-            return 1 / valueAt(keys, track.easing, frame);
-        case Scale::stepped:
-            break;
+    if (keys.size() == 1) return keys.front().value;
+    const bool positive = std::ranges::all_of(keys, [](const Key<double>& key) { return key.value > 0; });
+    const bool stepped = !std::holds_alternative<double Lens::*>(field.member);
+    if (stepped || (field.keyScale == KeyScale::logarithmic && !positive)) {
+        const auto next = std::ranges::upper_bound(keys, frame, {}, [](const Key<double>& key) { return key.frame; });
+        return next == keys.begin() ? next->value : std::prev(next)->value;
     }
-    const auto next = std::ranges::upper_bound(keys, frame, {}, [](const Key<double>& key) { return key.frame; });
-    return next == keys.begin() ? next->value : std::prev(next)->value;
+    const auto interpolated = [&](double (*toScale)(double), double (*fromScale)(double)) {
+        for (Key<double>& key : keys) key.value = toScale(key.value);
+        return fromScale(valueAt(keys, track.easing, frame));
+    };
+    const auto reciprocal = [](double value) { return 1 / value; };
+    switch (field.keyScale) {
+        case KeyScale::linear:
+            break;
+        case KeyScale::logarithmic:
+            return interpolated(std::log, std::exp);
+        case KeyScale::reciprocal:
+            return interpolated(reciprocal, reciprocal);
+    }
+    return valueAt(keys, track.easing, frame);
 }
 
 // Copies the camera's lens values, which may be animated, to the lens fields that the shot doesn't set.

@@ -28,6 +28,13 @@ enum class LensFeature {
     lensPoint,
 };
 
+// Scale on which numbers are interpolated between keyframes.
+enum class KeyScale {
+    linear,
+    logarithmic,  // for values whose ratios matter, such as f-numbers
+    reciprocal,   // for distances: their reciprocals, in dioptres, are interpolated
+};
+
 // Section of control panels and help texts in which a lens value is listed.
 enum class LensSection { focus, lens, aperture };
 
@@ -50,6 +57,8 @@ struct LensField {
     LensFeature feature = LensFeature::blur;
     bool everyday = false;    // true: listed by --help; false: only by --help-all
     const char* schema = "";  // JSON schema of a value with gaps in its range; empty: min and max suffice
+    // Booleans and integers are not interpolated: each value holds until the next keyframe.
+    KeyScale keyScale = KeyScale::linear;
 };
 
 // Returns all fields, in the order of Lens.

@@ -105,7 +105,7 @@ std::string markdown() {
         "# Settings\n"
         "\n"
         "All settings of an image. `defocus settings --markdown` prints this page from the table that the\n"
-        "program uses (`src/frame/settings/rows.cpp`).\n"
+        "program uses (`src/frame/settings/rows*.cpp`).\n"
         "\n"
         "- **Option**: the option of `render`, `capture`, `view`, `plan` and `bench`.\n"
         "- **Python**: the keyword of `defocus.render` and related functions. `defocus::Request` in C++ has the same "

@@ -51,11 +51,6 @@ CLI::Option* addRow(CLI::App& command, Request& request, const Setting& setting)
     return option;
 }
 
-std::string valuesOf(const MethodSetting& setting) {
-    if (!setting.choices.empty()) return fmt::format("{}", fmt::join(setting.choices, "|"));
-    return setting.integer ? "N" : "R";
-}
-
 // Returns the default that --help shows for a method setting: one value, or a value for each method if the methods
 // differ.
 std::string defaultOf(const std::string& name) {
@@ -122,12 +117,11 @@ void addMethodSettings(CLI::App& command, Request& request) {
         for (const MethodSetting& setting : method.settings) {
             const auto owner = owners.extract(setting.name);
             if (owner.empty()) continue;  // an earlier method already added the setting's option
+            const Setting row = rowOf(setting);
             command
                 .add_option_function<std::string>(
-                    "--" + setting.name,
-                    [&request, name = setting.name](const std::string& text) { request.methodSettings[name] = text; },
-                    setting.description)
-                ->type_name(valuesOf(setting))
+                    row.option, [&request, set = row.set](const std::string& text) { set(request, text); }, row.help)
+                ->type_name(row.metavar)
                 ->default_str(defaultOf(setting.name))
                 ->configurable(false)
                 ->group("Method " + owner.mapped());

@@ -29,24 +29,6 @@ SettingInfo infoOf(const engine::Setting& setting) {
     return info;
 }
 
-SettingInfo infoOf(const engine::MethodSetting& setting) {
-    SettingInfo info;
-    info.name = setting.name;
-    info.keyword = engine::snakeCase(setting.name);
-    info.option = "--" + setting.name;
-    info.group = engine::groupTitle(engine::SettingGroup::method);
-    info.kind = !setting.choices.empty() ? SettingKind::choice
-                : setting.integer        ? SettingKind::integer
-                                         : SettingKind::number;
-    info.metavar.assign(1, setting.integer ? 'N' : 'R');
-    info.min = setting.min;
-    info.max = setting.max;
-    info.choices = setting.choices;
-    info.help = setting.description;
-    info.defaultValue = setting.defaultValue;
-    return info;
-}
-
 }  // namespace
 
 std::vector<SettingInfo> settingInfos() {
@@ -55,7 +37,7 @@ std::vector<SettingInfo> settingInfos() {
     for (const engine::Method& method : engine::methods())
         for (const engine::MethodSetting& setting : method.settings) {
             auto known = std::ranges::find(infos, setting.name, &SettingInfo::name);
-            if (known == infos.end()) known = infos.insert(infos.end(), infoOf(setting));
+            if (known == infos.end()) known = infos.insert(infos.end(), infoOf(engine::rowOf(setting)));
             known->methods.push_back(method.name);
         }
     return infos;

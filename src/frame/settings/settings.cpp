@@ -1,6 +1,7 @@
 #include "frame/settings/settings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -32,6 +33,31 @@ const MethodSetting* methodSettingNamed(std::string_view name) {
 const Setting* settingNamed(std::string_view name) {
     const auto found = std::ranges::find(settings(), name, &Setting::name);
     return found == settings().end() ? nullptr : &*found;
+}
+
+Setting rowOf(const MethodSetting& setting) {
+    Setting row;
+    row.name = setting.name;
+    row.option = "--" + setting.name;
+    row.group = SettingGroup::method;
+    row.kind = !setting.choices.empty() ? SettingKind::choice
+               : setting.integer        ? SettingKind::integer
+                                        : SettingKind::number;
+    row.metavar = !setting.choices.empty() ? fmt::format("{}", fmt::join(setting.choices, "|"))
+                  : setting.integer        ? "N"
+                                           : "R";
+    row.min = setting.min;
+    row.max = setting.max;
+    row.choices = setting.choices;
+    row.help = setting.description;
+    row.keyed = setting.keyed;
+    row.set = [name = setting.name](Request& request, const std::string& text) { request.methodSettings[name] = text; };
+    row.text = [name = setting.name, value = setting.defaultValue](const Request& request) {
+        const auto given = request.methodSettings.find(name);
+        return given != request.methodSettings.end() ? given->second : value;
+    };
+    row.clear = [name = setting.name](Request& request) { request.methodSettings.erase(name); };
+    return row;
 }
 
 bool dependsOnScene(const Setting& setting) {

@@ -76,6 +76,9 @@ struct Setting {
 // Returns all rows in the order of --help. Settings of methods (MethodSetting) are not included.
 std::span<const Setting> settings();
 
+// Returns a setting of a method as a row of the table.
+Setting rowOf(const MethodSetting& setting);
+
 // Appends a row. Only for programs that extend the table before its first use, such as tests.
 void addSetting(Setting setting);
 

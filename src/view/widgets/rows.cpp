@@ -154,19 +154,12 @@ bool methodCombo(std::string& name) {
 }
 
 void methodSettingRow(const MethodSetting& setting, std::string& value) {
-    Setting row;
-    row.kind = !setting.choices.empty() ? SettingKind::choice
-               : setting.integer        ? SettingKind::integer
-                                        : SettingKind::number;
-    row.choices = setting.choices;
-    row.min = setting.min;
-    row.max = setting.max;
     std::string label = setting.name;
     std::ranges::replace(label, '-', ' ');
     label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
     ImGui::PushID(setting.name.c_str());
     rowLabel(label, fmt::format("{} (--{})", setting.description, setting.name));
-    value = editedText(row, value).value_or(value);
+    value = editedText(rowOf(setting), value).value_or(value);
     ImGui::PopID();
 }
 
