@@ -47,6 +47,7 @@
 #include "gl/context.h"
 #include "image/boxes.h"
 #include "image/metrics.h"
+#include "lod/pyramid/build_all.h"
 #include "lod/pyramid/conserved.h"
 #include "lod/pyramid/finish.h"
 #include "lod/pyramid/level_selection.h"

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "lod/pyramid/build_all.h"
 #include "lod/pyramid/pyramid.h"
 #include "plan/view.h"
 

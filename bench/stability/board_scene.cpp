@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "image/moments.h"
+#include "lod/pyramid/build_all.h"
 
 namespace defocus::engine {
 

@@ -7,6 +7,7 @@
 
 #include "image/metrics.h"
 #include "image/moments.h"
+#include "lod/pyramid/build_all.h"
 #include "stability/board_scene.h"
 #include "stability/stability.h"
 

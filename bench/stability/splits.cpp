@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lod/pyramid/build_all.h"
 #include "lod/pyramid/level_selection.h"
 #include "stability/board_scene.h"
 #include "stability/stability.h"

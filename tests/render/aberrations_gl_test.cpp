@@ -11,6 +11,7 @@
 #include "gl_conduct.h"
 #include "gl_context_test.h"
 #include "lens/aberrations.h"
+#include "lod/pyramid/build_all.h"
 #include "plan/visible/tiles.h"
 #include "render/accumulation/accumulation.h"
 #include "render/methods.h"

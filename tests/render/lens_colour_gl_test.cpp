@@ -6,6 +6,7 @@
 #include "bokeh.h"
 #include "gl_conduct.h"
 #include "gl_context_test.h"
+#include "lod/pyramid/build_all.h"
 #include "render/accumulation/accumulation.h"
 #include "render/methods.h"
 

@@ -7,6 +7,7 @@
 #include "gl/context.h"
 #include "gl_conduct.h"
 #include "image/metrics.h"
+#include "lod/pyramid/build_all.h"
 #include "models.h"
 #include "posed_world.h"
 #include "render/accumulation/accumulation.h"

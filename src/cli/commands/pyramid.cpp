@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <glm/geometric.hpp>
@@ -83,52 +82,19 @@ std::vector<MeshReport> chooseMeshes(const Scene& scene, const std::string& name
 
 // ---- building and measuring pyramids ------------------------------------------------------------
 
-void buildOne(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers, MeshReport& report) {
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point start = Clock::now();
-    report.pyramid = buildPyramid(mesh, options, helpers);
-    report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// Loads a mesh's pyramid from the cache, or builds and stores the pyramid. Returns the reason if the pyramid couldn't
-// be stored; empty otherwise.
-std::string buildOrLoad(const Mesh& mesh, const fs::path& folder, const PyramidOptions& options, std::size_t helpers,
-                        MeshReport& report) {
-    if (folder.empty() || mesh.triangleCount() <= options.minTriangles) {
-        buildOne(mesh, options, helpers, report);
-        return {};
-    }
-    if (std::optional<Pyramid> loaded = loadPyramid(mesh, folder, options)) {
-        report.pyramid = std::move(*loaded);
-        return {};
-    }
-    buildOne(mesh, options, helpers, report);
-    try {
-        storePyramid(report.pyramid, mesh, folder, options);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return {};
-}
-
-// Builds or loads the pyramids of all meshes. Returns the reason if a pyramid couldn't be stored; empty otherwise.
+// Builds or loads the pyramids of the chosen meshes. Returns the reason if a pyramid couldn't be stored; empty
+// otherwise.
 std::string buildAll(const Scene& scene, const fs::path& folder, const PyramidOptions& options,
                      std::vector<MeshReport>& reports, const Progress& progress) {
-    std::uint64_t all = 0;
-    for (const MeshReport& report : reports) all += scene.meshes[report.mesh].triangleCount();
-    std::mutex mutex;
-    std::uint64_t done = 0;
-    std::string failure;
-    parallelFor(reports.size(), [&](std::size_t i) {
-        const Mesh& mesh = scene.meshes[reports[i].mesh];
-        const std::size_t helpers = pyramidHelpers(mesh, all);
-        std::string failed = buildOrLoad(mesh, folder, options, helpers, reports[i]);
+    std::vector<Mesh> meshes;
+    for (const MeshReport& report : reports) meshes.push_back(scene.meshes[report.mesh]);
+    CachedPyramids cached = cachedPyramids(meshes, folder, options, progress);
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+        reports[i].pyramid = std::move(cached.pyramids[i]);
+        reports[i].seconds = cached.seconds[i];
         reports[i].levels.resize(reports[i].pyramid.levels.size());
-        const std::scoped_lock lock(mutex);
-        if (failure.empty()) failure = std::move(failed);
-        report(progress, "pyramids", ++done, reports.size());
-    });
-    return failure;
+    }
+    return cached.failure;
 }
 
 Surface surfaceOf(const Pyramid& pyramid, std::size_t level) {

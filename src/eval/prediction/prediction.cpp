@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "lod/pyramid/blurred_error.h"
+#include "lod/pyramid/build_all.h"
 #include "lod/pyramid/finish.h"
 #include "lod/pyramid/picture.h"
 #include "plan/lens_cells/blurred_patches.h"

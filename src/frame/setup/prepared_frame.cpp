@@ -9,14 +9,12 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
 #include "core/file.h"
 #include "core/number_text.h"
-#include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "core/suggestion.h"
 #include "frame/setup/focus.h"
@@ -28,7 +26,7 @@
 #include "lens/aperture.h"
 #include "lens/camera_lens.h"
 #include "lens/lens_fields.h"
-#include "lod/pyramid/build_memory.h"
+#include "lod/pyramid/build_all.h"
 #include "lod/pyramid/cache.h"
 #include "lod/pyramid/finish.h"
 #include "scene/built_in_environment.h"
@@ -85,20 +83,6 @@ Lens chosenLens(const Request& request, const Camera& camera, const std::filesys
         }
     }
     return lens;
-}
-
-std::vector<Pyramid> fullDetailPyramids(const std::vector<Mesh>& meshes, PyramidOptions options,
-                                        const Progress& progress) {
-    options.maxLevels = 1;
-    std::vector<Pyramid> pyramids(meshes.size());
-    std::mutex reporting;
-    std::uint64_t done = 0;
-    buildLargestFirst(meshes, options, [&](std::size_t i, const PyramidOptions& within) {
-        pyramids[i] = buildPyramid(meshes[i], within);
-        const std::lock_guard lock(reporting);
-        report(progress, "meshes", ++done, meshes.size());
-    });
-    return pyramids;
 }
 
 // Returns the camera's matrix with the position, target and up direction that the request gives.
@@ -247,7 +231,8 @@ void addPyramids(PreparedFrame& frame, const Progress& progress) {
     PyramidOptions options;
     options.memoryLimit = frame.memoryLimit;
     if (frame.settings.lod == LodMode::off) {
-        frame.world.pyramids = fullDetailPyramids(meshes, options, progress);
+        options.maxLevels = 1;
+        frame.world.pyramids = buildPyramids(meshes, options, progress);
     } else {
         options.vertices = frame.settings.levelVertices;
         const Finishes finishes(*frame.scene);

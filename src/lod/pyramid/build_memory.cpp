@@ -1,7 +1,6 @@
 #include "lod/pyramid/build_memory.h"
 
 #include <algorithm>
-#include <numeric>
 #include <thread>
 
 #include "core/error.h"
@@ -42,19 +41,6 @@ std::uint64_t keptBytes(const Mesh& mesh) {
     return 2 * fullDetailBytes(mesh);
 }
 
-// Returns whether the memory limit allows building on all cores. In the worst case, the largest meshes are built at the
-// same time, one per core, while all other pyramids are already finished. `order` holds mesh indices, the largest mesh
-// first.
-bool fitsInParallel(const std::vector<Mesh>& meshes, const std::vector<std::size_t>& order,
-                    const PyramidOptions& options) {
-    if (options.memoryLimit == 0) return true;
-    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-    std::uint64_t bytes = residentMemory();
-    for (std::size_t i = 0; i < order.size(); ++i)
-        bytes += i < cores ? bytesToBuild(meshes[order[i]], options) : keptBytes(meshes[order[i]]);
-    return bytes <= options.memoryLimit;
-}
-
 }  // namespace
 
 std::uint64_t bytesToBuild(const Mesh& mesh, const PyramidOptions& options) {
@@ -77,19 +63,14 @@ void requireRoomToBuild(const Mesh& mesh, const PyramidOptions& options) {
         bytesText(held + needed), options.maxLevels > 1 ? ", or use --lod off, which needs less" : "");
 }
 
-void buildLargestFirst(const std::vector<Mesh>& meshes, const PyramidOptions& options, const BuildOne& build) {
-    std::vector<std::size_t> order(meshes.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::vector<std::size_t> triangles(meshes.size());
-    std::ranges::transform(meshes, triangles.begin(), &Mesh::triangleCount);
-    std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return triangles[i]; });
-    if (fitsInParallel(meshes, order, options)) {
-        PyramidOptions unlimited = options;
-        unlimited.memoryLimit = 0;
-        parallelFor(order.size(), [&](std::size_t i) { build(order[i], unlimited); });
-    } else {
-        for (const std::size_t mesh : order) build(mesh, options);
-    }
+bool fitsInParallel(const std::vector<Mesh>& meshes, const std::vector<std::size_t>& order,
+                    const PyramidOptions& options) {
+    if (options.memoryLimit == 0) return true;
+    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+    std::uint64_t bytes = residentMemory();
+    for (std::size_t i = 0; i < order.size(); ++i)
+        bytes += i < cores ? bytesToBuild(meshes[order[i]], options) : keptBytes(meshes[order[i]]);
+    return bytes <= options.memoryLimit;
 }
 
 }  // namespace defocus::engine

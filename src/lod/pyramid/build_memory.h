@@ -18,10 +18,10 @@ std::uint64_t bytesToBuild(const Mesh& mesh, const PyramidOptions& options);
 // a sufficient limit. Never throws for a pyramid that takes at most 1 MiB.
 void requireRoomToBuild(const Mesh& mesh, const PyramidOptions& options);
 
-// Calls build(i, options) for each mesh i. The mesh with the most triangles comes first, so that no core is left with a
-// large mesh when the others are done. If all pyramids fit into options.memoryLimit, the calls run on all cores and
-// receive options without a limit. Otherwise, they run one after another. Rethrows the first exception of a call.
-using BuildOne = std::function<void(std::size_t mesh, const PyramidOptions& options)>;
-void buildLargestFirst(const std::vector<Mesh>& meshes, const PyramidOptions& options, const BuildOne& build);
+// Returns whether the memory limit allows building on all cores. In the worst case, the largest meshes are built at the
+// same time, one per core, while all other pyramids are already finished. `order` holds mesh indices, the largest mesh
+// first.
+bool fitsInParallel(const std::vector<Mesh>& meshes, const std::vector<std::size_t>& order,
+                    const PyramidOptions& options);
 
 }  // namespace defocus::engine

@@ -14,7 +14,8 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
-#include "lod/pyramid/build_memory.h"
+#include "core/stopwatch.h"
+#include "lod/pyramid/build_all.h"
 #include "lod/pyramid/file.h"
 
 namespace defocus::engine {
@@ -125,36 +126,29 @@ void storePyramid(const Pyramid& pyramid, const Mesh& mesh, const fs::path& fold
 CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const fs::path& folder, const PyramidOptions& options,
                               const Progress& progress) {
     CachedPyramids result;
-    if (folder.empty()) {
-        result.pyramids = buildPyramids(meshes, options, progress);
-        return result;
-    }
-
-    const std::uint64_t triangles = trianglesOf(meshes);
-    result.pyramids.resize(meshes.size());
-    PyramidProgress steps(meshes, progress);
-    std::mutex mutex;  // protects all members of `result` except `pyramids`
+    result.seconds.resize(meshes.size());
+    std::mutex mutex;  // protects `loaded` and `failure` of `result`
     const auto stillStoring = [&] {
         const std::scoped_lock lock(mutex);
         return result.failure.empty();
     };
-    buildLargestFirst(meshes, options, [&](std::size_t index, const PyramidOptions& within) {
-        const Mesh& mesh = meshes[index];
-        Pyramid& pyramid = result.pyramids[index];
-        const bool worthIt = mesh.triangleCount() > options.minTriangles;
-        const PyramidKey key = worthIt ? pyramidKey(mesh, options) : PyramidKey{};
-        std::optional<Pyramid> loaded = worthIt ? load(mesh, folder, key) : std::nullopt;
-        const bool found = loaded.has_value();
-        pyramid = found ? std::move(*loaded)
-                        : buildPyramid(mesh, within, pyramidHelpers(mesh, triangles),
-                                       [&](double share) { steps.reached(index, share); });
-        const std::string failure =
-            worthIt && !found && stillStoring() ? tryToStore(pyramid, mesh, folder, key) : std::string();
-
-        steps.reached(index, 1);
+    result.pyramids = obtainPyramids(meshes, options, progress, [&](std::size_t i, const auto& build) {
+        const Mesh& mesh = meshes[i];
+        const bool cached = !folder.empty() && mesh.triangleCount() > options.minTriangles;
+        const PyramidKey key = cached ? pyramidKey(mesh, options) : PyramidKey{};
+        if (cached)
+            if (std::optional<Pyramid> loaded = load(mesh, folder, key)) {
+                const std::scoped_lock lock(mutex);
+                ++result.loaded;
+                return std::move(*loaded);
+            }
+        const Clock::time_point begin = Clock::now();
+        Pyramid pyramid = build();
+        result.seconds[i] = millisecondsSince(begin) / 1000;
+        const std::string failure = cached && stillStoring() ? tryToStore(pyramid, mesh, folder, key) : std::string();
         const std::scoped_lock lock(mutex);
-        if (found) ++result.loaded;
         if (result.failure.empty()) result.failure = failure;
+        return pyramid;
     });
     return result;
 }

@@ -19,9 +19,10 @@ namespace defocus::engine {
 std::filesystem::path defaultCacheFolder();
 
 struct CachedPyramids {
-    std::vector<Pyramid> pyramids;  // one pyramid per mesh, in the order of the meshes
-    std::size_t loaded = 0;         // number of pyramids loaded from the cache; the others were built
-    std::string failure;            // reason why a pyramid was not stored; empty on success
+    std::vector<Pyramid> pyramids;               // one pyramid per mesh, in the order of the meshes
+    std::size_t loaded = 0;                      // number of pyramids loaded from the cache; the others were built
+    std::vector<std::optional<double>> seconds;  // time to build each pyramid, s; nullopt if loaded from the cache
+    std::string failure;                         // reason why a pyramid was not stored; empty on success
 };
 
 // Loads pyramids from `folder`; builds and stores the missing pyramids. Creates the folder if it is missing, with mode

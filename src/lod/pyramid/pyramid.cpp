@@ -5,13 +5,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <iterator>
-#include <mutex>
 #include <optional>
-#include <thread>
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/parallel.h"
 #include "lod/pyramid/blurred_error.h"
 #include "lod/pyramid/build_memory.h"
 #include "lod/pyramid/clusters.h"
@@ -450,49 +447,10 @@ Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options, std::size_
     return build(mesh, options, helpers, step);
 }
 
-PyramidProgress::PyramidProgress(const std::vector<Mesh>& meshes, const Progress& progress)
-    : meshes_(meshes),
-      progress_(progress),
-      shares_(meshes.size(), 0),
-      total_(static_cast<double>(trianglesOf(meshes) + meshes.size())) {}
-
-void PyramidProgress::reached(std::size_t mesh, double share) {
-    if (!progress_) return;
-    const std::scoped_lock lock(mutex_);
-    reached_ += (share - shares_[mesh]) * static_cast<double>(meshes_[mesh].triangleCount() + 1);
-    finished_ += share >= 1 && shares_[mesh] < 1 ? 1 : 0;
-    shares_[mesh] = share;
-    constexpr std::uint64_t steps = 1000;
-    const auto done = static_cast<std::uint64_t>(steps * reached_ / total_);
-    report(progress_, "pyramids", finished_ == shares_.size() ? steps : std::min(done, steps - 1), steps);
-}
-
 std::uint64_t trianglesOf(std::span<const Mesh> meshes) {
     std::uint64_t all = 0;
     for (const Mesh& each : meshes) all += each.triangleCount();
     return all;
-}
-
-std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all) {
-    const double share =
-        static_cast<double>(mesh.triangleCount()) / static_cast<double>(std::max<std::uint64_t>(1, all));
-    // Cache the number of hardware threads, because hardware_concurrency() makes a system call.
-    static const unsigned available = std::max(1u, std::thread::hardware_concurrency());
-    const auto cores = std::llround(share * available);
-    return static_cast<std::size_t>(std::max(1ll, cores) - 1);
-}
-
-std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options,
-                                   const Progress& progress) {
-    const std::uint64_t all = trianglesOf(meshes);
-    std::vector<Pyramid> pyramids(meshes.size());
-    PyramidProgress steps(meshes, progress);
-    buildLargestFirst(meshes, options, [&](std::size_t mesh, const PyramidOptions& within) {
-        pyramids[mesh] = build(meshes[mesh], within, pyramidHelpers(meshes[mesh], all),
-                               [&](double share) { steps.reached(mesh, share); });
-        steps.reached(mesh, 1);
-    });
-    return pyramids;
 }
 
 Pyramid fullDetail(const Mesh& mesh) {

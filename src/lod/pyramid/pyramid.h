@@ -14,12 +14,10 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
-#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "core/progress.h"
 #include "defocus/settings.h"
 #include "lod/simplify/pyramid_end.h"
 #include "scene/mesh.h"
@@ -139,35 +137,8 @@ const char* levelVerticesName(LevelVertices vertices);  // Returns the name used
 Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options = {}, std::size_t helpers = 0,
                      const std::function<void(double)>& step = {});
 
-// Combines the progress of several pyramids, weighted by triangle count, and reports it. Thread-safe.
-class PyramidProgress {
-public:
-    // Keeps references to both arguments, which must outlive this object.
-    PyramidProgress(const std::vector<Mesh>& meshes, const Progress& progress);
-    // Records that the fraction `share`, in [0, 1], of mesh `mesh`'s pyramid is built.
-    void reached(std::size_t mesh, double share);
-
-private:
-    const std::vector<Mesh>& meshes_;
-    const Progress& progress_;
-    std::mutex mutex_;
-    std::vector<double> shares_;
-    std::size_t finished_ = 0;
-    double total_ = 0;    // number of triangles of all meshes, plus one per mesh, so that empty meshes count
-    double reached_ = 0;  // work done so far, in the unit of `total_`
-};
-
 // Returns the total number of triangles of the meshes.
 std::uint64_t trianglesOf(std::span<const Mesh> meshes);
-
-// Returns the number of helper threads for the pyramid of `mesh`, if several pyramids are built in parallel. The number
-// is proportional to the mesh's triangle count. `all` is the total triangle count of all meshes.
-std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all);
-
-// Returns one pyramid per mesh, in the order of `meshes`. Builds the pyramids of the largest meshes first
-// (buildLargestFirst in build_memory.h).
-std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options = {},
-                                   const Progress& progress = {});
 
 // Computes jointBounds and morphBounds from the pyramid's levels and its source mesh.
 void measureDeformations(Pyramid& pyramid, const Mesh& mesh);

@@ -8,6 +8,7 @@
 #include "eval/speedup/text.h"
 #include "frame/driver/reference_image.h"
 #include "gl/context.h"
+#include "lod/pyramid/build_all.h"
 #include "small_world.h"
 
 namespace defocus::engine {

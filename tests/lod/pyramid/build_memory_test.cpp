@@ -7,11 +7,13 @@
 #include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/memory_limits.h"
+#include "lod/pyramid/build_all.h"
 #include "lod/pyramid/cache.h"
 #include "lod/shapes.h"
 #include "models.h"
@@ -99,14 +101,16 @@ TEST(BuildMemory, limitBuildsOneAfterAnother) {
     limited.memoryLimit = residentMemory() + bytesToBuild(meshes[1], limited) + (8u << 20);
     std::atomic<int> running = 0;
     std::vector<std::size_t> order;
-    buildLargestFirst(meshes, limited, [&](std::size_t mesh, const PyramidOptions& options) {
+    const auto obtain = [&](std::size_t mesh, const std::function<Pyramid()>& build) {
         EXPECT_EQ(++running, 1);
-        EXPECT_EQ(options.memoryLimit, limited.memoryLimit);
         order.push_back(mesh);
+        Pyramid pyramid = build();
         --running;
-    });
+        return pyramid;
+    };
+    const std::vector<Pyramid> serial = obtainPyramids(meshes, limited, {}, obtain);
     EXPECT_EQ(order, (std::vector<std::size_t>{1, 2, 0}));
-    const std::vector<Pyramid> serial = buildPyramids(meshes, limited), parallel = buildPyramids(meshes);
+    const std::vector<Pyramid> parallel = buildPyramids(meshes);
     for (std::size_t i = 0; i < meshes.size(); ++i) EXPECT_EQ(serial[i].indices, parallel[i].indices);
 }
 

@@ -19,6 +19,7 @@
 #include "core/file.h"
 #include "core/hash.h"
 #include "likeness.h"
+#include "lod/pyramid/build_all.h"
 #include "lod/pyramid/file.h"
 #include "lod/shapes.h"
 #include "scratch_folder.h"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lod/invariants.h"
+#include "lod/pyramid/build_all.h"
 #include "lod/pyramid/pyramid.h"
 #include "lod/pyramid/surface_distance.h"
 #include "lod/simplify/manifold.h"

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "likeness.h"
 #include "lod/invariants.h"
+#include "lod/pyramid/build_all.h"
 #include "lod/shapes.h"
 
 namespace defocus::engine {

@@ -11,6 +11,7 @@
 #include "image/metrics.h"
 #include "image/tone_map.h"
 #include "likeness.h"
+#include "lod/pyramid/build_all.h"
 #include "lod/pyramid/pyramid.h"
 #include "plan/sample_range.h"
 #include "render/accumulation/lens_cell_renders.h"
