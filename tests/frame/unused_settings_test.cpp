@@ -49,7 +49,8 @@ TEST(UnusedSettings, eachIsNamedWithItsReason) {
         {{{"dofEnabled", "false"}, {"fStop", "2"}}, "--fstop has no effect: --no-dof disables all blur"},
         {{{"lod", "off"}, {"lightThreshold", "0.1"}}, "--light-threshold has no effect: --lod off draws full detail"},
         {{{"lodCoc", "centre"}},
-         "--lod-coc has no effect: with --lod-metric measured, the blur over the whole object decides"}};
+         "--lod-coc has no effect: with --lod-metric measured, the blur of the whole object chooses the level of "
+         "detail"}};
     for (const auto& [given, line] : cases) EXPECT_EQ(linesOf(given), std::vector<std::string>{line});
 }
 

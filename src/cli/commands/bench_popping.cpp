@@ -105,8 +105,9 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
         "Number of consecutive frames to measure in each movement; the part with the most level changes is chosen")
         ->group(group);
     addInteger(*command, "--path-frames", options.pathFrames, 2, 100'000,
-               "Number of frames of a complete movement; more frames make it slower. Movements: focus from the nearest "
-               "to the farthest object, dolly over half the focus distance, one turn, one cycle of the animation")
+               "Number of frames of a complete movement; with more frames, each moves less. Movements: focus from the "
+               "nearest to the farthest object, dolly over half the focus distance, one turn of the camera around the "
+               "scene, one cycle of the animation")
         ->group(group);
     addBenchOutput(*command, arguments->output, "the results popping.csv and popping.json");
     addDeveloperSettings(*command, arguments->request,

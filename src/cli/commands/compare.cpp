@@ -186,10 +186,10 @@ void addCompareCommand(CLI::App& program, const GlobalOptions&) {
                           "Use FLIP for HDR images: the maximum over several exposures, instead of the value at EV 0");
     const Range exposures = {-60, 60};
     advanced(addNumber(*command, "--start-exposure", arguments->hdrFlip.startExposure, exposures, "EV",
-                       "First exposure of --hdr in EV")
+                       "Lowest exposure of --hdr in EV")
                  ->needs(hdr));
     advanced(addNumber(*command, "--stop-exposure", arguments->hdrFlip.stopExposure, exposures, "EV",
-                       "Last exposure of --hdr in EV")
+                       "Highest exposure of --hdr in EV")
                  ->needs(hdr));
     advanced(addInteger(*command, "--exposures", arguments->hdrFlip.exposures, 1, 64, "Number of exposures of --hdr")
                  ->needs(hdr));

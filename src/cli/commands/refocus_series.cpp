@@ -83,7 +83,8 @@ std::filesystem::path stackPath(const std::filesystem::path& output, const std::
 void writeFocalStack(LightField& field, const Refocusing& refocusing, int pictures, const std::filesystem::path& output,
                      const WriteOptions& write, const GlobalOptions& global) {
     const Clock::time_point start = Clock::now();
-    if (isStandardOutput(output)) throw UsageError("--stack writes several files; give a file name with -o");
+    if (isStandardOutput(output))
+        throw UsageError("--stack writes several files, not to standard output; give a file name with -o");
     field.keepImages();
     Progress progress = terminalProgress(global);
     const FocusRange& range = field.info().range;

@@ -277,7 +277,7 @@ void FrameDriver::fit(const FrameOrder& order) {
     if (tiles && order.stop.given())
         refuseTiles(plan, limit_, "--target-error and --time-limit need the whole image; give --samples");
     if (tiles && order.parts.samples)
-        refuseTiles(plan, limit_, "--sample-range needs the whole image; use --tile instead");
+        refuseTiles(plan, limit_, "--sample-range cannot draw in tiles; divide the image with --tile instead");
     if (tiles && !order.parts.untiledReason.empty()) refuseTiles(plan, limit_, order.parts.untiledReason);
     if (tiles || order.parts.rows)
         return fitTiles(order, plan, order.parts.rows.value_or(std::vector<RowRange>{{0, plan.view.height}}));

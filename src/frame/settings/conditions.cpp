@@ -82,7 +82,7 @@ std::string withoutLevels(const SettingContext& context) {
 std::string withMeasuredLevels(const SettingContext& context) {
     const Request& request = context.request;
     const LodMetric metric = chosenMetric(request.lodMetric, givenThresholds(request));
-    return metric == LodMetric::measured ? "with --lod-metric measured, the blur over the whole object decides" : "";
+    return metric == LodMetric::measured ? "with --lod-metric measured, the blur of the whole object chooses the level of detail" : "";
 }
 
 std::string firstOf(const SettingContext& context, std::initializer_list<Condition> conditions) {

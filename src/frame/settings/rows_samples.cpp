@@ -163,10 +163,10 @@ Rows sampleRows() {
             .unused(withoutLevels),
         rows::number(
             "lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(lightThreshold),
-            "With --lod-metric measured: maximum product of a level's error and the length of its triangle edges in "
-            "the image in px; larger values are coarser and faster. The error is relative to the variation of the "
-            "light within a blurred patch (docs/reference.md has the formula). Default: depends on the number of "
-            "samples")
+            "With --lod-metric measured: maximum error of a level of detail; larger values are coarser and faster. The "
+            "error is the change of brightness after blurring, relative to the contrast of the surface, times the "
+            "length of the level's triangle edges in px (docs/reference.md has the formula). Default: depends on the "
+            "number of samples")
             .unit("px")
             .example("0.1")
             .inShot("/lightThreshold")

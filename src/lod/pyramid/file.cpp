@@ -16,7 +16,7 @@ namespace defocus::engine {
 
 static_assert(std::has_unique_object_representations_v<IndexRange>);
 static_assert(sizeof(PyramidFileHeader) == 208 && sizeof(PyramidFileLevel) == 120 && sizeof(Cluster) == 48,
-              "no padding, so that all is written");
+              "the stored structs must have no padding, because they are written byte by byte");
 
 namespace {
 

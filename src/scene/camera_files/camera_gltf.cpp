@@ -17,7 +17,7 @@ namespace defocus::engine {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "buffers are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian and are copied from memory");
 
 using Json = nlohmann::ordered_json;
 using Values = std::vector<double>;

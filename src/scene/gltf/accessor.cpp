@@ -67,10 +67,11 @@ void checkSparse(const Source& source, const tinygltf::Accessor& accessor, const
     if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
         type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
         fault(source.document, "{}: sparse indices cannot have component type {}", what, type);
-    if (accessor.sparse.count < 1 || static_cast<std::size_t>(accessor.sparse.count) > accessor.count ||
-        accessor.sparse.indices.byteOffset < 0 || accessor.sparse.values.byteOffset < 0)
-        fault(source.document, "{}: invalid sparse data: {} sparse elements for {} elements, or a negative byte offset",
+    if (accessor.sparse.count < 1 || static_cast<std::size_t>(accessor.sparse.count) > accessor.count)
+        fault(source.document, "{}: invalid sparse data: the number of sparse elements is {}, but must be 1 to {}",
               what, accessor.sparse.count, accessor.count);
+    if (accessor.sparse.indices.byteOffset < 0 || accessor.sparse.values.byteOffset < 0)
+        fault(source.document, "{}: invalid sparse data: a byte offset is negative", what);
     const auto count = static_cast<std::uint64_t>(accessor.sparse.count);
     checkRange(source, what + " (sparse indices)", accessor.sparse.indices.bufferView,
                static_cast<std::uint64_t>(accessor.sparse.indices.byteOffset), count, componentBytes(type),

@@ -12,7 +12,7 @@
 
 namespace defocus::engine::gltf {
 
-static_assert(std::endian::native == std::endian::little, "buffers are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian and are copied from memory");
 
 int appendValues(tinygltf::Model& model, const void* values, std::size_t count, std::size_t valueBytes, int type,
                  int component, int target) {

@@ -98,7 +98,7 @@ constexpr KeyCommand commands[] = {
     {"K", "record a keyframe of a shot", 'K', [](K k) { k.actions.recordKey = true; }},
     {"F12", "screenshot of the window", key::f12, [](K k) { k.actions.screenshot = true; }},
     {"F11", "full screen", key::f11, [](K k) { k.actions.toggleFullscreen = true; }},
-    {"H, T", "hide the panel, light or dark theme", 'H', [](K k) { flip(k.state.panel); }},
+    {"H, T", "hide the panel, change to the light or dark theme", 'H', [](K k) { flip(k.state.panel); }},
     {{}, {}, 'T', [](K k) { flip(k.state.dark); }},
     {"Ctrl + −", "larger or smaller interface", ctrl('='), [](K k) { scaleInterface(k, scaleStep); }},
     {{}, {}, ctrl('-'), [](K k) { scaleInterface(k, 1 / scaleStep); }},
