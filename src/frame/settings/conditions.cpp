@@ -82,7 +82,9 @@ std::string withoutLevels(const SettingContext& context) {
 std::string withMeasuredLevels(const SettingContext& context) {
     const Request& request = context.request;
     const LodMetric metric = chosenMetric(request.lodMetric, givenThresholds(request));
-    return metric == LodMetric::measured ? "with --lod-metric measured, the blur of the whole object chooses the level of detail" : "";
+    return metric == LodMetric::measured
+               ? "with --lod-metric measured, the blur of the whole object chooses the level of detail"
+               : "";
 }
 
 std::string firstOf(const SettingContext& context, std::initializer_list<Condition> conditions) {

@@ -176,6 +176,17 @@ Row boolean(std::string name, std::string option, Member member, std::string hel
                 [=](const Request& request) { return std::optional<std::string>(member(request) ? "true" : "false"); });
 }
 
+// Returns the enumerators from 0 to `last` with their names. `nameOf` returns the name of an enumerator.
+template <typename Value, typename Name>
+std::vector<std::pair<std::string, Value>> named(const Name& nameOf, Value last) {
+    std::vector<std::pair<std::string, Value>> choices;
+    for (int i = 0; i <= static_cast<int>(last); ++i) {
+        const auto value = static_cast<Value>(i);
+        choices.emplace_back(nameOf(value), value);
+    }
+    return choices;
+}
+
 template <typename Value, typename Member>
 Row choice(std::string name, std::string option, std::vector<std::pair<std::string, Value>> choices, Member member,
            std::string help) {

@@ -90,10 +90,7 @@ Rows methodRows() {
             .clears(clearMethod)
             .everyday()
             .inShot("/method"),
-        rows::choice<LayerFormat>("layerFormat", "--layer-format",
-                                  {{"automatic", LayerFormat::automatic},
-                                   {"rgba16f", LayerFormat::rgba16f},
-                                   {"rgba32f", LayerFormat::rgba32f}},
+        rows::choice<LayerFormat>("layerFormat", "--layer-format", rows::named(layerFormatName, LayerFormat::rgba32f),
                                   MEMBER(layerFormat),
                                   "Pixel format of the image rendered for each lens sample, before accumulation. "
                                   "automatic: rgba32f if the radiance may exceed the range of rgba16f, else rgba16f. "
@@ -144,14 +141,7 @@ Rows displayRows() {
 Rows developerRows() {
     return {
         rows::choice<LodMetric>(
-            "lodMetric", "--lod-metric",
-            {{"automatic", LodMetric::automatic},
-             {"size", LodMetric::size},
-             {"error", LodMetric::error},
-             {"measured", LodMetric::measured},
-             {"proportional", LodMetric::proportional},
-             {"score", LodMetric::score}},
-            MEMBER(lodMetric),
+            "lodMetric", "--lod-metric", rows::named(lodMetricName, LodMetric::score), MEMBER(lodMetric),
             "Rule that chooses the levels of detail. measured: by the error that remains after the blur, measured "
             "when the levels are built (most accurate). size: by the length of triangle edges in the image. error: by "
             "the distance in the image, in px, between the simplified surface and the full mesh. proportional: by the "
@@ -161,10 +151,7 @@ Rows developerRows() {
             .inShot("/lodMetric")
             .unused(withoutLevels),
         rows::choice<LevelVertices>(
-            "levelVertices", "--level-vertices",
-            {{"fitted", LevelVertices::fitted},
-             {"surviving", LevelVertices::surviving},
-             {"quarters", LevelVertices::quarters}},
+            "levelVertices", "--level-vertices", rows::named(levelVerticesName, LevelVertices::quarters),
             MEMBER(levelVertices),
             "How the vertices of a level of detail are made. fitted: moved to match the original surface as closely as "
             "possible. surviving: a subset of the original vertices, unchanged. quarters: like surviving, but with "

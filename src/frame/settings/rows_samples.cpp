@@ -92,8 +92,7 @@ Rows sampleRows() {
     std::vector<std::pair<std::string, Sequence>> sequences;
     for (const Sequence sequence : allSequences) sequences.emplace_back(sequenceName(sequence), sequence);
     std::vector<std::pair<std::string, std::optional<LodMode>>> modes = {{"auto", std::nullopt}};
-    for (const LodMode mode : {LodMode::fractional, LodMode::continuous, LodMode::nearest, LodMode::off})
-        modes.emplace_back(lodModeName(mode), mode);
+    for (const auto& [name, mode] : rows::named(lodModeName, LodMode::off)) modes.emplace_back(name, mode);
     return {
         presetRow().inShot("/preset"),
         samplesRow().everyday().example("64").inShot("/samples").unused([](const SettingContext& context) {

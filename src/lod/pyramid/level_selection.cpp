@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/enum_name.h"
+
 namespace defocus::engine {
 
 namespace {
@@ -46,35 +48,11 @@ double between(double fine, double coarse, double target, LodMetric metric) {
 }  // namespace
 
 const char* lodMetricName(LodMetric metric) {
-    switch (metric) {
-        case LodMetric::automatic:
-            return "automatic";
-        case LodMetric::size:
-            return "size";
-        case LodMetric::error:
-            return "error";
-        case LodMetric::measured:
-            return "measured";
-        case LodMetric::proportional:
-            return "proportional";
-        case LodMetric::score:
-            return "score";
-    }
-    return "";
+    return enumName<LodMetric::score>(metric, {"automatic", "size", "error", "measured", "proportional", "score"});
 }
 
 const char* lodModeName(LodMode mode) {
-    switch (mode) {
-        case LodMode::fractional:
-            return "fractional";
-        case LodMode::continuous:
-            return "continuous";
-        case LodMode::nearest:
-            return "nearest";
-        case LodMode::off:
-            return "off";
-    }
-    return "";
+    return enumName<LodMode::off>(mode, {"fractional", "continuous", "nearest", "off"});
 }
 
 double expectedSampleError(std::uint32_t sampleCount) {

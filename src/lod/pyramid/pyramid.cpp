@@ -7,6 +7,7 @@
 #include <iterator>
 #include <optional>
 
+#include "core/enum_name.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "lod/pyramid/blurred_error.h"
@@ -431,15 +432,7 @@ void measureDeformations(Pyramid& pyramid, const Mesh& mesh) {
 }
 
 const char* levelVerticesName(LevelVertices vertices) {
-    switch (vertices) {
-        case LevelVertices::fitted:
-            return "fitted";
-        case LevelVertices::surviving:
-            return "surviving";
-        case LevelVertices::quarters:
-            return "quarters";
-    }
-    return "";
+    return enumName<LevelVertices::quarters>(vertices, {"fitted", "surviving", "quarters"});
 }
 
 Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers,
