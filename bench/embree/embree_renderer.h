@@ -1,7 +1,8 @@
 #pragma once
 // Renders independent reference images with a thin-lens ray tracer on Embree 3 that shares no code with the rasteriser.
-// Of a FramePlan, the ray tracer uses only the view, whether there are shadows, and the sample count, seed and offset.
-// It has its own lens model (lens_rays.h) and sampling, and traces the loaded meshes without any culling.
+// Of a FramePlan, the ray tracer uses only the view, whether there are shadows, and the sample count, seed and offset;
+// with EmbreeSampling::planned, also the samples. It has its own lens model (lens_rays.h) and sampling, and traces the
+// loaded meshes without any culling.
 //
 // The pixel filter is a box of 1 px. The output is linear premultiplied RGBA, summed in double. Surfaces are opaque and
 // shaded as in traced_shading.h. Throws Error for environment maps.

@@ -4,20 +4,35 @@ import csv
 import fcntl
 import json
 import os
+import re
 import tempfile
 
 
 def read_json(path):
-    """Returns the contents of a JSON file. Rows of version 0.1, which call a method's defaults "standard", are converted."""
+    """Returns the contents of a JSON file, with renamed_rows() and renamed_words()."""
     document = json.loads(path.read_text(encoding="utf-8"))
-    rows = document.get("rows", []) if isinstance(document, dict) else []
-    for row in rows:
-        row.update({name: "default" for name in ("form", "setting") if row.get(name) == "standard"})
+    if isinstance(document, dict):
+        renamed_rows(document.get("rows", []))
+        if "commands" in document:
+            document["commands"] = [renamed_words(command) for command in document["commands"]]
     return document
 
 
+def renamed_rows(rows):
+    """Renames "standard" to "default" in rows, as renamed_words() does in texts."""
+    for row in rows:
+        row.update({name: "default" for name in ("form", "setting") if row.get(name) == "standard"})
+    return rows
+
+
+def renamed_words(text):
+    """Renames "standard" to "default", the name of a method's own settings since version 0.2, in a command or a list of rows."""
+    return re.sub(r"(, |--rows \S*?)\bstandard\b", r"\1default", text)
+
+
 def csv_rows(lines):
-    """Returns the rows of CSV text as dictionaries {column: text}. Columns such as "time.median" become nested dictionaries."""
+    """Returns the rows of CSV text as dictionaries {column: text}. An empty text becomes None, and columns such as
+    "time.median" become nested dictionaries."""
     rows = []
     for line in csv.DictReader(lines):
         rows.append({})
@@ -26,8 +41,8 @@ def csv_rows(lines):
             place = rows[-1]
             for part in outer:
                 place = place.setdefault(part, {})
-            place[name] = text
-    return rows
+            place[name] = text or None
+    return renamed_rows(rows)
 
 
 def read_csv(path):

@@ -13,7 +13,7 @@ const int cellClasses = cellsInFront + cellsBehind;
 // takes one. The sums of further classes are written with imageStore.
 const int drawnClasses = min(cellClasses, 7);
 
-// Side in px of the tiles. For each tile, a bit mask records which blur classes (groups of samples with similar blur)
+// Side in px of the tiles. For each tile, a bit mask records which blur classes (groups of pixels with similar blur)
 // occur in it, so that passes skip the other classes.
 const int cellTile = 8;
 // spread_classes.frag packs two bit masks of blur classes into an integer: the classes that a tile reads, and the

@@ -10,8 +10,8 @@ struct Ray {
     vec4 lensAndPixel;
     // Point sample: x is the time within the current part of the exposure, [0, 1]. Line sample: the line's points are
     // p · lensAndPixel.xy, with p from −x to 1. y is the fraction of the line's light that passes through its part with
-    // p > 0. Each visible segment is shaded at one point: z, in [0, 1), is the fraction of the segment's light before
-    // this point.
+    // p > 0. z, in [0, 1), places the shading point in each piece of a visible segment: the fraction of the piece's
+    // weight (shaders/line/weights.glsl) before the point.
     vec4 values;
 };
 

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 namespace defocus::engine {
 namespace {
 
@@ -20,6 +23,12 @@ TEST(Csv, eachValueHasAColumn) {
 TEST(Csv, textWithSeparatorsIsQuoted) {
     const ordered_json rows = {{{"fault", "no \"ring\", no blades\nat all"}, {"samples", 8}}};
     EXPECT_EQ(csvText(rows), "fault,samples\n\"no \"\"ring\"\", no blades\nat all\",8\n");
+}
+
+TEST(Csv, numbersThatAreNotFiniteAreEmpty) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const ordered_json rows = {{{"psnr", infinity}, {"mse", 0.0}}, {{"psnr", std::nan("")}, {"mse", 0.5}}};
+    EXPECT_EQ(csvText(rows), "psnr,mse\n,0.0\n,0.5\n");
 }
 
 TEST(Csv, nothingGivesAnEmptyHeader) {

@@ -39,7 +39,7 @@ Canvas canvas(float height, float rounding, const char* id = nullptr, ImU32 fill
     return result;
 }
 
-// Returns the position of an f-number in the list standardStops(), as a fractional index.
+// Returns the position of an f-number in the list thirdStops(), as a fractional index.
 float stopPosition(double fStop) {
     const std::span<const double> stops = thirdStops();
     if (fStop <= stops.front()) return 0;
