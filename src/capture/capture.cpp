@@ -5,12 +5,12 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "capture/frame_files.h"
-#include "capture/frame_writer.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/parallel.h"
@@ -26,7 +26,6 @@ namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t framesWaiting = 2;  // max number of frames in the writer's queue
 
 // Returns the file for a range of a frame's samples: frames/0012.exr → frames/0012.part00064-00128.exr.
 fs::path partPath(const fs::path& frame, const SampleRange& range) {
@@ -77,8 +76,7 @@ void appendTimes(const FilmOptions& options, std::uint64_t memoryLimit, const Fi
         fail("cannot write {}", options.timings.string());
 }
 
-// The result of drawing a frame. The writer thread receives it and writes the frame's files while the driver draws the
-// next frame.
+// The result of drawing a frame. Another thread writes the frame's files while the driver draws the next frame.
 struct DrawnFrame {
     FrameMoment moment;
     Image image;  // image of an untiled frame
@@ -293,10 +291,10 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, SceneDriver& 
     std::error_code ignored;
     if (!options.resume) fs::remove(options.timings, ignored);  // delete the timings file of an earlier run
 
-    // Draw one frame after another while the writer thread encodes and writes the previous ones.
+    // Draw one frame after another while another thread encodes and writes the previous one.
     const Clock::time_point start = Clock::now();
     FilmFigures figures;
-    FrameWriter writer(framesWaiting);
+    std::future<void> writing;
     RefocusedPictures pictures;
     const auto wanted = std::ranges::count(frames, false, &FilmFrame::finished);
     const auto total = static_cast<double>(std::max(wanted, std::ptrdiff_t{1}));
@@ -334,12 +332,13 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, SceneDriver& 
         const auto write = [drawn, &film, &options, limit = frame.memoryLimit()] {
             writeFrame(film, *drawn, options, limit);
         };
+        if (writing.valid()) writing.get();  // rethrows the exception of a failed write
         if (frame.crowded() && !drawn->written)
             write();
         else if (!drawn->written)
-            writer.add(write);
+            writing = std::async(std::launch::async, write);
     }
-    writer.finish();
+    if (writing.valid()) writing.get();
     figures.totalMilliseconds = millisecondsSince(start);
     return figures;
 }

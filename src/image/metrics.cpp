@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/luminance.h"
 #include "image/comparable.h"
 #include "image/packed_pixels.h"
 #include "image/separable_filter.h"
@@ -96,8 +97,7 @@ DoublePlane luma(const Image& display) {
     DoublePlane plane(display.width, display.height);
     forEachRow(display.height, [&](int y) {
         for (int x = 0; x < display.width; ++x) {
-            const float* pixel = display.at(x, y);
-            plane.row(y)[x] = 0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2];
+            plane.row(y)[x] = luminance(display.at(x, y));
         }
     });
     return plane;

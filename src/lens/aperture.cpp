@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/luminance.h"
 
 namespace defocus::engine {
 
@@ -97,7 +98,7 @@ double valueAt(const Image& image, int x, int y) {
         if (!(pixel[c] >= 0) || !std::isfinite(pixel[c]))
             fail("aperture image: pixel {},{} has the value {}; values must be finite and at least 0", x, y, pixel[c]);
     if (image.channels < 3) return static_cast<double>(pixel[0]);
-    return glm::dot(glm::dvec3(pixel[0], pixel[1], pixel[2]), glm::dvec3(0.2126, 0.7152, 0.0722));
+    return luminance(pixel);
 }
 
 // Maps a position in an aperture image, in cells, to lens coordinates, y up. The image's longer side spans [−1, 1].

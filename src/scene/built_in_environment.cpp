@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 #include <numbers>
 
+#include "core/luminance.h"
 #include "core/parallel.h"
 
 namespace defocus::engine {
@@ -116,8 +117,7 @@ double levelIlluminance(const Image& map) {
         const double solidAngle =
             std::sin(polar) * (std::numbers::pi / map.height) * (2 * std::numbers::pi / map.width);
         for (int x = 0; x < map.width; ++x) {
-            const float* pixel = map.at(x, y);
-            sum += (0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2]) * std::cos(polar) * solidAngle;
+            sum += luminance(map.at(x, y)) * std::cos(polar) * solidAngle;
         }
     }
     return sum;

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/luminance.h"
 #include "core/suggestion.h"
 #include "scene/animation.h"
 #include "scene/posed_mesh.h"
@@ -216,7 +217,7 @@ void leaveOutFaintLights(Pose& pose) {
     const auto brightness = [&](std::size_t light) {
         const Light& from = pose.lights[light].light;
         if (from.type == LightType::directional) return std::numeric_limits<double>::infinity();
-        const double candela = from.intensity * glm::dot(glm::dvec3(from.color), glm::dvec3(0.2126, 0.7152, 0.0722));
+        const double candela = from.intensity * luminance(glm::dvec3(from.color));
         return std::max(0.0, candela);  // this order of arguments maps NaN to 0
     };
     std::vector<std::size_t> order(pose.lights.size());

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/luminance.h"
 #include "image/tone_map.h"
 
 namespace defocus::engine {
@@ -24,9 +25,8 @@ double helpfulExposure(const ImageView& image) {
     std::vector<double> luminances;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
-            const float* pixel = image.at(x, y);
-            const double luminance = 0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2];
-            if (luminance > minLuminance && std::isfinite(luminance)) luminances.push_back(luminance);
+            const double value = luminance(image.at(x, y));
+            if (value > minLuminance && std::isfinite(value)) luminances.push_back(value);
         }
     if (luminances.empty()) return 0;
     const auto middle = luminances.begin() + static_cast<std::ptrdiff_t>(luminances.size() / 2);

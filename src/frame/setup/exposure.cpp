@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/luminance.h"
 #include "lens/photographic_exposure.h"
 #include "render/accumulation/accumulation.h"
 #include "render/methods.h"
@@ -62,9 +63,8 @@ double meteredExposure(const ImageView& image) {
         for (int x = 0; x < image.width; ++x) {
             const float* pixel = image.at(x, y);
             const bool surface = pixel[3] > 0.5f;
-            const double luminance =
-                (0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2]) / (surface ? pixel[3] : 1);
-            if (luminance > 0 && std::isfinite(luminance)) (surface ? surfaces : background).push_back(luminance);
+            const double value = luminance(pixel) / (surface ? pixel[3] : 1);
+            if (value > 0 && std::isfinite(value)) (surface ? surfaces : background).push_back(value);
         }
     if (surfaces.empty()) return 0;
     const auto brightest =
