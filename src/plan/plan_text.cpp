@@ -42,7 +42,8 @@ std::string chosenMethodText(const FramePlan& plan) {
     const LensCells cells = lensCells(plan);
     return fmt::format(
         "--method auto selects multirate, because about {:.0f} % of the image is blurred by {:g} px or more\n"
-        "each sample's image is blurred as its cell of the lens alone would blur it: a Gaussian with σ = {:.3g} times "
+        "each sample stands for a small part of the lens, and its image is blurred by as much as this part blurs: a "
+        "Gaussian with σ = {:.3g} times "
         "the CoC ({:.2g} px for the largest CoC)\n",
         100 * blurredShare(plan, minBlurOfCells), minBlurOfCells, cells.blur, cells.blur * plan.largestBlur);
 }

@@ -79,10 +79,9 @@ void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) 
 
 void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<SpeedupArguments>();
-    CLI::App* command = bench.add_subcommand(
-        "speedup",
-        "Measure frame time and image error from a fixed camera: full detail, and nearest and fractional levels of "
-        "detail");
+    CLI::App* command = bench.add_subcommand("speedup",
+                                             "Compare frame time and image error of full detail, nearest levels and "
+                                             "fractional levels of detail, from a fixed camera");
     const char* group = "Measurement";
     SpeedupOptions& options = arguments->speedup;
     addIntegers(*command, "--counts", options.sampleCounts, 1, maxSamples, "Numbers of lens samples to measure")

@@ -293,7 +293,8 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
         ->group(group);
     addChoice<bool>(command, "--shading", arguments.unlit, {{"lit", false}, {"unlit", true}},
                     "Shading. lit: by the scene's lights. unlit: by light that is baked into the meshes, so that ray "
-                    "tracers shade alike. Default: unlit in defocus_bench, which has ray tracers, else lit")
+                    "tracers and the other methods shade surfaces identically. Default: unlit in defocus_bench, "
+                    "because it has ray tracers, else lit")
         ->group(group);
     options.runs = 5;
     options.seeds = 5;

@@ -105,7 +105,8 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
         "Number of consecutive frames to measure in each movement; the part with the most level changes is chosen")
         ->group(group);
     addInteger(*command, "--path-frames", options.pathFrames, 2, 100'000,
-               "Number of frames of a complete movement; with more frames, each moves less. Movements: focus from the "
+               "Number of frames of a complete movement; with more frames, there is less movement per frame. "
+               "Movements: focus from the "
                "nearest to the farthest object, dolly over half the focus distance, one turn of the camera around the "
                "scene, one cycle of the animation")
         ->group(group);

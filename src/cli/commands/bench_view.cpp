@@ -157,8 +157,8 @@ void addBenchViewCommand(CLI::App& bench, const GlobalOptions& global) {
         ->group(group);
     command
         ->add_flag("--refocus", arguments->refocus,
-                   "Instead of the orbit, measure changes of focus and f-number while the camera stands still, without "
-                   "and with stored lens images")
+                   "Instead of orbiting, keep the camera still and measure the frames while focus and f-number change, "
+                   "with and without stored lens images")
         ->group(group);
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"samples", "quality", "timeLimit", "method", "exposureTime", "iso"}));

@@ -273,10 +273,9 @@ void addPyramidCommand(CLI::App& program, const GlobalOptions& global) {
         "Print JSON, with the distances from each level to the full mesh and from the full mesh to each level");
     addSettings(*command, arguments->request, {"levelVertices"});
     command->footer(
-        "Lengths are in the units of the mesh. The error of a level is an upper bound on the 99th percentile of the\n"
-        "distances between the level and level 0, in either direction. Each measured distance is the larger of the "
-        "values\n"
-        "for the two directions.\n"
+        "Lengths are in the units of the mesh. The error of a level is an upper bound on the 99th percentile of its\n"
+        "distances to level 0. Distances are computed in both directions, from the level to level 0 and back; the\n"
+        "larger value is printed.\n"
         "\n"
         "Example:\n"
         "  defocus pyramid scene.glb --mesh Body --export levels");

@@ -163,7 +163,7 @@ std::string poppingSummary(std::span<const PoppingRow> rows) {
     std::uint32_t max = 0;
     for (const PoppingRow& row : rows) max = std::max(max, row.samples);
     std::string text = fmt::format(
-        "\nlargest pop at {} samples as a fraction of the largest pop of mode 'nearest' (RMSE / FLIP of the pop "
+        "\nlargest pop at {} samples as a fraction of the largest pop of mode 'nearest' (RMSE and FLIP of the pop "
         "alone, without other changes):\n",
         max);
     for (const PoppingMode mode : poppingModes) {
@@ -192,7 +192,8 @@ std::string poppingJson(std::span<const PoppingFrame> frames, std::span<const Sa
          "(I_t - I_t-1) - (R_t - R_t-1) of display values, where I is a frame of the mode and R the same frame at "
          "full detail with the same lens samples; FLIP between I_t and I_t-1 + (R_t - R_t-1), the latter clipped to "
          "[0, 1]"},
-        {"step", "I_t minus the same view drawn with the levels and sample splits of frame t-1"},
+        {"step",
+         "I_t minus the same view drawn with the levels of frame t-1 and its division of samples between levels"},
         {"objects",
          "errors are measured over the pixels that objects or their blur cover in frame t or t-1; errors whose names "
          "end in Image are measured over the complete image"},

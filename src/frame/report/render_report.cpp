@@ -174,7 +174,7 @@ std::string statsJson(const RenderReport& report) {
         {"gpuMillisecondsNote",
          report.softwareDriver ? "timer queries of a software driver; they exclude vertex work, so do not compare them "
                                  "with other times"
-                               : "timer queries around the waves of samples"},
+                               : "GPU timer queries around each batch of samples"},
         {"trianglesDrawn", stats.trianglesDrawn},
         {"trianglesFacingAway", report.plan.trianglesFacingAway},
         {"trianglesOutside", report.plan.trianglesOutside},

@@ -101,7 +101,7 @@ public:
             const BinStatistics& bins = front_->statistics();
             stats.figures = {{"triangles in all tiles", static_cast<double>(bins.entries)},
                              {"triangles in the fullest tile", static_cast<double>(bins.largestTile)},
-                             {"bytes of the tiles' lists", static_cast<double>(bins.bytes)},
+                             {"bytes of the tiles' lists of triangles", static_cast<double>(bins.bytes)},
                              {"bands of tiles", static_cast<double>(front_->bands().size())}};
             if (searches_ > 0)
                 stats.figures.push_back({"see-through hits per shaded point",

@@ -352,7 +352,8 @@ Method lineMethod() {
         cocInterpolationSetting(),
         {.name = "wheel",
          .defaultValue = "turned",
-         .description = "Directions of the lines (the wheel) in each pixel. turned: rotated from pixel to pixel in an "
+         .description = "Directions of the lines in each pixel, like the spokes of a wheel. turned: rotated from pixel "
+                        "to pixel in an "
                         "8 x 8 pattern. shared: the same in all pixels, as in Tzeng et al. 2012",
          .choices = {"turned", "shared"}},
     };

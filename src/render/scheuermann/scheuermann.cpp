@@ -297,9 +297,7 @@ Method scheuermannMethod() {
          .choices = {"1", "4"}},
         byHand("near-blur-depth", "Depth in m; anything nearer has the maximum blur; 0: computed from the lens", 1e9),
         byHand("focal-plane-depth", "Depth in m that is in focus; 0: the focus distance", 1e9),
-        byHand("far-blur-depth",
-               "Depth in m; anything farther away has the maximum blur; 0: computed from the "
-               "lens",
+        byHand("far-blur-depth", "Depth in m beyond which everything has the maximum blur. 0: computed from the lens",
                1e9),
         byHand("blurriness-cutoff",
                "Maximum blur behind the focus plane, as a fraction of the overall maximum; 0: computed from the lens",

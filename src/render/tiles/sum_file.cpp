@@ -121,7 +121,8 @@ FramePart readPart(const fs::path& path) {
     const bool completeEnd = part.range.end % blockSamples == 0 || part.range.end == part.frameSamples;
     const bool completeFirst = part.range.first % blockSamples == 0 || part.range.first == part.frameSamples;
     if (!completeFirst || !completeEnd)
-        fail("{}: samples {} split a block of {} samples", file, rangeText(part.range), blockSamples);
+        fail("{}: the samples {} begin or end within a block of {} samples, so they cannot be merged", file,
+             rangeText(part.range), blockSamples);
     for (std::uint32_t first = part.range.first; first < part.range.end; first += blockSamples) {
         const std::uint32_t samples = std::min(blockSamples, part.range.end - first);
         const auto layer = [&](const char* what, float alpha) {
