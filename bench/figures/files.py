@@ -4,20 +4,36 @@ import csv
 import fcntl
 import json
 import os
+import re
 import tempfile
 
 
-def read_json(path):
-    """Returns the contents of a JSON file. Rows of version 0.1, which call a method's defaults "standard", are converted."""
-    document = json.loads(path.read_text(encoding="utf-8"))
-    rows = document.get("rows", []) if isinstance(document, dict) else []
+def rename_defaults(rows):
+    """Renames the settings "standard" in rows of a result to "default". Version 0.1 calls a method's defaults "standard"."""
     for row in rows:
         row.update({name: "default" for name in ("form", "setting") if row.get(name) == "standard"})
+
+
+def repeatable(text):
+    """Returns text with commands of version 0.1 converted to commands that repeat the run: --rows with "default" for "standard"."""
+    return re.sub(r"(?<=--rows[ =])\S+", lambda rows: re.sub(r"\bstandard\b", "default", rows[0]), text)
+
+
+def read_json(path):
+    """Returns the contents of a JSON file. Rows and commands of version 0.1 are converted."""
+    document = json.loads(path.read_text(encoding="utf-8"))
+    if isinstance(document, dict):
+        rename_defaults(document.get("rows", []))
+        if "commands" in document:
+            document["commands"] = [repeatable(command) for command in document["commands"]]
     return document
 
 
 def csv_rows(lines):
-    """Returns the rows of CSV text as dictionaries {column: text}. Columns such as "time.median" become nested dictionaries."""
+    """Returns the rows of CSV text as dictionaries {column: text}, with None for an empty field.
+
+    Columns such as "time.median" become nested dictionaries. Rows of version 0.1 are converted.
+    """
     rows = []
     for line in csv.DictReader(lines):
         rows.append({})
@@ -26,7 +42,8 @@ def csv_rows(lines):
             place = rows[-1]
             for part in outer:
                 place = place.setdefault(part, {})
-            place[name] = text
+            place[name] = text or None
+    rename_defaults(rows)
     return rows
 
 
