@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 namespace defocus::engine {
 namespace {
 
@@ -14,6 +17,13 @@ TEST(Csv, eachValueHasAColumn) {
               "name,time.median,time.high,error.flip,passed\n"
               "first,1.5,2,,\n"
               "second,,,0.25,1\n");
+}
+
+TEST(Csv, nanAndInfinityAreEmptyFields) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const ordered_json rows = {{{"psnr", infinity}, {"flip", 0.5}, {"ssim", std::nan("")}},
+                               {{"psnr", 40.5}, {"flip", -infinity}, {"ssim", 1}}};
+    EXPECT_EQ(csvText(rows), "psnr,flip,ssim\n,0.5,\n40.5,,1\n");
 }
 
 // RFC 4180, section 2, rules 6 and 7.
