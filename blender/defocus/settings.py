@@ -14,7 +14,7 @@ def choices(*rows):
 QUALITIES = choices(("draft", "Draft", "FLIP difference of about 0.03 from the converged image"),
                     ("good", "Good", "FLIP difference of about 0.01 from the converged image"),
                     ("fine", "Fine", "FLIP difference of about 0.005 from the converged image"))
-METHODS = choices(("auto", "Automatic", "Multirate where a visible part of the image is widely blurred, else accumulation"),
+METHODS = choices(("auto", "Automatic", "Multirate if at least 1 % of the image is blurred by 8 px or more, else accumulation"),
                   ("accumulation", "Accumulation", "Mean of one image for each lens sample"),
                   ("multirate", "Multirate", "Each lens sample stands for a part of the lens; needs fewer samples for wide blurs"),
                   ("layered", "Layered", "Lens rays through the depth layers of one pinhole image"),

@@ -33,7 +33,7 @@ Method completing(Method method) {
 std::vector<Method>& table() {
     static std::vector<Method> methods = {
         {.name = automaticMethod,
-         .description = "multirate if a visible part of the image has a wide blur, else accumulation",
+         .description = "multirate if at least 1 % of the image is blurred by 8 px or more, else accumulation",
          .blursCells = true,
          .sumsBlocks = true,
          .drawsTiles = true,
