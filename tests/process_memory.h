@@ -30,7 +30,7 @@ inline Held heldBy(pid_t process) {
     return held;
 }
 
-// Returns the number of rounds that an environment variable sets, or `standard` if the variable is not set.
+// Returns the number of rounds that an environment variable sets, or `fallback` if the variable is not set.
 // scripts/soak sets higher numbers.
 inline int roundsOr(const char* variable, int fallback) {
     const char* const text = std::getenv(variable);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t viewCount = 4;
 constexpr int minResolution = 128;
-// Max pixels per side of an image. The largest patches of a BlurTable have this side
+// Max pixels per side of an image. The largest patches of a BlurTable have this side.
 constexpr int maxResolution = 512;
 static_assert(maxResolution == 1 << (blurSizes - 1));
 constexpr double minBlurredGrowth = 1.1;  // a level's blurred error is at least this multiple of the next finer level's

@@ -39,7 +39,7 @@ Canvas canvas(float height, float rounding, const char* id = nullptr, ImU32 fill
     return result;
 }
 
-// Returns the position of an f-number in the list standardStops(), as a fractional index.
+// Returns the position of an f-number in the list thirdStops(), as a fractional index.
 float stopPosition(double fStop) {
     const std::span<const double> stops = thirdStops();
     if (fStop <= stops.front()) return 0;
@@ -51,7 +51,7 @@ float stopPosition(double fStop) {
 }
 
 // Applies mouse wheel, drag and click to the aperture ring, which must be the previous widget. `spacing`: px per
-// standard stop.
+// entry of thirdStops().
 void turnRing(double& fStop, float centre, float spacing) {
     ImGui::SetItemUsingMouseWheel();  // keep the panel from scrolling
     // Wheel notches not yet applied. A touchpad sends fractions of a notch; a slow frame receives several notches.

@@ -309,7 +309,7 @@ TEST(ConvergenceCases, followTheTableAndTheLists) {
     EXPECT_FALSE(names.contains(automaticMethod));
 }
 
-// A method without custom settings has three rows: for its published, best and standard settings. A method with custom
+// A method without custom settings has three rows: for its published, best and default settings. A method with custom
 // settings has only one row.
 TEST(ConvergenceCases, formsArePublishedBestAndDefault) {
     registerMethod({.name = "formed",

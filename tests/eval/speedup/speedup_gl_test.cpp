@@ -138,7 +138,7 @@ TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
     EXPECT_EQ(json[2]["blurOnly"]["triangles"], rows[2].blurOnly->triangles);
 }
 
-// The published and the standard settings of a method are each compared with full detail at the same number of samples.
+// The published and the default settings of a method are each compared with full detail at the same number of samples.
 // The two sets of settings use different sample sequences.
 TEST(Speedup, measuresFormsAndMethodsBesideEachOther) {
     const std::unique_ptr<GlContext> context = createHeadlessContext();
