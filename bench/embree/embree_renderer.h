@@ -1,11 +1,12 @@
 #pragma once
 // Renders independent reference images with a thin-lens ray tracer on Embree 3 that shares no code with the rasteriser.
 // Of a FramePlan, the ray tracer uses only the view, whether there are shadows, and the sample count, seed and offset;
-// with EmbreeSampling::planned, also the samples. It has its own lens model (lens_rays.h) and sampling, and traces the
-// loaded meshes without any culling.
+// with EmbreeSampling::planned, also the lens samples. It has its own lens model (lens_rays.h) and sampling, and traces
+// the loaded meshes without any culling.
 //
 // The pixel filter is a box of 1 px. The output is linear premultiplied RGBA, summed in double. Surfaces are opaque and
-// shaded as in traced_shading.h. Throws Error for environment maps.
+// shaded as in traced_shading.h. Throws Error for environment maps, for blur that objects or vertices have
+// themselves, and for blur controls that no physical lens has, except a foreground limit above 0 px.
 //
 // The code is optimised, because benches also compare its speed: rays are traced in packets (ray_packet.h), and each
 // tile is traced for several samples in succession. If all pixels share a lens sample, packets are traced with Embree's

@@ -20,7 +20,7 @@ from figures.files import read_csv, read_json
 
 MIN_RUNS = 3  # results with fewer runs get no verdict on times
 TOLERANCE = 0.01  # errors count as equal if they differ by at most this fraction of the larger one
-SSIM_ROUNDING = 1e-6  # max rounding error of the difference of two SSIM values from CSV files of version 0.1
+SSIM_ROUNDING = 1e-6  # max rounding error of the difference of two SSIM values; CSV files of version 0.1 round to six decimals
 # Columns that identify a row, and columns that contain errors.
 KEYS = ("sweep", "axis", "movement", "area", "case", "errorOf", "method", "setting", "varied", "value", "samples", "fStop",
         "focusDistance", "lod", "width", "height", "preset", "frame")

@@ -8,31 +8,32 @@ import re
 import tempfile
 
 
+def rename_defaults(rows):
+    """Renames the settings "standard" in rows of a result to "default". Version 0.1 calls a method's defaults "standard"."""
+    for row in rows:
+        row.update({name: "default" for name in ("form", "setting") if row.get(name) == "standard"})
+
+
+def repeatable(text):
+    """Returns text with commands of version 0.1 converted to commands that repeat the run: --rows with "default" for "standard"."""
+    return re.sub(r"(?<=--rows[ =])\S+", lambda rows: re.sub(r"\bstandard\b", "default", rows[0]), text)
+
+
 def read_json(path):
-    """Returns the contents of a JSON file, with renamed_rows() and renamed_words()."""
+    """Returns the contents of a JSON file. Rows and commands of version 0.1 are converted."""
     document = json.loads(path.read_text(encoding="utf-8"))
     if isinstance(document, dict):
-        renamed_rows(document.get("rows", []))
+        rename_defaults(document.get("rows", []))
         if "commands" in document:
-            document["commands"] = [renamed_words(command) for command in document["commands"]]
+            document["commands"] = [repeatable(command) for command in document["commands"]]
     return document
 
 
-def renamed_rows(rows):
-    """Renames "standard" to "default" in rows, as renamed_words() does in texts."""
-    for row in rows:
-        row.update({name: "default" for name in ("form", "setting") if row.get(name) == "standard"})
-    return rows
-
-
-def renamed_words(text):
-    """Renames "standard" to "default", the name of a method's own settings since version 0.2, in a command or a list of rows."""
-    return re.sub(r"(, |--rows \S*?)\bstandard\b", r"\1default", text)
-
-
 def csv_rows(lines):
-    """Returns the rows of CSV text as dictionaries {column: text}. An empty text becomes None, and columns such as
-    "time.median" become nested dictionaries."""
+    """Returns the rows of CSV text as dictionaries {column: text}, with None for an empty field.
+
+    Columns such as "time.median" become nested dictionaries. Rows of version 0.1 are converted.
+    """
     rows = []
     for line in csv.DictReader(lines):
         rows.append({})
@@ -42,7 +43,8 @@ def csv_rows(lines):
             for part in outer:
                 place = place.setdefault(part, {})
             place[name] = text or None
-    return renamed_rows(rows)
+    rename_defaults(rows)
+    return rows
 
 
 def read_csv(path):

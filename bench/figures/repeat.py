@@ -3,7 +3,7 @@
     scripts/figures repeat bench/results/llvmpipe-circular.txt --program build/release/defocus
 
 A text result has lines `$ defocus …` before each output. The new file starts with the commit of the program and the
-number of cores. Text between an output and the next command is removed.
+number of cores. Text between an output and the next command is removed. Commands of version 0.1 are converted.
 """
 
 import os
@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 from figures.command import ROOT, add_program, parser_of, path, run
-from figures.files import renamed_words, write_file
+from figures.files import repeatable, write_file
 
 
 def commit():
@@ -42,7 +42,7 @@ def main(words):
     add_program(parser)
     arguments = parser.parse_args(words)
     for file in arguments.files:
-        commands = re.findall(r"^\$ (.+)$", renamed_words(file.read_text()), re.MULTILINE)
+        commands = re.findall(r"^\$ (.+)$", repeatable(file.read_text()), re.MULTILINE)
         if not commands:
             sys.exit(f"{file.name}: no line starts with '$ '")
         outputs = [f"$ {command}\n{output_of(arguments.program, command)}\n" for command in commands]

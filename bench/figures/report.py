@@ -99,7 +99,7 @@ def main(words):
         if not results:
             sys.exit(f"{folder}: no results of a bench")
         write_file(report / "index.html", page(results, folder, report))
-    except (OSError, ValueError, KeyError) as fault:
+    except (OSError, ValueError, KeyError, TypeError) as fault:
         sys.exit(f"{folder}: its results cannot be drawn: {fault!r}")
 
 

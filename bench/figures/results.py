@@ -4,7 +4,7 @@ import re
 import sys
 
 from figures.command import ROOT
-from figures.files import read_json, renamed_words
+from figures.files import read_json, repeatable
 
 RESULTS = ROOT / "bench" / "results"
 # Options to append to the commands of runs that were measured when `size` was the default LOD metric.
@@ -22,8 +22,8 @@ def run_of(name):
 
 
 def lines_of(name):
-    """Returns the lines of a recorded text, with renamed_words()."""
-    return renamed_words((RESULTS / f"{name}.txt").read_text()).splitlines()
+    """Returns the lines of a recorded text. Rows and commands of version 0.1 are converted."""
+    return repeatable((RESULTS / f"{name}.txt").read_text()).replace(", standard", ", default").splitlines()
 
 
 def numbers(text):

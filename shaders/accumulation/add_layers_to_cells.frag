@@ -1,5 +1,5 @@
 // Like add_layers.frag, adds a batch (wave) of lens samples, one layer per sample, to the sum of the current block of
-// samples. Also adds each sample to the sums of the blur classes into which the samples of a pixel are sorted
+// samples. Also adds the pixel values of each sample to the sums of the blur classes into which they are sorted
 // (include/cells.glsl).
 #include "accumulation/layer_light.glsl"
 #include "include/cells.glsl"

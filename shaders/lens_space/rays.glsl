@@ -10,8 +10,9 @@ struct Ray {
     vec4 lensAndPixel;
     // Point sample: x is the time within the current part of the exposure, [0, 1]. Line sample: the line's points are
     // p · lensAndPixel.xy, with p from −x to 1. y is the fraction of the line's light that passes through its part with
-    // p > 0. z, in [0, 1), places the shading point in each piece of a visible segment: the fraction of the piece's
-    // weight (shaders/line/weights.glsl) before the point.
+    // p > 0. Each visible segment is shaded at one or more points, each in a piece of its own (writeRecords in
+    // shaders/line/visible.glsl). z, in [0, 1), is the fraction of a piece's light before its shading point; if
+    // areaWeights is false, of its length. If shadingStep is 0, z is ignored and the segment's middle is shaded.
     vec4 values;
 };
 

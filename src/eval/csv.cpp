@@ -13,6 +13,7 @@ using nlohmann::ordered_json;
 std::string fieldText(const ordered_json& value) {
     if (value.is_number_float() && !std::isfinite(value.get<double>())) return {};
     if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
+    if (value.is_number_float() && !std::isfinite(value.get<double>())) return "";
     if (!value.is_string()) return value.dump();
     const auto& text = value.get_ref<const std::string&>();
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;

@@ -10,8 +10,8 @@ namespace defocus::engine {
 
 // Returns a JSON array of objects as CSV with a header (RFC 4180, but with LF line ends). Each value has a column. The
 // name of a column joins the names of nested objects with dots, such as "milliseconds.median". Columns have the order
-// in which the rows first contain a value other than null; a field is empty where a row has no such value, or NaN or
-// infinity. Booleans are 1 and 0.
+// in which the rows first contain a value other than null; a field is empty where a row has no such value, or has
+// NaN or infinity. Booleans are 1 and 0.
 std::string csvText(const nlohmann::ordered_json& rows);
 
 // Returns csvText() of `rows` after conversion with `rowJson`.

@@ -19,6 +19,13 @@ TEST(Csv, eachValueHasAColumn) {
               "second,,,0.25,1\n");
 }
 
+TEST(Csv, nanAndInfinityAreEmptyFields) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const ordered_json rows = {{{"psnr", infinity}, {"flip", 0.5}, {"ssim", std::nan("")}},
+                               {{"psnr", 40.5}, {"flip", -infinity}, {"ssim", 1}}};
+    EXPECT_EQ(csvText(rows), "psnr,flip,ssim\n,0.5,\n40.5,,1\n");
+}
+
 // RFC 4180, section 2, rules 6 and 7.
 TEST(Csv, textWithSeparatorsIsQuoted) {
     const ordered_json rows = {{{"fault", "no \"ring\", no blades\nat all"}, {"samples", 8}}};

@@ -137,6 +137,23 @@ def test_presets_and_methods_of_speedup_are_rows_of_their_own():
         "samples 64 2.8 0.333333 off", "samples 64 2.8 0.333333 off jeong2011", "samples circular:far-components=2 64 2.8 0.333333 off"]
 
 
+def test_infinite_psnr_and_missing_bias_of_csv_rows_are_skipped():
+    speedup = csv_rows(["sweep,samples,lod,runs,milliseconds.median,milliseconds.low,milliseconds.high,fromFullDetail.psnr,fromFullDetail.flip",
+                        "samples,64,off,3,10,9,11,,0", "samples,64,fractional,3,5,4,6,40,0.01"])
+    _, rows = compared(speedup, speedup)
+    assert {key: list(errors) for key, (_, errors) in rows.items()} == {
+        "samples 64 off": ["flipFull"], "samples 64 fractional": ["flipFull", "psnrFull"]}
+    convergence = csv_rows(["method,setting,samples,flip,bias.mse,bias.flip", "accumulation,lod=off,8,0.01,,", "blur,default,1,0.02,1e-4,0.01"])
+    _, rows = compared(convergence, convergence)
+    assert {key: list(errors) for key, (_, errors) in rows.items()} == {
+        "accumulation lod=off 8": ["flip"], "blur default 1": ["biasFlip", "flip"]}
+
+
+def test_rows_of_version_0_1_have_the_settings_default():
+    old = csv_rows(["method,setting,samples,flip", "blur,standard,1,0.02"])
+    assert list(compared(old, {"rows": [{"method": "blur", "setting": "default", "samples": 1, "flip": 0.02}]})[1]) == ["blur default 1"]
+
+
 def test_scaling_takes_the_number_of_runs_from_the_head():
     def document(*times):
         return {"runs": 3, "rows": [{"axis": "blur", "value": 1 / 3, "lod": "off", "samples": 8, "width": 64, "height": 48,

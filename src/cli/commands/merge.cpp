@@ -74,7 +74,7 @@ void addMergeCommand(CLI::App& program, const GlobalOptions& global) {
     command->add_option("PART", arguments->parts, "Parts of one frame, in any order")->required()->type_name("FILE…");
     addImageOutputs(*command, arguments->outputs);
     addNumber(*command, "--exposure", arguments->exposure, {-60, 60}, "EV",
-              "Exposure in EV for PNG and JPEG. Default: the exposure of the parts");
+              "Exposure in EV for PNG and JPEG. Default: the exposure of the parts, else 0");
     addChoice<ToneMap>(
         *command, "--tonemap", arguments->toneMap,
         {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}, {"neutral", ToneMap::neutral}},

@@ -164,7 +164,8 @@ void printSummary(const RenderArguments& arguments, const RenderReport& report, 
 
 void printChoices(const GlContext& context, const RenderReport& report) {
     for (const std::string& line : context.log()) printMessage("{}\n", line);
-    printMessage("images drawn at once: {}; pixel format: {}\n", report.stats.wave, report.stats.layerFormat);
+    printMessage("{} drawn at once, pixel format {}\n", imageCount(report, report.stats.wave),
+                 report.stats.layerFormat);
     for (const LeftOut& entry : report.plan.leftOut) printMessage("left out: {}: {}\n", entry.what, entry.reason);
     printMessage("load {:.0f} ms, pyramids {:.0f} ms, set-up {:.0f} ms, render {:.0f} ms\n",
                  report.frame.loadMilliseconds, report.frame.pyramidMilliseconds, report.stats.setupMilliseconds,

@@ -34,7 +34,7 @@ EndText textOf(engine::PyramidEnd end) {
         case PyramidEnd::smallSaving:
             return {"smallSaving", "a further level would save less than a quarter of the triangles"};
         case PyramidEnd::topology:
-            return {"topology", "holes through the mesh and its borders need the remaining triangles"};
+            return {"topology", "holes (handles) and borders of the mesh need the remaining triangles"};
         case PyramidEnd::largestParts:
             return {"largestParts", "only the largest connected parts could be simplified further"};
         case PyramidEnd::noSurface:

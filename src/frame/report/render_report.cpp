@@ -82,12 +82,6 @@ bool usesLensSamples(const RenderReport& report) {
     return parseMethodUse(report.method).method->usesLensSamples;
 }
 
-// Returns the number of drawn images in words: "64 samples", or "4 pinhole images" for a method without lens samples.
-std::string imageCount(const RenderReport& report) {
-    return fmt::format("{} {}{}", report.stats.samples, usesLensSamples(report) ? "sample" : "pinhole image",
-                       report.stats.samples == 1 ? "" : "s");
-}
-
 }  // namespace
 
 Metadata renderMetadata(const RenderReport& report) {
@@ -207,12 +201,16 @@ std::string errorText(const RenderStats& stats) {
     return stats.estimatedError ? fmt::format("RMSE about {:.2g}", *stats.estimatedError) : "RMSE not estimated";
 }
 
+std::string imageCount(const RenderReport& report, std::uint32_t count) {
+    return fmt::format("{} {}{}", count, usesLensSamples(report) ? "sample" : "pinhole image", count == 1 ? "" : "s");
+}
+
 std::string summary(const RenderReport& report) {
     const RenderStats& stats = report.stats;
     std::string triangles = inMillions(stats.trianglesDrawn) + " triangles";
     if (report.plan.trianglesAtFullDetail > stats.trianglesDrawn)
         triangles += fmt::format(" (full detail: {})", inMillions(report.plan.trianglesAtFullDetail));
-    std::string samples = imageCount(report);
+    std::string samples = imageCount(report, stats.samples);
     if (report.plan.settings.positions > 1)
         samples += fmt::format(" with {} positions", report.plan.settings.positions);
     if (stopSettings(report.options).given())

@@ -1,6 +1,7 @@
 #pragma once
 // Describes a render: metadata for its image files, JSON for --stats, and a line of text.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -36,6 +37,9 @@ std::string statsJson(const RenderReport& report);
 
 // Returns a text such as "RMSE about 0.0047", or "RMSE not estimated".
 std::string errorText(const RenderStats& stats);
+
+// Returns a number of drawn images in words: "64 samples", or "4 pinhole images" for a method without lens samples.
+std::string imageCount(const RenderReport& report, std::uint32_t count);
 
 // Returns a summary such as "1024x768, 64 samples in 1.52 s: 2.1 M triangles (full detail: 115.2 M), llvmpipe …". For a
 // method without lens samples, it gives the number of pinhole images instead.

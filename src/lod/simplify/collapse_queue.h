@@ -1,7 +1,8 @@
 #pragma once
-// Implements the priority queue of the vertices to collapse, ordered by cost. Vertices whose collapse is bad
-// (see simplify.h) come last; equal costs are ordered by vertex number. The queue is a 4-ary heap with updates, in which
-// every vertex occurs at most once (Johnson 1975, Priority Queues with Update and Finding Minimum Spanning Trees).
+// Implements the priority queue of the vertices to collapse, ordered by cost. Vertices whose collapse is bad (it
+// rotates a face's normal by more than 75° or mixes primitives, see simplify.h) come last; equal costs are ordered by
+// vertex number. The queue is a 4-ary heap with updates, in which every vertex occurs at most once (Johnson 1975,
+// Priority Queues with Update and Finding Minimum Spanning Trees).
 
 #include <algorithm>
 #include <bit>

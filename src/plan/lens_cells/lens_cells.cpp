@@ -132,7 +132,7 @@ double varianceOf(double blur, double coc) {
     return std::max(0.0, blur * coc * blur * coc - minCellVariance);
 }
 
-// Returns how many variance classes are needed for CoC diameters up to `coc` px. A variance class is a group of pixels
+// Returns how many blur classes are needed for CoC diameters up to `coc` px. A blur class is a group of pixel values
 // with similar blur (see lens_cells.h).
 int classesFor(double blur, double coc) {
     const double variance = varianceOf(blur, coc);

@@ -13,11 +13,11 @@
 // position and size for any N. Unmodified points of the sample sequence would shift blurred points by the mean of the
 // sequence points. σ falls as 1/√N, so the result converges to that of plain accumulation.
 //
-// Blurring is linear. Pixels are therefore sorted by σ into a few classes and summed over a block of samples; each
-// class is then blurred once per block (render/accumulation/cell_sums.h). A pixel contributes to the two classes with
-// the nearest variances, with weights that preserve its own variance; this avoids popping. Pixels with hardly any blur
-// stay unblurred. Pixels with an alpha-blended surface also stay unblurred, because the surface and its background
-// differ in blur.
+// Blurring is linear. The pixel values of the samples' images are therefore sorted by σ into a few classes and summed
+// over a block of samples; each class is then blurred once per block (render/accumulation/cell_sums.h). A pixel value
+// contributes to the two classes with the nearest variances, with weights that preserve its own variance; this avoids
+// popping. Pixel values with hardly any blur stay unblurred. Pixel values with an alpha-blended surface also stay
+// unblurred, because the surface and its background differ in blur.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -29,9 +29,9 @@ namespace defocus::engine {
 struct FramePlan;
 
 inline constexpr int maxCellClasses = 5;  // max number of classes of similar blur on each side of the focus plane
-// Returns the variance in px², along one axis, of the blur of class k ≥ 0: 4^k/3 + 1/6. A class is a group of pixels
-// with similar blur. The image of a class consists of tent-weighted means over squares of 2^k px, interpolated linearly
-// between their centres.
+// Returns the variance in px², along one axis, of the blur of class k ≥ 0: 4^k/3 + 1/6. A class is a group of pixel
+// values with similar blur. The image of a class consists of tent-weighted means over squares of 2^k px, interpolated
+// linearly between their centres.
 double cellClassVariance(int k);
 inline constexpr double minCellVariance = 0.01;  // px², subtracted from each blur's variance; too small to be visible
 
@@ -41,9 +41,9 @@ struct LensCells {
     std::vector<glm::vec2> middles;  // centre of each cell, in the coordinates of LensSample::lens
     // Shift in px that is added to LensSample::pixel, so that the mean position of the samples is the pixel's centre.
     glm::dvec2 pixelShift{0};
-    // Numbers of blur classes, groups of pixels with similar blur, in front of and behind the focus plane. Both are 0
-    // if the samples are so dense that their images need no blur. Samples are moved to the cells' centres even then;
-    // otherwise, the image would pop when a class is added.
+    // Numbers of blur classes, groups of pixel values with similar blur, in front of and behind the focus plane. Both
+    // are 0 if the samples are so dense that their images need no blur. Samples are moved to the cells' centres even
+    // then; otherwise, the image would pop when a class is added.
     int inFront = 0;
     int behind = 0;
     std::string reason;  // why the samples' images cannot be blurred; empty if they can be

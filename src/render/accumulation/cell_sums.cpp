@@ -15,8 +15,8 @@ int tiles(int pixels) {
     return (pixels + tileSide - 1) / tileSide;
 }
 
-// Max number of blur classes (groups of pixels with similar blur) whose sums are colour attachments. Equals the max of
-// drawnClasses in shaders/include/cells.glsl.
+// Max number of blur classes (groups of pixel values with similar blur) whose sums are colour attachments. Equals the
+// max of drawnClasses in shaders/include/cells.glsl.
 constexpr int maxDrawn = 7;
 
 // blurInto() draws point sprites whose side depends on the blur class. This is the largest side in px of the image, a

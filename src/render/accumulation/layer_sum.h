@@ -41,7 +41,7 @@ public:
     void reset(const glm::ivec2& first = {0, 0});
     // From the next block on, blurs each sample's image by the blur of its lens cell, the part of the lens that the
     // sample represents. All samples so far must form complete blocks of 64. If `cells` has no blur classes (groups of
-    // pixels with similar blur), nothing is blurred. reset() turns the blur off.
+    // pixel values with similar blur), nothing is blurred. reset() turns the blur off.
     void blurCells(const LensCells& cells);
     // Composites layers [0, count) over the environment and adds them to the sum. The layers contain samples [first,
     // first + count) of `frame`, which must be in one block of 64 samples.
@@ -92,7 +92,7 @@ private:
     // Programs that add layers to the sum, keyed by their defines, which may change from frame to frame.
     std::map<ShaderDefines, Program> addLayers_;
     // Programs that blur the sum of a block by the blur of its samples' lens cells (parts of the lens), keyed by the
-    // numbers of blur classes (groups of pixels with similar blur) in front of and behind the focus plane.
+    // numbers of blur classes (groups of pixel values with similar blur) in front of and behind the focus plane.
     std::map<std::pair<int, int>, CellPasses> cellPasses_;
     // Sums of the blur classes of the latest block that used lens cells. Kept because the next frame can reuse the
     // textures if it has the same number of blur classes, as is often the case.

@@ -13,8 +13,8 @@ std::uint64_t largestStorage() {
 
 Buffer storage(std::uint64_t bytes, const char* what) {
     if (bytes > largestStorage())
-        fail("{} need {} bytes, but this driver's limit is {} bytes per buffer; use --method accumulation", what, bytes,
-             largestStorage());
+        fail("{} need {} bytes, but this driver's limit is {} bytes per buffer; choose method accumulation", what,
+             bytes, largestStorage());
     return Buffer(bytes);
 }
 

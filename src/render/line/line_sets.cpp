@@ -39,10 +39,10 @@ double angleOfShare(const std::vector<double>& sums, double share) {
     return std::numbers::pi * (static_cast<double>(found - 1 - sums.begin()) + place) / angleSteps;
 }
 
-// A line of a wagon wheel.
+// For one line of a wagon wheel: the line's position in the pixel, and the positions of its shading points.
 struct WheelPoint {
     glm::dvec2 pixel{0};  // position in the pixel, [0, 1)
-    double shading = 0;   // place of the shading point in each piece of a visible segment, [0, 1); see rays.glsl
+    double shading = 0;   // GpuRay::values.z, [0, 1); see line_sets.h
 };
 
 // Returns one point per line of the wagon wheel (line_sets.h). Two coordinates of the low-discrepancy sequence are the

@@ -19,8 +19,8 @@ struct LineSets {
     // A line runs through the lens centre, from rim to rim. GpuRay::lensAndPixel.xy is the vector (u, k·v) from the
     // lens centre to one end of the line, where (u, v) is in the unit disk and k = image width / height.
     // GpuRay::values.x is the distance from the centre to the opposite end, relative to this vector's length. values.y
-    // is the fraction of the line's light between the centre and the vector's end. values.z is the position of the
-    // shading point within a visible segment of the line, [0, 1).
+    // is the fraction of the line's light between the centre and the vector's end. values.z, in [0, 1), is the position
+    // of each shading point within its piece of a visible segment (rays.glsl).
     RaySets sets;
     // Per line: xy is the unit vector in (u, v) perpendicular to the mean direction of the line's variants, which are
     // its versions in different pixels (ray_sets.h). z is the max distance of a variant from the line in the mean

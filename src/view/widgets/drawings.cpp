@@ -51,7 +51,7 @@ float stopPosition(double fStop) {
 }
 
 // Applies mouse wheel, drag and click to the aperture ring, which must be the previous widget. `spacing`: px per
-// standard stop.
+// entry of thirdStops().
 void turnRing(double& fStop, float centre, float spacing) {
     ImGui::SetItemUsingMouseWheel();  // keep the panel from scrolling
     // Wheel notches not yet applied. A touchpad sends fractions of a notch; a slow frame receives several notches.
