@@ -54,16 +54,6 @@ def test_changes_beyond_the_noise(old, new):
     assert rows["accumulation lod=off 16"][1]["flip"] == (0.01, 0.015, "farther", False)
 
 
-# A field of a CSV file is empty for null: an infinite PSNR, or a row without a bias.
-def test_empty_fields_are_unknown():
-    text = ("method,setting,samples,milliseconds.median,milliseconds.low,milliseconds.high,fromFullDetail.psnr,bias.flip\n"
-            "accumulation,standard,8,100,90,110,,\n"
-            "accumulation,standard,16,200,190,210,40,0.001\n")
-    _, rows = compared(csv_rows(io.StringIO(text)), csv_rows(io.StringIO(text.replace("standard", "default"))))
-    assert {key: set(errors) for key, (_, errors) in rows.items()} == {
-        "accumulation default 8": set(), "accumulation default 16": {"psnrFull", "biasFlip"}}
-
-
 def test_table_counts_the_changes_and_names_missing_rows():
     lines = diff.table(diff.parse({"rows": OLD}), diff.parse(csv_of(NEW))).splitlines()
     assert lines[-2:] == ["4 times: 1 faster, 1 slower, 2 within noise, 0 unknown", "16 errors: 0 closer, 1 farther, 15 equal, 0 unknown"]
