@@ -237,7 +237,7 @@ TEST(LensCells, pixelRateIsContinuous) {
 TEST(LensCells, framesThatDoNotAllowThemSayWhy) {
     const auto small = muchBlurred();
     ASSERT_EQ(lensCellsOf(*small, 64).reason, "");
-    EXPECT_NE(planTable(planFrame(small->world, small->view, settingsFor(64))).find("its cell of the lens"),
+    EXPECT_NE(planTable(planFrame(small->world, small->view, settingsFor(64))).find("a small part of the lens"),
               std::string::npos);
     const auto expectNone = [&](const char* reason, std::uint32_t samples = 64) {
         const LensCells cells = lensCellsOf(*small, samples);
