@@ -38,7 +38,8 @@ SampleRange parseSampleRange(std::string_view text) {
     const SampleRange range{number(text.substr(0, colon)), number(text.substr(std::min(colon + 1, text.size())))};
     if (range.first >= range.end) fail("'{}': the range has no samples", text);
     if (range.first % blockSamples != 0)
-        fail("'{}' splits a block of {} samples; let the range begin at a multiple of {}", text, blockSamples, blockSamples);
+        fail("'{}' splits a block of {} samples; let the range begin at a multiple of {}", text, blockSamples,
+             blockSamples);
     return range;
 }
 
