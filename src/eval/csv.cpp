@@ -11,7 +11,6 @@ namespace {
 using nlohmann::ordered_json;
 
 std::string fieldText(const ordered_json& value) {
-    if (value.is_number_float() && !std::isfinite(value.get<double>())) return {};
     if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
     if (value.is_number_float() && !std::isfinite(value.get<double>())) return "";
     if (!value.is_string()) return value.dump();

@@ -70,6 +70,15 @@ def test_a_renderer_renders_frame_after_frame(small):
         renderer.render()
 
 
+def test_the_ground_follows_the_clip(meshes):
+    fox = {"scene": meshes.parent / "tests/data/models/Fox.glb", "size": (64, 48), "samples": 4, "ground": True, "units": "0.01"}
+    with defocus.Renderer(**fox, clip="Survey") as renderer:
+        survey = renderer.render()
+        run = renderer.render(clip="Run")
+    assert not numpy.array_equal(survey, run)
+    assert numpy.array_equal(run, defocus.render(**fox, clip="Run"))
+
+
 def test_a_target_error_leaves_the_number_of_samples_to_the_picture(small):
     del small["samples"]
     with defocus.Renderer(**small, f_stop=1.4) as renderer:

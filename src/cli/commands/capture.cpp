@@ -269,10 +269,14 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     progress = {};
     printCacheUse(placed, global);
     WarningPrinter warnings(global);
-    if (!film.empty()) driver->pose(request, frameAt(shot, base, film.front().frame));
+    // Frames set the time and the seed of the request; the warnings are about the request as the user gave it.
+    driver->pose(request, momentOf(placed, request));
     warnings.print(driver->warnings());
     warnings.print(runs.rendered);
-    if (!allThere) warnings.print(planWarnings(planFrame(placed.world, placed.view, placed.settings), use));
+    if (!allThere) {
+        driver->pose(request, frameAt(shot, base, film.front().frame));
+        warnings.print(planWarnings(planFrame(placed.world, placed.view, placed.settings), use));
+    }
     if (arguments.dryRun) return printPlan(shot, *driver, base, film, options);
     if (meters) meterFilm(shot, *driver, base, request, film);
     progress = terminalProgress(global);

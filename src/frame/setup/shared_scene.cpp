@@ -65,8 +65,9 @@ std::shared_ptr<Scene> SharedScene::of(const Request& request) {
     const auto suits = [&](const Scene& scene) {
         return metresPerUnit == scene.metresPerUnit && hasCameraTrack(request, scene);
     };
-    const bool sameAsLatest =
-        latest_ && suits(*latest_) && request.nodeBlur == request_.nodeBlur && request.ground == request_.ground;
+    // The ground lies beneath the pose at the start of the clip.
+    const bool sameGround = request.ground == request_.ground && (!request.ground || request.clip == request_.clip);
+    const bool sameAsLatest = latest_ && suits(*latest_) && request.nodeBlur == request_.nodeBlur && sameGround;
     if (!sameAsLatest) {
         if (request.nodeBlur.empty() && !request.ground && suits(*loaded_)) {
             latest_ = loaded_;

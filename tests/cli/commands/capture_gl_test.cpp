@@ -213,6 +213,15 @@ TEST_F(Capture, warnsOfOptionsThatDoNothingAndOfClippedPictures) {
     const std::string unused = warned({"--lod", "off", "--size-threshold", "2"});
     EXPECT_TRUE(says(unused, "warning: --size-threshold has no effect: --lod off")) << unused;
     EXPECT_FALSE(says(unused, "of the image is")) << unused;
+    // The time and the seed that each frame gets are not settings of the user.
+    json still = shot();
+    still.erase("animation");
+    writeShot(still);
+    const Outcome later =
+        run({"capture", "shot.json", "--range", "1", "--animate-seed", "--method", "circular", "-o", "later/####.exr"});
+    EXPECT_EQ(later.exitCode, 0) << later.err;
+    EXPECT_FALSE(says(later.err, "--time")) << later.err;
+    EXPECT_FALSE(says(later.err, "--seed")) << later.err;
     const std::string black = warned({"--exposure", "-20", "-o", "black/####.png"});
     EXPECT_TRUE(says(black, "of the image is black at an exposure of -20 EV")) << black;
     EXPECT_EQ(warned({"--exposure", "-20", "-o", "black/####.png", "--quiet"}), "");
