@@ -31,6 +31,7 @@
 #include "frame/report/picture_warnings.h"
 #include "frame/report/plan_warnings.h"
 #include "frame/setup/exposure.h"
+#include "frame/setup/prepared_frame.h"
 #include "render/methods.h"
 
 namespace defocus::engine {
@@ -227,9 +228,8 @@ void refuseToReplace(const std::vector<FilmFrame>& film) {
          more > 0 ? fmt::format(" and {} more frame{} were", more, more > 1 ? "s" : "") : " was");
 }
 
-std::unique_ptr<SceneDriver> openedScene(const Shot& shot, const Request& request, const GlobalOptions& global,
-                                         const Progress& progress) try {
-    return std::make_unique<SceneDriver>(nullptr, request, global.shaderDir, progress);
+PreparedFrame placedFrame(const Shot& shot, const Request& request, const Progress& progress) try {
+    return placeFrame(request, progress);
 } catch (const MissingName& missing) {
     failForName(shot, missing);
 }
@@ -243,8 +243,9 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     Request request = arguments.request;
     request.timeLimit.reset();  // limits the run, not a frame: a frame must have the same samples in every run
     Progress progress = terminalProgress(global);
-    const std::unique_ptr<SceneDriver> driver = openedScene(shot, request, global, progress);
-    const PreparedFrame& placed = driver->frame();
+    checkRequest(request);  // before the scene is loaded
+    SceneDriver driver(placedFrame(shot, request, progress), request, global.shaderDir);
+    const PreparedFrame& placed = driver.frame();
     const SequenceBase base = sequenceBase(placed, request);
     if (arguments.refocus && chosenMethod(request).method->name == automaticMethod) request.method = "accumulation";
     settleMethod(request, shot, placed, base);
@@ -264,21 +265,21 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     const bool allThere = std::ranges::all_of(film, &FilmFrame::finished);
 
     const bool meters = options.metered && (!allThere || !shot.video.empty());
-    if (((!allThere && use.method->needsGl) || meters) && !arguments.dryRun) driver->openContext();
-    if (!allThere || meters || arguments.dryRun) driver->buildPyramids(progress);
+    if (((!allThere && use.method->needsGl) || meters) && !arguments.dryRun) driver.openContext();
+    if (!allThere || meters || arguments.dryRun) driver.buildPyramids(progress);
     progress = {};
     printCacheUse(placed, global);
     WarningPrinter warnings(global);
     // Frames set the time and the seed of the request; the warnings are about the request as the user gave it.
-    driver->pose(request, momentOf(placed, request));
-    warnings.print(driver->warnings());
+    driver.pose(request, momentOf(placed, request));
+    warnings.print(driver.warnings());
     warnings.print(runs.rendered);
     if (!allThere) {
-        driver->pose(request, frameAt(shot, base, film.front().frame));
+        driver.pose(request, frameAt(shot, base, film.front().frame));
         warnings.print(planWarnings(planFrame(placed.world, placed.view, placed.settings), use));
     }
-    if (arguments.dryRun) return printPlan(shot, *driver, base, film, options);
-    if (meters) meterFilm(shot, *driver, base, request, film);
+    if (arguments.dryRun) return printPlan(shot, driver, base, film, options);
+    if (meters) meterFilm(shot, driver, base, request, film);
     progress = terminalProgress(global);
     if (!shot.video.empty() || !std::ranges::all_of(shot.outputs, isExr))
         options.firstDrawn = [&](const Image& image, const WriteOptions& write) {
@@ -288,7 +289,7 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
         };
     FilmFigures figures;
     figures.finishedBefore = static_cast<int>(film.size());
-    if (!allThere) figures = renderFrames(arguments, *driver, base, film, options, global, progress);
+    if (!allThere) figures = renderFrames(arguments, driver, base, film, options, global, progress);
     if (figures.stoppedBefore)
         fail("stopped before frame {}: {} of {} frames are finished; repeat the command with --resume to continue",
              *figures.stoppedBefore, figures.rendered + figures.finishedBefore, film.size());

@@ -52,6 +52,7 @@ struct FrameParts {
     bool shortDraws = false;  // true: advance() draws few samples per call; implied by a time limit
 };
 
+// Describes the frame, or the part of a frame, that is to be drawn.
 struct FrameOrder {
     View view;
     RenderSettings settings;

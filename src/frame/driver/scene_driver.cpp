@@ -69,10 +69,7 @@ SceneDriver::SceneDriver(PreparedFrame frame, const Request& request, std::files
       request_(request),
       frame_(std::move(frame)),
       loadMilliseconds_(frame_.loadMilliseconds),
-      pyramidMilliseconds_(frame_.pyramidMilliseconds),
-      ownContext_(false) {
-    scene_.emplace(frame_.scene, request);
-}
+      pyramidMilliseconds_(frame_.pyramidMilliseconds) {}
 
 SceneDriver::~SceneDriver() {
     try {
@@ -92,7 +89,7 @@ void SceneDriver::prepare(const Progress& progress) {
 }
 
 void SceneDriver::openContext() {
-    if (context_ || !ownContext_) return;
+    if (context_) return;
     const CurrentContextKeeper callers;
     context_ = createHeadlessContext();
 }

@@ -35,14 +35,15 @@ public:
     // Checks the request, scene and lens. Throws Error in the same cases as SceneRenderer.
     SceneDriver(std::shared_ptr<const Scene> scene, const Request& request, std::filesystem::path shaderFolder,
                 const Progress& progress);
-    // Draws in the caller's current GL context. `frame` must have pyramids and match the request.
+    // Draws moments of the scene of `frame`, which must match the request: only with pose() and start(parts), and in
+    // the caller's current GL context unless openContext() is called.
     SceneDriver(PreparedFrame frame, const Request& request, std::filesystem::path shaderFolder);
     ~SceneDriver();
     SceneDriver(const SceneDriver&) = delete;
     SceneDriver& operator=(const SceneDriver&) = delete;
 
-    // Prepares a still image before start(), which otherwise does this itself: chooses whether to use levels of detail,
-    // opens the GL context and builds the pyramids.
+    // Prepares a still image before start(request), which otherwise does this itself: chooses whether to use levels of
+    // detail, opens the GL context and builds the pyramids.
     void prepare(const Progress& progress);
     // Opens the GL context if the driver has none. Throws Error without a usable device.
     void openContext();
@@ -122,16 +123,15 @@ private:
     bool named_ = false;  // true: the request names the scene; false: the caller passed the scene
     std::filesystem::path shaderFolder_;
     Request first_, request_;
-    std::optional<SharedScene> scene_;
-    PreparedFrame frame_;  // frame of request_; must outlive driver_, which refers to frame_.world
+    std::optional<SharedScene> scene_;  // nullopt: the caller prepared the frame
+    PreparedFrame frame_;               // frame of request_; must outlive driver_, which refers to frame_.world
     std::array<std::optional<Built>, pyramidKinds> built_;  // indexed by pyramidKind
     bool builtGround_ = false;                              // whether the pyramids in built_ include a ground
     double loadMilliseconds_ = 0;
     double pyramidMilliseconds_ = 0;
     std::optional<double> metered_;       // metered exposure, EV
     std::vector<std::string> clipped_;    // warnings about clipping in the latest written 8-bit image
-    bool ownContext_ = true;              // false: frames are drawn in the caller's context
-    std::unique_ptr<GlContext> context_;  // null until openContext()
+    std::unique_ptr<GlContext> context_;  // null until openContext(): the caller's context is used
     std::optional<FrameDriver> driver_;
 };
 
